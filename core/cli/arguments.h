@@ -19,7 +19,7 @@
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
-#include "relucent/pipeline/report.h"
+#include "relucent/report/report.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/verify.h"
 
@@ -91,7 +91,7 @@ struct Difference {
 };
 struct Report {
   std::filesystem::path calibration;
-  pipeline::ReportSettings settings;
+  report::ReportSettings settings;
   std::filesystem::path cache;
 };
 /// What `bench` times: programs of their own, or single parts of core.

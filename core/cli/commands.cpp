@@ -130,7 +130,7 @@ struct Executor {
   }
 
   CommandResult operator()(const Report& command) const {
-    return outcomeOf(report(command.calibration, command.settings, command.cache, progress));
+    return outcomeOf(report::makeReport(command.calibration, command.settings, command.cache, progress));
   }
 
   CommandResult operator()(const Bench& command) const {
@@ -186,9 +186,9 @@ void print(const CommandResult& outcome, bool json) {
   std::cout.flush();
   if (!std::cout)
     throw Error(ErrorKind::disk,
-                RELUCENT_ENGLISH_MESSAGE("command.cannot-write-results-standard-output",
+                RELUCENT_ENGLISH_MESSAGE("command.cannot-write-output",
                                          "cannot write the results to standard output"),
-                RELUCENT_ENGLISH_MESSAGE("command.check-leads-there-space",
+                RELUCENT_ENGLISH_MESSAGE("command.check-output-and-space",
                                          "check where it leads and that there is space"));
 }
 

@@ -48,6 +48,21 @@ function(relucent_reads_prelude target name)
     $<TARGET_PROPERTY:relucent_${name}_prelude,INCLUDE_DIRECTORIES>)
 endfunction()
 
+# relucent_embed_texts(out HEADER relucent/engine/opengl/shaders.h NAMESPACE relucent::engine::shaders TEXTS a.comp b.comp):
+# a source that defines each text as a constant of its name, which the header declares; its path in `out`.
+set(RELUCENT_EMBED_TEXTS ${CMAKE_CURRENT_LIST_DIR}/embed_texts.cmake)
+function(relucent_embed_texts out)
+  cmake_parse_arguments(ARG "" "HEADER;NAMESPACE" "TEXTS" ${ARGN})
+  get_filename_component(name ${ARG_HEADER} NAME_WE)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  list(TRANSFORM ARG_TEXTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  add_custom_command(OUTPUT ${source}
+    COMMAND ${CMAKE_COMMAND} -D OUTPUT=${source} -D HEADER=${ARG_HEADER} -D NAMESPACE=${ARG_NAMESPACE}
+            -D "TEXTS=${ARG_TEXTS}" -P ${RELUCENT_EMBED_TEXTS}
+    DEPENDS ${ARG_TEXTS} ${RELUCENT_EMBED_TEXTS} VERBATIM)
+  set(${out} ${source} PARENT_SCOPE)
+endfunction()
+
 # relucent_core_library(image SOURCES colour.cpp ... USES base PUBLIC lib ... PRIVATE lib ...)
 #   USES    the core folders above this one that it may include: the layers, as link lines
 #   PUBLIC  libraries whose headers appear in this folder's headers

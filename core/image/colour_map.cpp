@@ -5,8 +5,13 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "relucent/base/require.h"
+
 namespace relucent::image {
 namespace {
+
+// What has no value: darker than either map's first colour, and another hue.
+constexpr Rgb8 noValue{0x16, 0x18, 0x1e};
 
 std::array<Rgb8, 256> tableOf(int map) {
   cv::Mat places(1, 256, CV_8U), colours;
@@ -30,6 +35,18 @@ const std::array<Rgb8, 256>& coloursOf(ColourMap map) {
 
 Rgb8 colourAt(ColourMap map, double place) {
   return coloursOf(map)[static_cast<std::size_t>(std::lround(std::clamp(place, 0.0, 1.0) * 255.0))];
+}
+
+Image painted(const Image& values, ColourMap map, double low, double high) {
+  require(values.channels() == 1 && high > low, "{} channels, from {} to {}", values.channels(), low, high);
+  Image result(values.size(), 3);
+  for (std::size_t pixel = 0; pixel < values.pixels(); ++pixel) {
+    double value = static_cast<double>(values.data()[pixel]);
+    const Rgb8 colour = std::isnan(value) ? noValue : colourAt(map, (value - low) / (high - low));
+    std::transform(colour.begin(), colour.end(), result.pixel(pixel).begin(),
+                   [](std::uint8_t code) { return static_cast<float>(code) / 255.0f; });
+  }
+  return result;
 }
 
 }  // namespace relucent::image

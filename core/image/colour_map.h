@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "relucent/image/image.h"
+
 namespace relucent::image {
 
 /// Colour maps whose brightness ascends evenly, for people with any colour vision. Errors and differences are
@@ -19,5 +21,9 @@ const std::array<Rgb8, 256>& coloursOf(ColourMap map);
 
 /// The nearest one of them; beyond 0 and 1 that of the end.
 Rgb8 colourAt(ColourMap map, double place);
+
+/// One value a pixel, painted: `low` and below take the map's first colour, `high` and above its last;
+/// pixels that are NaN are dark. Encoded, three channels.
+Image painted(const Image& values, ColourMap map, double low, double high);
 
 }  // namespace relucent::image

@@ -12,12 +12,12 @@
 #include "relucent/compensation/prediction.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
+#include "relucent/image/colour_map.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/photography/photographer.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection.h"
-#include "relucent/pipeline/report_pictures.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -72,10 +72,10 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
   const Rasters& projectors = measured.venue.transport.projectors();
   if (pictures.size() != projectors.devices())
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.pictures-what-shown-given-projectors",
+                RELUCENT_ENGLISH_MESSAGE("proof.picture-count-differs",
                                          "{} pictures of what is shown are given for {} projectors")
                     .with(pictures.size(), projectors.devices()),
-                RELUCENT_ENGLISH_MESSAGE("calibration.give-one-picture-each-projector",
+                RELUCENT_ENGLISH_MESSAGE("proof.give-picture-per-projector",
                                          "give one picture for each projector, in their order"));
   Projection result;
   std::vector<image::Image> light;
@@ -85,10 +85,10 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
     if (!(drive.size() == size))
       throw Error(
           ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("calibration.what-shown-pixels-projector",
+          RELUCENT_ENGLISH_MESSAGE("proof.picture-size-differs",
                                    "what is shown has {} pixels, the projector {}")
               .with(as::size(drive.width(), drive.height()), as::size(size)),
-          RELUCENT_ENGLISH_MESSAGE("calibration.take-picture-projector-display-alone",
+          RELUCENT_ENGLISH_MESSAGE("proof.capture-projector-display-alone",
                                    "take the picture of the projector's display alone, at its own size"),
           pictures[projector].string());
     light.push_back(measured.linearization.projectors[projector].decode(drive));
@@ -152,7 +152,7 @@ std::vector<fs::path> writePictures(const fs::path& out, const compensation::Tar
     files.push_back(out / fmt::format("{}_delta_e.exr", name));
     image::writeExr(files.back(), photographed.deltaE, image::ExrType::floatType,
                     {{image::exr_attribute::units, std::string("CIEDE2000")}});
-    return painted(photographed.deltaE, image::ColourMap::viridis, 0.0, brightestDeltaE);
+    return image::painted(photographed.deltaE, image::ColourMap::viridis, 0.0, brightestDeltaE);
   };
   std::vector<image::Image> pictures{shown("target", target.wanted), shown("before", before.camera),
                                      shown("after", after.camera)};
@@ -166,7 +166,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
                    Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
   calibration::CalibrationFolder folder =
@@ -190,9 +190,9 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   result.reachable = compensation::predict(measured.venue, target, compensated.light).reachable;
   if (result.reachable == 0.0)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
+                RELUCENT_ENGLISH_MESSAGE("compensation.nothing-reachable",
                                          "no part of the picture can be shown in this venue"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.make-content-darker-place-projector",
+                RELUCENT_ENGLISH_MESSAGE("compensation.darken-or-move-content",
                                          "make the content darker, or place it where the projector reaches"),
                 settings.image.string());
 

@@ -9,7 +9,7 @@
 #include <QXmlStreamReader>
 #include <cmath>
 
-#include "handover/report_chart.h"
+#include "handover/chart_picture.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 
@@ -87,7 +87,7 @@ class Paper {
     QImage picture = QImage::fromData(QByteArray::fromBase64(source));
     if (picture.isNull())
       throw Error(ErrorKind::format,
-                  RELUCENT_ENGLISH_MESSAGE("report.report-holds-picture-cannot-read",
+                  RELUCENT_ENGLISH_MESSAGE("report.picture-unreadable",
                                            "the report holds a picture that cannot be read"),
                   RELUCENT_ENGLISH_MESSAGE("report.write-again", "write it again"), "");
     int factor = std::max(1, 640 / std::max(1, picture.width()));
@@ -100,7 +100,7 @@ class Paper {
       xml_.skipCurrentElement();
     } else if (name == "svg") {
       bool legend = style == "legend";
-      place(chartOf(xml_, 3.0), legend ? 240.0 : 440.0);
+      place(chartPicture(xml_, 3.0), legend ? 240.0 : 440.0);
     } else if (name == "img") {
       open({}, {});
       placePicture();
@@ -186,7 +186,7 @@ void writeReportPdf(const QString& html, const QString& file) {
   });
   if (QFile(file).size() == 0)
     throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("report.report-cannot-written", "the report cannot be written"),
+                RELUCENT_MESSAGE("report.cannot-write", "the report cannot be written"),
                 RELUCENT_MESSAGE("report.free-some-space", "free some space"), file.toStdString());
 }
 

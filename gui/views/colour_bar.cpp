@@ -2,7 +2,7 @@
 #include "views/colour_bar.h"
 
 #include "theme/theme.h"
-#include "views/axis.h"
+#include "views/chart_drawing.h"
 #include "views/number_text.h"
 
 namespace relucent::gui {
@@ -32,11 +32,11 @@ void drawColourBarWords(QPainter& painter, const QRectF& area, const ColourScale
   painter.setPen(dark.border);
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(bar);
-  Axis axis{scale.low, scale.high, scale.logarithmic, {}};
+  charts::Axis axis{scale.low, scale.high, scale.logarithmic, {}};
   painter.setPen(dark.text);
-  for (const Axis::Tick& tick : axis.ticks(std::max(2, static_cast<int>(bar.height()) / 60))) {
+  for (const charts::Tick& tick : axis.ticks(std::max(2, static_cast<int>(bar.height()) / 60))) {
     double y = bar.bottom() - axis.place(tick.value) * bar.height();
-    QString text = percent ? percentText(tick.value) : tick.text;
+    QString text = percent ? percentText(tick.value) : tickTextOf(axis, tick);
     painter.drawText(QRectF(bar.right() + 5.0, y - 8.0, area.right() - bar.right() - 5.0, 16.0),
                      Qt::AlignAbsolute | Qt::AlignLeft | Qt::AlignVCenter, text);
   }

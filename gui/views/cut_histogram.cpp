@@ -8,32 +8,36 @@
 #include <limits>
 
 #include "theme/theme.h"
-#include "views/line_chart.h"
+#include "views/chart_drawing.h"
 
 namespace relucent::gui {
 
-CutHistogram::CutHistogram(Axis x, QString countTitle, QWidget* parent)
-    : QWidget(parent), x_(std::move(x)), cut_(std::numeric_limits<double>::quiet_NaN()) {
-  counts_ = {1.0, 10.0, true, std::move(countTitle)};
+CutHistogram::CutHistogram(charts::Axis x, const QString& countTitle, QWidget* parent)
+    : QWidget(parent),
+      chart_{{}, std::move(x), {1.0, 10.0, true, countTitle.toStdString()}},
+      cut_(std::numeric_limits<double>::quiet_NaN()) {
   setFocusPolicy(Qt::StrongFocus);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
 QSize CutHistogram::minimumSizeHint() const {
   constexpr int leastHeight = 110;
-  return {leastSizeOf(x_, counts_).width(), leastHeight};
+  return {leastSizeOf(chart_).width(), leastHeight};
 }
 
-void CutHistogram::setBars(std::vector<Bar> bars) {
-  bars_ = std::move(bars);
+void CutHistogram::setBars(const std::vector<Bar>& bars) {
+  chart_.columns.clear();
   double most = 1.0;
-  for (const Bar& bar : bars_) most = std::max(most, bar.count);
-  counts_.high = std::pow(10.0, std::ceil(std::log10(most * 1.5)));
+  for (const Bar& bar : bars) {
+    most = std::max(most, bar.count);
+    if (bar.count >= 1.0) chart_.columns.push_back({bar.from, bar.to, bar.count, {}});
+  }
+  chart_.y.high = std::pow(10.0, std::ceil(std::log10(most * 1.5)));
   update();
 }
 
-void CutHistogram::setAxis(const Axis& x) {
-  x_ = x;
+void CutHistogram::setAxis(const charts::Axis& x) {
+  chart_.x = x;
   updateGeometry();
   update();
 }
@@ -50,12 +54,12 @@ void CutHistogram::setCut(double cut) {
 }
 
 void CutHistogram::move(double cut) {
-  setCut(std::clamp(cut, x_.low, x_.high));
+  setCut(std::clamp(cut, chart_.x.low, chart_.x.high));
   Q_EMIT cutMoved(cut_);
 }
 
 void CutHistogram::dragTo(double x) {
-  if (movable_ && plot_.width() > 0.0) move(x_.value((x - plot_.left()) / plot_.width()));
+  if (movable_ && plot_.width() > 0.0) move(chart_.x.value((x - plot_.left()) / plot_.width()));
 }
 
 void CutHistogram::mousePressEvent(QMouseEvent* event) {
@@ -70,26 +74,16 @@ void CutHistogram::keyPressEvent(QKeyEvent* event) {
   int direction = event->key() == Qt::Key_Right ? 1 : event->key() == Qt::Key_Left ? -1 : 0;
   if (direction == 0 || !movable_) return QWidget::keyPressEvent(event);
   double step = event->modifiers() & Qt::ShiftModifier ? 1.1 : 1.01;
-  double from = std::isnan(cut_) || cut_ < x_.low ? x_.low : cut_;
+  double from = std::isnan(cut_) || cut_ < chart_.x.low ? chart_.x.low : cut_;
   move(direction > 0 ? from * step : from / step);
 }
 
 void CutHistogram::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  plot_ = drawAxes(painter, rect(), x_, counts_);
-  QColor kept = colours().accent, out = colours().border;
-  kept.setAlphaF(0.8f);
-  out.setAlphaF(0.45f);
-  for (const Bar& bar : bars_) {
-    if (!(bar.count >= 1.0)) continue;
-    double left = plot_.left() + x_.place(bar.from) * plot_.width();
-    double right = plot_.left() + x_.place(bar.to) * plot_.width();
-    double height = std::max(0.02, counts_.place(bar.count)) * plot_.height();
-    bool isKept = std::isnan(cut_) || !movable_ || bar.to > cut_;
-    painter.fillRect(QRectF(left + 1.0, plot_.bottom() - height, std::max(1.0, right - left - 2.0), height),
-                     isKept ? kept : out);
-  }
+  for (charts::Column& column : chart_.columns)
+    column.style = std::isnan(cut_) || !movable_ || column.to > cut_ ? "kept" : "dropped";
+  plot_ = drawChart(painter, rect(), chart_);
   if (!std::isnan(cut_)) paintCut(painter);
   if (hasFocus()) {
     painter.setPen(QPen(colours().text, 2.0));
@@ -99,7 +93,7 @@ void CutHistogram::paintEvent(QPaintEvent*) {
 }
 
 void CutHistogram::paintCut(QPainter& painter) const {
-  double x = plot_.left() + std::clamp(x_.place(cut_), 0.0, 1.0) * plot_.width();
+  double x = plot_.left() + std::clamp(chart_.x.place(cut_), 0.0, 1.0) * plot_.width();
   painter.setPen(QPen(colours().text, movable_ ? 2.0 : 1.5, movable_ ? Qt::SolidLine : Qt::DashLine));
   painter.drawLine(QPointF(x, plot_.top()), QPointF(x, plot_.bottom()));
   if (movable_) {

@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "views/axis.h"
+#include "relucent/charts/chart.h"
 
 namespace relucent::gui {
 
@@ -20,9 +20,9 @@ class CutHistogram : public QWidget {
     double count = 0.0;
   };
 
-  explicit CutHistogram(Axis x, QString countTitle, QWidget* parent = nullptr);
-  void setBars(std::vector<Bar> bars);
-  void setAxis(const Axis& x);
+  explicit CutHistogram(charts::Axis x, const QString& countTitle, QWidget* parent = nullptr);
+  void setBars(const std::vector<Bar>& bars);
+  void setAxis(const charts::Axis& x);
   void setMovable(bool movable) { movable_ = movable; }
   void setCutText(const QString& text);
   double cut() const { return cut_; }
@@ -45,8 +45,7 @@ class CutHistogram : public QWidget {
   void move(double cut);
   void paintCut(QPainter& painter) const;
 
-  Axis x_, counts_;
-  std::vector<Bar> bars_;
+  charts::Chart chart_;  // logarithmic counts
   QRectF plot_;
   double cut_;
   QString cutText_;

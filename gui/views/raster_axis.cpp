@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "views/axis.h"
+#include "relucent/charts/axis.h"
 #include "views/number_text.h"
 
 namespace relucent::gui {
@@ -40,7 +40,7 @@ std::vector<RasterTick> rasterTicks(const Rasters& rasters, double first, double
   double width = rasters.size(placeOf(rasters, middle).device).width;
   if (last - first < count * width) {
     // Ticks stand in the middle of their pixels.
-    for (const Axis::Tick& tick : Axis{first, last, false, {}}.ticks(count)) {
+    for (const charts::Tick& tick : charts::Axis{first, last, false, {}}.ticks(count)) {
       double number = std::floor(tick.value);
       if (number < first || number + 1.0 > last || number + 1.0 > static_cast<double>(rasters.count()))
         continue;
@@ -57,7 +57,7 @@ std::vector<RasterTick> rasterTicks(const Rasters& rasters, double first, double
     if (!(to > from)) continue;
     double share = (to - from) * size.width / (last - first);
     int wanted = std::max(1, static_cast<int>(std::lround(share * count)));
-    for (const Axis::Tick& tick : Axis{from, to, false, {}}.ticks(wanted)) {
+    for (const charts::Tick& tick : charts::Axis{from, to, false, {}}.ticks(wanted)) {
       double line = std::floor(tick.value);
       if (line < from || line >= size.height) continue;
       ticks.push_back(

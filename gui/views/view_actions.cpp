@@ -28,21 +28,21 @@ void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
     if (numbers.empty())
       throw Error(
           ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("view.there-no-numbers-save-yet", "there are no numbers to save yet"),
-          RELUCENT_ENGLISH_MESSAGE("view.wait-until-view-complete", "wait until the view is complete"),
+          RELUCENT_ENGLISH_MESSAGE("view.no-numbers-yet", "there are no numbers to save yet"),
+          RELUCENT_ENGLISH_MESSAGE("view.wait-until-complete", "wait until the view is complete"),
           file.string());
     std::map<std::string, image::ExrAttribute> attributes{{image::exr_attribute::units, values.units}};
     return image::writeExr(file, numbers, image::ExrType::floatType, std::move(attributes));
   }
   if (!path.endsWith(".png", Qt::CaseInsensitive))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("view.view-saved-png-exr", "a view is saved as .png or .exr"),
-                RELUCENT_ENGLISH_MESSAGE("view.choose-one-endings", "choose one of these endings"),
+                RELUCENT_ENGLISH_MESSAGE("view.format-unsupported", "a view is saved as .png or .exr"),
+                RELUCENT_ENGLISH_MESSAGE("view.choose-supported-format", "choose one of these endings"),
                 file.string());
   if (!view.asSeen().save(path, "PNG"))
     throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("view.picture-could-not-written", "the picture could not be written"),
-                RELUCENT_MESSAGE("view.choose-folder-you-may-write",
+                RELUCENT_MESSAGE("view.cannot-write-picture", "the picture could not be written"),
+                RELUCENT_MESSAGE("view.choose-writable-folder",
                                  "choose a folder that you may write to, with free space"),
                 file.string());
 }

@@ -28,7 +28,7 @@ double highest(const sentinels::Reading& reading) {
 }
 
 /// All values and limits, and room above them for the legend.
-Axis around(const std::vector<AcquisitionTrace::Point>& points, Axis axis) {
+charts::Axis around(const std::vector<AcquisitionTrace::Point>& points, charts::Axis axis) {
   constexpr double legend = 0.5;
   if (points.empty()) return axis;
   double low = std::numeric_limits<double>::max(), high = 0.0;
@@ -41,28 +41,28 @@ Axis around(const std::vector<AcquisitionTrace::Point>& points, Axis axis) {
   return axis;
 }
 
-std::vector<Curve> curvesOf(const AcquisitionTrace& trace, double low) {
-  Curve light{{}, informationColour, Marker::circle, {}, {}};
-  Curve above{AcquirePage::tr("alarm beyond"), amberColour, Marker::none, {}, {}};
-  Curve below{{}, amberColour, Marker::none, {}, {}};
+std::vector<charts::Curve> curvesOf(const AcquisitionTrace& trace, double low) {
+  charts::Curve light{{}, "information", charts::Marker::circle};
+  charts::Curve above{AcquirePage::tr("alarm beyond").toStdString(), "amber"};
+  charts::Curve below{{}, "amber"};
   for (const AcquisitionTrace::Point& point : trace.points()) {
     const sentinels::Reading& reading = point.reading;
     double x = point.seconds / minute;
-    light.line.emplace_back(x, percent * reading.roomLight);
-    above.line.emplace_back(x, percent * highest(reading));
-    if (lowest(reading) > 0.0) below.line.emplace_back(x, percent * lowest(reading));
+    light.line.push_back({x, percent * reading.roomLight});
+    above.line.push_back({x, percent * highest(reading)});
+    if (lowest(reading) > 0.0) below.line.push_back({x, percent * lowest(reading)});
   }
   if (light.line.size() <= mostMarked) light.points = light.line;
   // Limits stand from the beginning until now.
-  for (Curve* limit : {&above, &below}) {
+  for (charts::Curve* limit : {&above, &below}) {
     if (limit->line.empty()) continue;
-    limit->line.insert(limit->line.begin(), {0.0, limit->line.front().y()});
-    limit->line.emplace_back(trace.seconds() / minute, limit->line.back().y());
+    limit->line.insert(limit->line.begin(), {0.0, limit->line.front().y});
+    limit->line.push_back({trace.seconds() / minute, limit->line.back().y});
   }
-  Curve again{AcquirePage::tr("taken again"), amberColour, Marker::triangle, {}, {}};
+  charts::Curve again{AcquirePage::tr("taken again").toStdString(), "amber", charts::Marker::triangle};
   for (const AcquisitionTrace::Mark& mark : trace.marks())
-    again.points.emplace_back(mark.seconds / minute, low);
-  std::vector<Curve> curves;
+    again.points.push_back({mark.seconds / minute, low});
+  std::vector<charts::Curve> curves;
   if (!light.line.empty()) curves = {std::move(light), std::move(above), std::move(below)};
   if (!again.points.empty()) curves.push_back(std::move(again));
   return curves;
@@ -74,9 +74,9 @@ QWidget* traceCard(AcquirePage& model) {
   auto* card = new Card(AcquirePage::tr("During the measurement"));
   card->setSubtitle(AcquirePage::tr("light that would spoil photographs"));
   card->setFixedHeight(traceHeight);
-  const Axis minutes{0.0, leastMinutes, false, AcquirePage::tr("Minutes")};
-  const Axis light{0.0, percent * sentinels::reading_limit::roomLight, false,
-                   AcquirePage::tr("Room light, % of full light")};
+  const charts::Axis minutes = axisOf(0.0, leastMinutes, AcquirePage::tr("Minutes"));
+  const charts::Axis light = axisOf(0.0, percent * sentinels::reading_limit::roomLight,
+                                    AcquirePage::tr("Room light, % of full light"));
   auto* chart = new LineChart(minutes, light);
   chart->setObjectName("room-light-chart");
   chart->setAccessibleName(AcquirePage::tr("Room light during the measurement"));
@@ -85,7 +85,7 @@ QWidget* traceCard(AcquirePage& model) {
     const AcquisitionTrace& trace = model.trace();
     // Beside a banner there is no room for it, nor need.
     card->setVisible(model.isMeasuring() || (model.isDone() && !trace.points().empty()));
-    Axis x = minutes, y = around(trace.points(), light);
+    charts::Axis x = minutes, y = around(trace.points(), light);
     double now = trace.seconds() / minute;
     x.high = std::max(leastMinutes, now + model.secondsLeft().value_or(0.0) / minute);
     chart->setAxes(x, y);

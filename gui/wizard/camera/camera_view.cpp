@@ -41,16 +41,14 @@ QImage overlayOf(const CameraLook& look, const image::Region& area) {
   return overlay;
 }
 
-std::vector<Curve> histogramOf(const image::PhotographCheck& check) {
-  std::vector<Curve> curves;
-  const QColor& (*tints[])() = {[]() -> const QColor& { return colours().red; },
-                                []() -> const QColor& { return colours().green; },
-                                []() -> const QColor& { return colours().blue; }};
+std::vector<charts::Curve> histogramOf(const image::PhotographCheck& check) {
+  std::vector<charts::Curve> curves;
+  constexpr std::array styles{"red", "green", "blue"};
   for (std::size_t c = 0; c < 3; ++c) {
-    Curve curve{QString(), tints[c], Marker::none, {}, {}};
+    charts::Curve curve{{}, styles[c]};
     for (std::size_t i = 0; i < image::PhotographCheck::bins; ++i)
-      curve.line.emplace_back((static_cast<double>(i) + 0.5) / image::PhotographCheck::bins,
-                              1.0 + static_cast<double>(check.histogram[c][i]));
+      curve.line.push_back({(static_cast<double>(i) + 0.5) / image::PhotographCheck::bins,
+                            1.0 + static_cast<double>(check.histogram[c][i])});
     curves.push_back(std::move(curve));
   }
   return curves;
@@ -169,7 +167,7 @@ class CameraInspector {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
     column->addWidget(labelOf(CameraPage::tr("Light in this exposure: red, green, blue"), "section"));
-    auto* histogram = new LineChart({0.0, 1.0, false, CameraPage::tr("Signal")}, {1.0, 1e4, true, {}});
+    auto* histogram = new LineChart(axisOf(0.0, 1.0, CameraPage::tr("Signal")), {1.0, 1e4, true, {}});
     histogram->setFixedHeight(150);
     histogram->setMark(0.97);
     column->addWidget(histogram);
@@ -209,8 +207,8 @@ class CameraInspector {
       together->setText(verdictLines(model.check()));
       bool seen = model.look().has_value();
       if (seen) {
-        histogram->setAxes({0.0, 1.0, false, CameraPage::tr("Signal, share of full")},
-                           {1.0, tallest(model.look()->check), true, CameraPage::tr("Pixels")});
+        histogram->setAxes(axisOf(0.0, 1.0, CameraPage::tr("Signal, share of full")),
+                           {1.0, tallest(model.look()->check), true, CameraPage::tr("Pixels").toStdString()});
         histogram->setCurves(histogramOf(model.look()->check));
       } else {
         histogram->setCurves({});  // of another venue

@@ -70,8 +70,9 @@ class ClusterStage : public QWidget {
     row->addWidget(errorCard_, 1);
     column->addLayout(row, 5);
     sizeCard_ = new Card(ClusterPage::tr("Cluster sizes"));
-    sizes_ = new CutHistogram({1.0, 1024.0, true, ClusterPage::tr("Projector pixels in the cluster")},
-                              ClusterPage::tr("Clusters"));
+    sizes_ = new CutHistogram(
+        {1.0, 1024.0, true, ClusterPage::tr("Projector pixels in the cluster").toStdString()},
+        ClusterPage::tr("Clusters"));
     sizes_->setMovable(false);
     sizes_->setFocusPolicy(Qt::NoFocus);
     sizeCard_->body()->addWidget(sizes_, 1);

@@ -17,45 +17,39 @@
 namespace relucent::gui {
 namespace {
 
-const QColor& redOf() {
-  return colours().red;
-}
-const QColor& greenOf() {
-  return colours().green;
-}
-const QColor& blueOf() {
-  return colours().blue;
-}
-
 struct Channel {
   const char* name;
-  const QColor& (*colour)();
-  Marker marker;
+  const char* style;
+  charts::Marker marker;
 };
 constexpr std::array<Channel, 3> channels{
-    {{QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Red"), redOf, Marker::circle},
-     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Green"), greenOf, Marker::square},
-     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Blue"), blueOf, Marker::triangle}}};
+    {{QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Red"), "red", charts::Marker::circle},
+     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Green"), "green", charts::Marker::square},
+     {QT_TRANSLATE_NOOP("relucent::gui::LinearizePage", "Blue"), "blue", charts::Marker::triangle}}};
 constexpr double codes = 255.0, percent = 100.0;
 
-std::vector<Curve> fitted(const linearization::ProjectorResponse& response) {
-  std::vector<Curve> curves;
+charts::Curve curveOf(const Channel& channel) {
+  return {LinearizePage::tr(channel.name).toStdString(), channel.style, channel.marker};
+}
+
+std::vector<charts::Curve> fitted(const linearization::ProjectorResponse& response) {
+  std::vector<charts::Curve> curves;
   for (std::size_t c = 0; c < 3; ++c) {
-    Curve curve{LinearizePage::tr(channels[c].name), channels[c].colour, channels[c].marker, {}, {}};
+    charts::Curve curve = curveOf(channels[c]);
     const hdr::ResponseCurve& fit = response.channels[c];
-    for (int i = 0; i <= 256; ++i) curve.line.emplace_back(codes * i / 256.0, percent * fit(i / 256.0));
+    for (int i = 0; i <= 256; ++i) curve.line.push_back({codes * i / 256.0, percent * fit(i / 256.0)});
     for (std::size_t i = 0; i < fit.x().size(); ++i)
-      curve.points.emplace_back(codes * fit.x()[i], percent * fit.y()[i]);
+      curve.points.push_back({codes * fit.x()[i], percent * fit.y()[i]});
     curves.push_back(std::move(curve));
   }
   return curves;
 }
 
-std::vector<Curve> measured(const LinearizePage::Ramps& ramps) {
-  std::vector<Curve> curves;
+std::vector<charts::Curve> measured(const LinearizePage::Ramps& ramps) {
+  std::vector<charts::Curve> curves;
   for (std::size_t c = 0; c < 3; ++c) {
-    Curve curve{LinearizePage::tr(channels[c].name), channels[c].colour, channels[c].marker, {}, {}};
-    for (auto [drive, light] : ramps[c]) curve.points.emplace_back(codes * drive, percent * light);
+    charts::Curve curve = curveOf(channels[c]);
+    for (auto [drive, light] : ramps[c]) curve.points.push_back({codes * drive, percent * light});
     curve.line = curve.points;
     curves.push_back(std::move(curve));
   }
@@ -101,8 +95,8 @@ QWidget* stageOf(LinearizePage& model) {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
   auto* response = new Card(LinearizePage::tr("Response of the projector"));
-  auto* chart = new LineChart({0.0, codes, false, LinearizePage::tr("Level sent to the projector")},
-                              {0.0, percent, false, LinearizePage::tr("Light, % of full")});
+  auto* chart = new LineChart(axisOf(0.0, codes, LinearizePage::tr("Level sent to the projector")),
+                              axisOf(0.0, percent, LinearizePage::tr("Light, % of full")));
   chart->setObjectName("response-chart");
   chart->setAccessibleName(LinearizePage::tr("Light of every level, three colours"));
   response->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, response));

@@ -8,7 +8,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/image/exr.h"
-#include "relucent/pipeline/report.h"
+#include "relucent/report/report.h"
 #include "wizard/output/proof_file.h"
 
 namespace relucent::gui {
@@ -139,14 +139,14 @@ void OutputProof::report(const QString& picture) {
   found_ = std::make_shared<Found>();
   start(Work::report, [found = found_, path = session_.path(), cache = session_.cache(), picture,
                        logs = showLogs()](Progress& progress) {
-    pipeline::ReportSettings settings;
+    report::ReportSettings settings;
     settings.out = path / "report.html";
     settings.images = {fileOf(picture, proofFolder(path))};
     settings.bundle = path / "support.zip";
     settings.attachments = logs;
     settings.evaluate = false;  // what was measured, not what a simulation knows
     Progress writing = progress.part(1.0, RELUCENT_MESSAGE("stage.writing-report", "Writing the report"));
-    pipeline::WrittenFiles written = relucent::pipeline::report(path, settings, cache, writing);
+    pipeline::WrittenFiles written = relucent::report::makeReport(path, settings, cache, writing);
     found->report = QString::fromStdString(written.files.front().string());
     writeReportPdf(QString::fromStdString(readFile(settings.out)),
                    QString::fromStdString((path / "report.pdf").string()));

@@ -41,8 +41,8 @@ class PlaybackCard : public Card {
     row->addStretch(1);
     body()->addLayout(row);
     rate_->setObjectName("frame-rate");
-    chart_ = new LineChart({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
-                           {0.0, 20.0, false, OutputPage::tr("Frame time, ms")});
+    chart_ = new LineChart(axisOf(-chartSeconds, 0.0, OutputPage::tr("Seconds")),
+                           axisOf(0.0, 20.0, OutputPage::tr("Frame time, ms")));
     chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
     body()->addWidget(chart_, 1);
     refreshOn(
@@ -63,15 +63,15 @@ class PlaybackCard : public Card {
     setSubtitle(!open   ? OutputPage::tr("closed")
                 : moves ? OutputPage::tr("on %1").arg(page_.projection().engineName())
                         : OutputPage::tr("still picture, on %1").arg(page_.projection().engineName()));
-    Curve curve{OutputPage::tr("Frame time"), accentColour, Marker::none, {}, {}};
+    charts::Curve curve{OutputPage::tr("Frame time").toStdString(), "accent"};
     const std::deque<double>& times = page_.projection().frameTimes();
     double highest = 20.0;
     for (std::size_t i = 0; i < times.size(); ++i) {
-      curve.line.emplace_back(-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]);
+      curve.line.push_back({-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]});
       highest = std::max(highest, times[i]);
     }
-    chart_->setAxes({-chartSeconds, 0.0, false, OutputPage::tr("Seconds")},
-                    {0.0, 1.1 * highest, false, OutputPage::tr("Frame time, ms")});
+    chart_->setAxes(axisOf(-chartSeconds, 0.0, OutputPage::tr("Seconds")),
+                    axisOf(0.0, 1.1 * highest, OutputPage::tr("Frame time, ms")));
     chart_->setCurves({curve});
   }
   OutputPage& page_;

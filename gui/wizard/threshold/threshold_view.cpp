@@ -24,14 +24,13 @@ std::vector<CutHistogram::Bar> barsOf(const transport::StrengthHistogram& histog
 }
 
 /// The decades that hold anything.
-Axis axisOf(const transport::StrengthHistogram& histogram) {
+charts::Axis axisOf(const transport::StrengthHistogram& histogram) {
   std::size_t first = 0, last = transport::StrengthHistogram::bins - 1;
   while (first < last && histogram.leaves[first] == 0) ++first;
   while (last > first && histogram.leaves[last] == 0) --last;
   double low = std::pow(10.0, std::floor(std::log10(transport::strengthOfBin(first)) + 1e-9));
   double high = std::pow(10.0, std::ceil(std::log10(transport::strengthOfBin(last + 1)) - 1e-9));
-  return {low, std::max(high, 10.0 * low), true,
-          ThresholdPage::tr("Transport value, camera signal a second")};
+  return {low, std::max(high, 10.0 * low), true};
 }
 
 QWidget* stageOf(ThresholdPage& model) {
@@ -54,7 +53,8 @@ QWidget* stageOf(ThresholdPage& model) {
   QObject::connect(histogram, &CutHistogram::cutMoved, &model, &ThresholdPage::setAbsolute);
   auto refresh = [&model, histogram] {
     if (!model.whole()) return;
-    Axis axis = axisOf(model.whole()->histogram);
+    charts::Axis axis = axisOf(model.whole()->histogram);
+    axis.title = ThresholdPage::tr("Transport value, camera signal a second").toStdString();
     histogram->setAxis(axis);
     histogram->setBars(barsOf(model.whole()->histogram));
     double cut = static_cast<double>(model.cut().absolute);

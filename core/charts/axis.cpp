@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "views/axis.h"
+#include "relucent/charts/axis.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "text/local_digits.h"
-#include "views/number_text.h"
-
-namespace relucent::gui {
+namespace relucent::charts {
 namespace {
 
 double roundStep(double least) {
@@ -15,6 +14,13 @@ double roundStep(double least) {
   for (double factor : {1.0, 2.0, 5.0})
     if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
   return 10.0 * power;
+}
+
+std::string superior(int number) {
+  constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (char c : std::to_string(number)) text += c == '-' ? "⁻" : digits[c - '0'];
+  return text;
 }
 
 }  // namespace
@@ -29,7 +35,7 @@ double Axis::value(double at) const {
   return low + at * (high - low);
 }
 
-std::vector<Axis::Tick> Axis::ticks(int count) const {
+std::vector<Tick> Axis::ticks(int count) const {
   std::vector<Tick> found;
   if (!(high > low) || count < 1) return found;
   if (logarithmic) {
@@ -37,14 +43,22 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
     int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
     int step = std::max(1, (last - first + count) / count);
     for (int exponent = first; exponent <= last; exponent += step)
-      found.push_back({std::pow(10.0, exponent), powerOfTen(exponent)});
+      found.push_back({std::pow(10.0, exponent), 0});
     return found;
   }
   double step = roundStep((high - low) / count);
   int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   for (double value = std::ceil(low / step - 1e-9) * step; value <= high + 1e-9 * step; value += step)
-    found.push_back({value, decimalText(std::abs(value) < 1e-9 * step ? 0.0 : value, decimals)});
+    found.push_back({std::abs(value) < 1e-9 * step ? 0.0 : value, decimals});
   return found;
 }
 
-}  // namespace relucent::gui
+std::string englishTickText(const Axis& axis, const Tick& tick) {
+  if (axis.logarithmic) {
+    int exponent = static_cast<int>(std::lround(std::log10(tick.value)));
+    return exponent == 0 ? "1" : exponent == 1 ? "10" : "10" + superior(exponent);
+  }
+  return fmt::format("{:.{}f}", tick.value, tick.decimals);
+}
+
+}  // namespace relucent::charts

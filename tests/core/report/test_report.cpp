@@ -12,10 +12,9 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/json.h"
-#include "relucent/pipeline/report.h"
-#include "relucent/pipeline/report_charts.h"
-#include "relucent/pipeline/report_pictures.h"
-#include "relucent/pipeline/support_bundle.h"
+#include "relucent/report/pictures.h"
+#include "relucent/report/report.h"
+#include "relucent/report/support_bundle.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -23,6 +22,7 @@ using namespace relucent::compensation;
 using namespace relucent::hdr;
 using namespace relucent::image;
 using namespace relucent::pipeline;
+using namespace relucent::report;
 
 namespace {
 
@@ -138,7 +138,7 @@ class TestReport : public QObject {
     QVERIFY(page.contains("Chapel &lt;niche&gt; &amp; &quot;altar&quot;"));
     QVERIFY(page.contains("White is &lt;18 %&gt; too bright"));
     QVERIFY(page.contains("&lt;corner&gt;"));
-    QVERIFY(page.contains("it&#39;s glossy"));
+    QVERIFY(page.contains("it&apos;s glossy"));
     QVERIFY(!page.contains("<niche>"));
     QVERIFY(!page.contains("<18"));
   }
@@ -257,7 +257,7 @@ class TestReport : public QObject {
   void base64() {
     QFETCH(QByteArray, bytes);
     QFETCH(QByteArray, text);
-    QCOMPARE(QByteArray::fromStdString(relucent::pipeline::base64(bytes.toStdString())), text);
+    QCOMPARE(QByteArray::fromStdString(relucent::report::base64(bytes.toStdString())), text);
   }
 
   void errorMapsAreZeroForEqualPicturesAndEmptyOutside() {

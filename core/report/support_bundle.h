@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "relucent/pipeline/report.h"
+#include "relucent/report/report.h"
 
-namespace relucent::pipeline {
+namespace relucent::report {
 
 /// The same report without anything that shows the venue: no pictures, no maps.
 ReportData withoutPhotographs(ReportData data);
@@ -18,4 +18,4 @@ ReportData withoutPhotographs(ReportData data);
 void writeSupportBundle(const std::filesystem::path& calibration, const ReportData& data,
                         const ReportSettings& settings);
 
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

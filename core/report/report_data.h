@@ -3,12 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "relucent/base/progress.h"
 #include "relucent/compensation/ridge_choice.h"
 #include "relucent/image/image.h"
 #include "relucent/linearization/linearization.h"
@@ -16,9 +14,8 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/versions.h"
-#include "relucent/pipeline/written_files.h"
 
-namespace relucent::pipeline {
+namespace relucent::report {
 
 /// One image before and after, as the first camera sees it. Linear, camera signal per second, one size.
 struct ReportComparison {
@@ -49,7 +46,7 @@ struct ReportData {
   std::string measured;  // when, ISO 8601
   Size projector;
   Size camera;
-  CalibrateResult result;                                   // its findings too
+  pipeline::CalibrateResult result;                         // its findings too
   std::vector<linearization::ProjectorResponse> responses;  // per projector
   std::vector<double> additivityError;                      // per projector
   std::vector<double> exposures;                            // seconds
@@ -60,31 +57,10 @@ struct ReportData {
   std::vector<compensation::RidgeTrial> ridgeCurve;  // how the inverse's ridge was found, and which it is
   double ridge = 0.0;
   std::vector<ReportComparison> comparisons;
-  std::optional<EvaluateResult> evaluation;
+  std::optional<pipeline::EvaluateResult> evaluation;
   std::optional<ReportVerification> verification;
-  std::vector<StoredSetting> settings;
-  std::vector<LibraryVersion> libraries;
+  std::vector<pipeline::StoredSetting> settings;
+  std::vector<pipeline::LibraryVersion> libraries;
 };
 
-/// The report as one HTML page: styles, pictures and charts inside, nothing fetched from anywhere.
-/// All texts are escaped. Throws: std::logic_error if images of a comparison differ in size.
-std::string reportHtml(const ReportData& data);
-
-/// Writes reportHtml() atomically. Throws: Error{disk}.
-void writeReport(const std::filesystem::path& path, const ReportData& data);
-
-struct ReportSettings {
-  std::filesystem::path out;                  // the HTML file; empty: report.html in the calibration folder
-  std::vector<std::filesystem::path> images;  // content shown before and after; none: the product's own
-  bool evaluate = true;          // simulated venues: a table of methods through the true transport
-  std::filesystem::path bundle;  // a .zip for whoever helps, support_bundle.h; empty: none
-  bool photographs = false;      // also what shows the venue is in that
-  std::vector<std::filesystem::path> attachments;  // files put into that, where they exist: logs
-  std::vector<LibraryVersion> libraries;           // named in the report; none: core's
-};
-
-/// One self-contained HTML file about a calibration.
-WrittenFiles report(const std::filesystem::path& folder, const ReportSettings& settings,
-                    const std::filesystem::path& cache, Progress& progress);
-
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

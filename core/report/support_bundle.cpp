@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/pipeline/support_bundle.h"
+#include "relucent/report/support_bundle.h"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -12,7 +12,7 @@
 #include "relucent/pipeline/versions.h"
 #include "relucent/platform/system_description.h"
 
-namespace relucent::pipeline {
+namespace relucent::report {
 namespace fs = std::filesystem;
 namespace {
 
@@ -34,7 +34,7 @@ void addFolder(Entries& entries, const fs::path& calibration, const char* name, 
 
 Error cannotWrite(const fs::path& path, const std::string& reason) {
   return {ErrorKind::disk, RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(reason),
-          RELUCENT_ENGLISH_MESSAGE("transport.check-disk-room-you-may",
+          RELUCENT_ENGLISH_MESSAGE("disk.check-space-and-permission",
                                    "check that the disk has room and that you may write there"),
           path.string()};
 }
@@ -79,7 +79,7 @@ void writeSupportBundle(const fs::path& calibration, const ReportData& data, con
   Entries entries;
   entries["calibration.relucent"] = readFile(calibration / calibration::CalibrationFolder::manifestName);
   entries["report.html"] = reportHtml(settings.photographs ? data : withoutPhotographs(data));
-  entries["versions.txt"] = versionText("Relucent", data.libraries);
+  entries["versions.txt"] = pipeline::versionText("Relucent", data.libraries);
   entries["computer.txt"] = platform::systemDescription();
   if (settings.photographs) {
     addFolder(entries, calibration, "verification", [](const fs::path&) { return true; });
@@ -91,4 +91,4 @@ void writeSupportBundle(const fs::path& calibration, const ReportData& data, con
   writeZip(settings.bundle, entries);
 }
 
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

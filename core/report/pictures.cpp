@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/pipeline/report_pictures.h"
+#include "relucent/report/pictures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,27 +10,7 @@
 #include "relucent/image/colour.h"
 #include "relucent/image/picture_files.h"
 
-namespace relucent::pipeline {
-namespace {
-
-// What has no value: darker than either map's first colour, and another hue.
-constexpr image::Rgb8 noValue{0x16, 0x18, 0x1e};
-
-}  // namespace
-
-image::Image painted(const image::Image& values, image::ColourMap map, double low, double high) {
-  require(values.channels() == 1 && high > low, "{} channels, from {} to {}", values.channels(), low, high);
-  image::Image result(values.size(), 3);
-  for (std::size_t pixel = 0; pixel < values.pixels(); ++pixel) {
-    double value = static_cast<double>(values.data()[pixel]);
-    const image::Rgb8 colour =
-        std::isnan(value) ? noValue : image::colourAt(map, (value - low) / (high - low));
-    std::transform(colour.begin(), colour.end(), result.pixel(pixel).begin(),
-                   [](std::uint8_t code) { return static_cast<float>(code) / 255.0f; });
-  }
-  return result;
-}
-
+namespace relucent::report {
 image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
                        const CameraMask& inside) {
   require(a.size() == b.size() && a.channels() == 3 && b.channels() == 3, "images of one size are compared");
@@ -84,4 +64,4 @@ std::string pngDataUri(const image::Image& encoded) {
   return "data:image/png;base64," + base64(image::encodePng(encoded, 8));
 }
 
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

@@ -9,16 +9,16 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/measured_venue.h"
-#include "relucent/pipeline/report.h"
 #include "relucent/pipeline/standard_images.h"
-#include "relucent/pipeline/support_bundle.h"
+#include "relucent/report/report.h"
+#include "relucent/report/support_bundle.h"
 
-namespace relucent::pipeline {
+namespace relucent::report {
 namespace fs = std::filesystem;
 namespace {
 
-std::string venueSentence(const RigSettings& rig) {
-  if (const auto* imported = std::get_if<ImportedRigSettings>(&rig))
+std::string venueSentence(const pipeline::RigSettings& rig) {
+  if (const auto* imported = std::get_if<pipeline::ImportedRigSettings>(&rig))
     return fmt::format("Imported from {} photographs taken elsewhere", imported->pictures);
   const auto* simulated = std::get_if<venue::VenueSettings>(&rig);
   if (simulated == nullptr) return "Measured with external programs";
@@ -36,7 +36,7 @@ std::vector<std::uint64_t> leavesPerLevel(const transport::TransportMatrix& tran
   return counts;
 }
 
-ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
+ReportComparison comparisonOf(const pipeline::EvaluatedPictures& pictures) {
   return {pictures.name,
           compensation::Method::refined,
           pictures.wanted,
@@ -49,10 +49,10 @@ ReportComparison comparisonOf(const EvaluatedPictures& pictures) {
 }
 
 /// What T predicts, where the truth is not known.
-ReportComparison predictedComparison(const NamedImage& image, const MeasuredCalibration& measured,
-                                     Progress& progress) {
+ReportComparison predictedComparison(const pipeline::NamedImage& image,
+                                     const pipeline::MeasuredCalibration& measured, Progress& progress) {
   const compensation::MeasuredVenue& venue = measured.venue;
-  compensation::Target target = fitTarget(image.linear, venue, {});
+  compensation::Target target = compensation::fitTarget(image.linear, venue, {});
   compensation::Compensator compensator(venue, measured.inverse);
   const Rasters& cameras = venue.transport.cameras();
   auto predicted = [&](compensation::Method method) {
@@ -114,13 +114,13 @@ std::optional<ReportVerification> verificationIn(const fs::path& calibration, co
 
 }  // namespace
 
-WrittenFiles report(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
-                    Progress& progress) {
+pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
+                                  Progress& progress) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = loadCalibration(folder, loading);
+  pipeline::MeasuredCalibration measured = pipeline::loadCalibration(folder, loading);
   const transport::TransportMatrix& transport = measured.venue.transport;
 
   ReportData data;
@@ -130,7 +130,7 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.measured = folder.created();
   data.projector = transport.projectors().size(0);
   data.camera = transport.cameras().size(0);
-  data.result = summaryOf(folder, measured);
+  data.result = pipeline::summaryOf(folder, measured);
   data.responses = measured.linearization.projectors;
   data.additivityError = measured.linearization.additivityError;
   data.exposures = measured.linearization.exposures;
@@ -142,25 +142,25 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   data.leavesPerLevel = leavesPerLevel(transport);
   data.ridge = measured.ridge;
   data.ridgeCurve = measured.ridgeCurve;
-  data.settings = settingsListOf(folder);
-  data.libraries = settings.libraries.empty() ? coreLibraries() : settings.libraries;
+  data.settings = pipeline::settingsListOf(folder);
+  data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = folder.latest(calibration::Stage::acquisition))
     data.verification = verificationIn(folder.path(), calibration::fileOf(*acquired, "transport.npz"));
 
   Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {
-    EvaluateSettings evaluation;
+    pipeline::EvaluateSettings evaluation;
     evaluation.images = settings.images;
-    Evaluation judged = evaluated(measured, evaluation, cache, comparing);
-    for (const EvaluatedPictures& pictures : judged.pictures)
+    pipeline::Evaluation judged = pipeline::evaluated(measured, evaluation, cache, comparing);
+    for (const pipeline::EvaluatedPictures& pictures : judged.pictures)
       data.comparisons.push_back(comparisonOf(pictures));
     data.evaluation = std::move(judged.result);
   } else {
-    std::vector<NamedImage> content;
+    std::vector<pipeline::NamedImage> content;
     for (const fs::path& image : settings.images)
       content.push_back({image.stem().string(), image::readLinearContent(image)});
-    if (content.empty()) content = standardImages();
-    for (const NamedImage& image : content)
+    if (content.empty()) content = pipeline::standardImages();
+    for (const pipeline::NamedImage& image : content)
       data.comparisons.push_back(predictedComparison(image, measured, comparing));
   }
 
@@ -175,4 +175,4 @@ WrittenFiles report(const fs::path& path, const ReportSettings& settings, const 
   return {files};
 }
 
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

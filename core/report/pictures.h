@@ -5,14 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "relucent/image/colour_map.h"
 #include "relucent/image/image.h"
 
-namespace relucent::pipeline {
-
-/// One value a pixel, painted: `low` and below take the map's first colour, `high` and above its last;
-/// pixels that are NaN are dark. Encoded, three channels.
-image::Image painted(const image::Image& values, image::ColourMap map, double low, double high);
+namespace relucent::report {
 
 /// CIEDE2000 of every pixel as a viewer adapted to `white` sees them; NaN where `inside` is 0.
 image::Image deltaEMap(const image::Image& a, const image::Image& b, const std::array<float, 3>& white,
@@ -30,4 +25,4 @@ std::array<float, 3> percentileWhite(const image::Image& linear, double share);
 std::string pngDataUri(const image::Image& encoded);
 std::string base64(std::string_view bytes);
 
-}  // namespace relucent::pipeline
+}  // namespace relucent::report

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/report/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "relucent/base/require.h"
+#include "relucent/charts/svg.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/colour_map.h"
+#include "relucent/report/measured_charts.h"
+#include "relucent/report/number_text.h"
+#include "relucent/report/pictures.h"
+#include "relucent/report/templates.h"
+
+namespace relucent::report {
+namespace {
+
+using Data = kainjow::mustache::data;
+
+constexpr double deltaEScale = 20.0;  // right end of the error maps: far beyond what nobody could miss
+constexpr charts::Drawing chartDrawing{{470.0, 300.0}};
+
+Data named(const std::string& name, const std::string& value) {
+  Data item;
+  item.set("name", name);
+  item.set("value", value);
+  return item;
+}
+
+/// An sRGB-encoded picture with its caption; `below`: a legend between both.
+Data figure(const image::Image& encoded, const std::string& name, const std::string& caption,
+            const std::string& below = {}) {
+  Data item;
+  item.set("picture", pngDataUri(encoded));
+  item.set("width", std::to_string(encoded.width()));
+  item.set("height", std::to_string(encoded.height()));
+  item.set("name", name);
+  item.set("caption", caption);
+  item.set("below", below);
+  return item;
+}
+
+double meanOf(const image::Image& values) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (float value : values.data())
+    if (!std::isnan(value)) {
+      sum += static_cast<double>(value);
+      count += 1.0;
+    }
+  return sum / std::max(count, 1.0);
+}
+
+std::string sizeText(Size size) {
+  return fmt::format("{} × {}", size.width, size.height);
+}
+
+Data cards(const ReportData& data) {
+  const pipeline::CalibrateResult& result = data.result;
+  double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
+  Data list(Data::type::list);
+  list << named("Photographs", grouped(static_cast<std::uint64_t>(std::max(0, result.exposures))))
+       << named("Time", duration(seconds)) << named("Connections of light", grouped(result.connections))
+       << named("Pixels flagged", percent(result.flaggedShare));
+  if (data.evaluation) list << named("Can be reached", percent(data.evaluation->reachable));
+  return list;
+}
+
+Data findings(const ReportData& data) {
+  Data list(Data::type::list);
+  for (const Message& finding : data.result.findings) list << Data(englishSentence(finding));
+  return list;
+}
+
+Data verification(const ReportVerification& shown) {
+  Data figures(Data::type::list);
+  figures << figure(shown.wanted, "Wanted", "the picture as it should appear.")
+          << figure(shown.before, "Photograph, uncompensated",
+                    fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEBefore))
+          << figure(shown.after, "Photograph, compensated",
+                    fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEAfter));
+  Data section;
+  section.set("taken", shown.taken);
+  section.set("figures", figures);
+  return section;
+}
+
+Data comparison(const ReportComparison& shown) {
+  require(
+      shown.wanted.size() == shown.uncompensated.size() && shown.wanted.size() == shown.compensated.size(),
+      "the pictures of '{}' differ in size", shown.name);
+  image::Image before = deltaEMap(shown.uncompensated, shown.wanted, shown.white, shown.inside);
+  image::Image after = deltaEMap(shown.compensated, shown.wanted, shown.white, shown.inside);
+  std::string bar = charts::colourBarSvg(image::ColourMap::cividis, {"0", "5", "10", "15", "20+"},
+                                         "Colour error from 0 to 20, CIEDE2000");
+  std::string how = shown.truth ? "through the true light transport" : "predicted from the measurement";
+  auto errors = [&](const image::Image& map, const char* name) {
+    return figure(painted(map, image::ColourMap::cividis, 0.0, deltaEScale), name,
+                  fmt::format("mean colour error ΔE {:.1f}.", meanOf(map)), bar);
+  };
+  Data figures(Data::type::list);
+  figures << figure(image::viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.")
+          << figure(image::viewed(shown.uncompensated, shown.white), "Uncompensated",
+                    "only placed, " + how + ".")
+          << figure(image::viewed(shown.compensated, shown.white), "Compensated",
+                    fmt::format("method {}, {}.", nameOf(shown.method), how))
+          << errors(before, "Error uncompensated") << errors(after, "Error compensated");
+  Data section;
+  section.set("name", shown.name);
+  section.set("reachable", percent(shown.reachable));
+  section.set("figures", figures);
+  section.set("histogram", charts::svgOf(histogram(before.data(), after.data(), deltaEScale,
+                                                   "Colour error ΔE (CIEDE2000)"),
+                                         chartDrawing));
+  return section;
+}
+
+/// Means over all images, in the order of the first.
+std::vector<pipeline::MethodScore> meanScores(const pipeline::EvaluateResult& evaluation) {
+  std::vector<pipeline::MethodScore> means;
+  for (const pipeline::ImageScore& image : evaluation.images)
+    for (const pipeline::MethodScore& score : image.methods) {
+      auto mean =
+          std::find_if(means.begin(), means.end(), [&](const auto& m) { return m.method == score.method; });
+      if (mean == means.end()) mean = means.insert(means.end(), pipeline::MethodScore{score.method});
+      auto share = 1.0 / static_cast<double>(evaluation.images.size());
+      mean->psnrReachable += share * score.psnrReachable;
+      mean->psnrAll += share * score.psnrAll;
+      mean->ssim += share * score.ssim;
+      mean->deltaE += share * score.deltaE;
+      mean->seconds += share * score.seconds;
+    }
+  return means;
+}
+
+Data methods(const pipeline::EvaluateResult& evaluation) {
+  std::vector<pipeline::MethodScore> scores = meanScores(evaluation);
+  double best = -std::numeric_limits<double>::infinity();
+  for (const pipeline::MethodScore& score : scores) best = std::max(best, score.psnrReachable);
+  std::vector<charts::Bar> bars;
+  Data rows(Data::type::list);
+  for (const pipeline::MethodScore& score : scores) {
+    bool isBest = score.psnrReachable == best;
+    bars.push_back(
+        {std::string(nameOf(score.method)), score.psnrReachable, decibels(score.psnrReachable), isBest});
+    Data row;
+    row.set("best", isBest);
+    row.set("method", std::string(nameOf(score.method)));
+    row.set("psnrReachable", decibels(score.psnrReachable));
+    row.set("psnrAll", decibels(score.psnrAll));
+    row.set("ssim", fmt::format("{:.3f}", score.ssim));
+    row.set("deltaE", fmt::format("{:.1f}", score.deltaE));
+    row.set("time", duration(score.seconds));
+    row.set("description", std::string(descriptionOf(score.method)));
+    rows << row;
+  }
+  Data section;
+  section.set("chart", charts::svgOf(bars, "PSNR of each method"));
+  section.set("rows", rows);
+  return section;
+}
+
+/// Floodlight image, reachable light, black level and flagged pixels.
+Data measuredPictures(const ReportData& data) {
+  std::array<float, 3> white =
+      data.comparisons.empty() ? percentileWhite(data.flood, 0.85) : data.comparisons.front().white;
+  image::Image reach = reachableLight(data.flood, data.black, white);
+  for (float& value : reach.data()) value = value > 0.0f ? std::log2(value) : -100.0f;
+
+  Data figures(Data::type::list);
+  figures << figure(image::viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
+                    "what the camera sees when every pixel of the projector is fully lit.")
+          << figure(painted(reach, image::ColourMap::viridis, -4.0, 2.0), "Reachable light",
+                    "the brightest that each place can get, in the colour that is hardest there; 1 is the "
+                    "picture's white.",
+                    charts::colourBarSvg(image::ColourMap::viridis, {"1/16", "1/4", "1", "4"},
+                                         "Reachable light from 1/16 to 4 times white"));
+  if (!data.black.empty())
+    figures << figure(
+        image::viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
+        "room light and the projector's black, brightened to be seen: nothing can be darker than this.");
+  if (data.flagged.size() == data.flood.pixels()) {
+    image::Image mask(data.flood.size(), 1);
+    for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;
+    figures << figure(
+        painted(mask, image::ColourMap::cividis, 0.0, 1.0), "Flagged pixels",
+        fmt::format("bright: {} of the camera's pixels did not pass the verification and are not relied on.",
+                    percent(data.result.flaggedShare)));
+  }
+  Data section;
+  section.set("figures", figures);
+  return section;
+}
+
+/// The projectors' response curves, additivity and exposures.
+Data response(const ReportData& data) {
+  Data projectors(Data::type::list);
+  for (std::size_t projector = 0; projector < data.responses.size(); ++projector) {
+    std::string name = fmt::format("Response of projector {}", projector + 1);
+    Data item;
+    item.set("name", name);
+    item.set("chart", charts::svgOf(responseChart(data.responses[projector], name), chartDrawing));
+    if (projector < data.additivityError.size())
+      item.set("additivity", percent(data.additivityError[projector]));
+    projectors << item;
+  }
+  std::string times;
+  for (double exposure : data.exposures)
+    times += (times.empty() ? "" : ", ") + fmt::format("{:.4g} s", exposure);
+  Data section;
+  section.set("projectors", projectors);
+  if (!times.empty()) section.set("exposures", times);
+  return section;
+}
+
+std::string levelBars(const std::vector<std::uint64_t>& leavesPerLevel) {
+  std::vector<charts::Bar> bars;
+  for (std::size_t level = 0; level < leavesPerLevel.size(); ++level)
+    bars.push_back({level == 0 ? "single pixels" : fmt::format("{0} × {0}", 1ULL << level),
+                    std::log10(1.0 + static_cast<double>(leavesPerLevel[level])),
+                    grouped(leavesPerLevel[level]), level == 0});
+  return charts::svgOf(bars, "Stored blocks of the light transport by their size");
+}
+
+/// What was tried to find how strongly the inverse has to be damped.
+Data ridge(const ReportData& data) {
+  std::vector<charts::Bar> bars;
+  for (const compensation::RidgeTrial& trial : data.ridgeCurve)
+    bars.push_back({fmt::format("{:.3g}", trial.ridge), std::max(0.0, trial.psnr),
+                    fmt::format("{:.2f} dB", trial.psnr), trial.ridge == data.ridge});
+  Data section;
+  section.set("used", fmt::format("{:.3g}", data.ridge));
+  section.set("chart", charts::svgOf(bars, "PSNR by damping of the inverse"));
+  return section;
+}
+
+/// T in figures: connections, leaves by block size, damping of the inverse, and errors where the truth is
+/// known.
+void setTransport(Data& page, const ReportData& data) {
+  page.set("connections", grouped(data.result.connections));
+  page.set("leaves", grouped(data.result.leaves));
+  page.set("unresolved", percent(data.result.unresolvedEnergy));
+  page.set("verificationError", percent(data.result.verificationError));
+  if (data.evaluation) {
+    Data truth;
+    truth.set("frobenius", percent(data.evaluation->transport.frobenius));
+    truth.set("natural", percent(data.evaluation->transport.relightNatural));
+    truth.set("random", percent(data.evaluation->transport.relightRandom));
+    page.set("truth", truth);
+  }
+  if (!data.leavesPerLevel.empty()) page.set("levels", levelBars(data.leavesPerLevel));
+  if (!data.ridgeCurve.empty()) page.set("ridge", ridge(data));
+}
+
+void setSettingsAndTimes(Data& page, const ReportData& data) {
+  const pipeline::CalibrateResult& result = data.result;
+  Data costs(Data::type::list);
+  costs << named("Linearization", duration(result.seconds.linearization))
+        << named("Acquisition", duration(result.seconds.acquisition))
+        << named("Inverse", duration(result.seconds.inverse))
+        << named("Patterns", std::to_string(result.patterns))
+        << named("Photographs", std::to_string(result.exposures))
+        << named("Most memory used",
+                 fmt::format("{:.0f} MB", static_cast<double>(result.peakMemoryBytes) / 1e6));
+  page.set("costs", costs);
+  Data rows(Data::type::list);
+  for (const pipeline::StoredSetting& setting : data.settings) rows << named(setting.name, setting.value);
+  if (!rows.is_empty_list()) {
+    Data settings;
+    settings.set("rows", rows);
+    page.set("settings", settings);
+  }
+  std::string libraries;
+  for (const pipeline::LibraryVersion& library : data.libraries)
+    libraries += (libraries.empty() ? "" : ", ") + library.name + " " + library.version;
+  if (!libraries.empty()) {
+    Data versions;
+    versions.set("relucent", pipeline::relucentVersion());
+    versions.set("libraries", libraries);
+    page.set("versions", versions);
+  }
+}
+
+}  // namespace
+
+Data pageOf(const ReportData& data) {
+  Data page;
+  page.set("style", std::string(templates::style));
+  page.set("figure", kainjow::mustache::partial([] { return std::string(templates::figure); }));
+  page.set("title", data.title);
+  page.set("venue", data.venue);
+  page.set("projector", sizeText(data.projector));
+  page.set("camera", sizeText(data.camera));
+  page.set("measured", data.measured);
+  page.set("software", data.software);
+  page.set("cards", cards(data));
+  page.set("findings", findings(data));
+  if (data.verification) page.set("verification", verification(*data.verification));
+  Data comparisons(Data::type::list);
+  for (const ReportComparison& shown : data.comparisons) comparisons << comparison(shown);
+  page.set("comparisons", comparisons);
+  if (data.evaluation && !data.evaluation->images.empty()) page.set("methods", methods(*data.evaluation));
+  if (!data.flood.empty()) page.set("measuredPictures", measuredPictures(data));
+  if (!data.responses.empty()) page.set("response", response(data));
+  setTransport(page, data);
+  setSettingsAndTimes(page, data);
+  return page;
+}
+
+}  // namespace relucent::report

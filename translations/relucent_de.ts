@@ -250,7 +250,7 @@
 <context>
     <name>acquisition.light-drifted</name>
     <message>
-        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <source>The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time</source>
         <translation>das Licht hat sich zwischen dem ersten und dem letzten Foto um {} % geändert; das wurde berücksichtigt, aber lassen Sie den Projektor das nächste Mal vorher warm werden</translation>
     </message>
 </context>
@@ -264,7 +264,7 @@
 <context>
     <name>acquisition.pixels-flagged</name>
     <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat; diese Pixel bleiben bei der Kompensation außer Acht</translation>
     </message>
 </context>
@@ -327,7 +327,7 @@
 <context>
     <name>alarm.projector-shows-nothing</name>
     <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>der Projektor zeigt nichts, nur das Raumlicht ist noch zu sehen</translation>
     </message>
 </context>
@@ -341,7 +341,7 @@
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
         <translation>stellen Sie den alten Zustand wieder her, halten Sie Türen und Vorhänge geschlossen, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -362,7 +362,7 @@
 <context>
     <name>alarm.safe-before-check</name>
     <message>
-        <source>every photograph up to the check before is safe</source>
+        <source>every photograph up to the previous check is safe</source>
         <translation>alle Fotos bis zur letzten Kontrolle davor sind sicher</translation>
     </message>
 </context>
@@ -404,7 +404,7 @@
 <context>
     <name>alarm.view-changed</name>
     <message>
-        <source>{} % of the view of camera {} look different than before</source>
+        <source>{} % of the view of camera {} look different from before</source>
         <translation>{} % des Bilds von Kamera {} sehen anders aus als zuvor</translation>
     </message>
 </context>
@@ -423,14 +423,14 @@
     </message>
 </context>
 <context>
-    <name>calibration.calibration-manifest-damaged</name>
+    <name>calibration.manifest-damaged</name>
     <message>
         <source>the calibration&apos;s manifest is damaged</source>
         <translation>das Manifest der Kalibrierung ist beschädigt</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-look-into-folder</name>
+    <name>calibration.cannot-list-folder</name>
     <message>
         <source>cannot look into the folder ({})</source>
         <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
@@ -444,77 +444,77 @@
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-go</name>
+    <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
         <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann machen Sie weiter</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-try</name>
+    <name>calibration.allow-writing-then-retry</name>
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-path-you-may-read</name>
+    <name>calibration.check-path-and-permission</name>
     <message>
         <source>check the path and that you may read it</source>
         <translation>prüfen Sie den Pfad und ob Sie ihn lesen dürfen</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-you-may-read-choose</name>
+    <name>calibration.check-permission-or-name</name>
     <message>
         <source>check that you may read it, or choose another name</source>
         <translation>prüfen Sie, ob Sie ihn lesen dürfen, oder wählen Sie einen anderen Namen</translation>
     </message>
 </context>
 <context>
-    <name>calibration.choose-another-calibration-copy-again</name>
+    <name>calibration.choose-another-or-copy-again</name>
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>wählen Sie eine andere Kalibrierung oder kopieren Sie sie neu von dort, wo sie gemessen wurde</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-bytes-instead</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
         <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-missing</name>
+    <name>calibration.result-file-missing</name>
     <message>
         <source>a file of the calibration&apos;s {} is missing</source>
         <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
     </message>
 </context>
 <context>
-    <name>calibration.free-some-space-there-check</name>
+    <name>disk.free-space-or-check-disk</name>
     <message>
         <source>free some space there or check the disk, then try again</source>
         <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>calibration.no-calibration-relucent</name>
+    <name>calibration.not-a-calibration</name>
     <message>
-        <source>this is no calibration of Relucent</source>
+        <source>this is not a calibration of Relucent</source>
         <translation>dies ist keine Kalibrierung von Relucent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-moved</name>
+    <name>calibration.cannot-move-photograph</name>
     <message>
         <source>a photograph cannot be moved ({})</source>
         <translation>ein Foto kann nicht verschoben werden ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-removed</name>
+    <name>calibration.cannot-remove-photograph</name>
     <message>
         <source>a photograph cannot be removed ({})</source>
         <translation>ein Foto kann nicht gelöscht werden ({})</translation>
@@ -551,14 +551,14 @@
 <context>
     <name>check.light-unsteady</name>
     <message>
-        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.</source>
         <translation>Das Licht ändert sich zwischen Belichtungen ganzer Bilder um {} %: Lampe warm werden lassen, dynamische Helligkeit und Lampen im Raum ausschalten.</translation>
     </message>
 </context>
 <context>
     <name>check.no-brief-exposure</name>
     <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.</source>
         <translation>Die Kamera kann nicht kürzer als ein Einzelbild belichten oder sieht dann zu wenig: Flackern innerhalb eines Einzelbilds ist nicht zu erkennen.</translation>
     </message>
 </context>
@@ -572,8 +572,8 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
             <numerusform>Ein Bild erscheint ein Einzelbild nach dem Senden: {1} ms werden abgewartet.</numerusform>
             <numerusform>Ein Bild erscheint {} Einzelbilder nach dem Senden: {} ms werden abgewartet.</numerusform>
@@ -583,8 +583,8 @@
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
             <numerusform>Bilder kommen ein Foto zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
             <numerusform>Bilder kommen {} Fotos zu spät: Die Verzögerung muss gemessen und abgewartet werden.</numerusform>
@@ -627,37 +627,37 @@
     </message>
 </context>
 <context>
-    <name>content.capture-device-gives-no-picture</name>
+    <name>content.nothing-captured</name>
     <message>
         <source>the capture device gives no picture</source>
         <translation>das Aufnahmegerät liefert kein Bild</translation>
     </message>
 </context>
 <context>
-    <name>content.live-picture-screen-needs-x</name>
+    <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
         <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
     </message>
 </context>
 <context>
-    <name>content.log-desktop-x-xorg-log</name>
+    <name>content.log-in-to-xorg</name>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
         <translation>melden Sie sich an einem Desktop mit X an („Xorg“ bei der Anmeldung) oder spielen Sie Dateien ab</translation>
     </message>
 </context>
 <context>
-    <name>content.plug-close-other-programs-use</name>
+    <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
         <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>device.aim-projection-take-cap-off</name>
+    <name>device.aim-uncover-and-expose-longer</name>
     <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>richten Sie sie auf die Projektion, nehmen Sie den Objektivdeckel ab und belichten Sie länger</translation>
     </message>
 </context>
@@ -669,42 +669,42 @@
     </message>
 </context>
 <context>
-    <name>device.ask-less</name>
+    <name>device.ask-for-fewer-pixels</name>
     <message>
         <source>ask for that or less</source>
         <translation>verlangen Sie höchstens so viele</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-gives</name>
+    <name>device.ask-for-given-size</name>
     <message>
         <source>ask for the size that it gives</source>
         <translation>verlangen Sie die Größe, die sie liefert</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-v4l2-ctl-list</name>
+    <name>device.ask-for-listed-size</name>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
         <translation>verlangen Sie eine Größe, die es bietet: v4l2-ctl --list-formats-ext zeigt sie</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-gain-keeps</name>
+    <name>device.gain-refused</name>
     <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
+        <source>was asked for a gain of {} but uses {}</source>
         <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-iso-keeps-iso</name>
+    <name>device.iso-refused</name>
     <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <source>was asked for ISO {} but uses ISO {}</source>
         <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
     </message>
 </context>
 <context>
-    <name>device.attempts-photograph-failed</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
         <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
@@ -753,28 +753,28 @@
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-dslr</name>
+    <name>device.built-without-gphoto</name>
     <message>
         <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
         <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-genicam</name>
+    <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
         <translation>dieser Build von Relucent kennt keine GenICam-Kameras</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-expose-s-keeps</name>
+    <name>device.exposure-refused</name>
     <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
         <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-photograph-took-none</name>
+    <name>device.trial-photograph-failed</name>
     <message>
         <source>the camera was asked for a photograph and took none</source>
         <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
@@ -788,37 +788,37 @@
     </message>
 </context>
 <context>
-    <name>device.camera-been-gone-s</name>
+    <name>device.camera-not-back</name>
     <message>
         <source>the camera has been gone for {} s: {}</source>
         <translation>die Kamera ist seit {} s weg: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-came-back-pixels-instead</name>
+    <name>device.reconnected-camera-size-differs</name>
     <message>
         <source>the camera came back with {} pixels instead of {}</source>
         <translation>die Kamera kam mit {} statt {} Pixeln zurück</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-can</name>
+    <name>device.choose-gain-in-range</name>
     <message>
-        <source>the camera can do {} to {}</source>
+        <source>choose a gain from {} to {}</source>
         <translation>die Kamera kann {} bis {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-claims-exposures-s</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
         <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-colour-filter-no-bayer</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
         <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
     </message>
 </context>
@@ -832,21 +832,21 @@
 <context>
     <name>device.camera-command-lacks</name>
     <message>
-        <source>the camera&apos;s command does not say {}</source>
+        <source>the camera&apos;s command does not contain {}</source>
         <translation>im Befehl der Kamera fehlt {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-forgotten-pixel-format-set</name>
+    <name>device.pixel-format-lost</name>
     <message>
         <source>the camera has forgotten the pixel format that it was set to</source>
         <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-found-no-focus-took</name>
+    <name>device.no-focus</name>
     <message>
-        <source>the camera found no focus and took no photograph ({})</source>
+        <source>the camera could not focus and took no photograph ({})</source>
         <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
     </message>
 </context>
@@ -858,9 +858,9 @@
     </message>
 </context>
 <context>
-    <name>device.camera-keeps-s-whatever-exposure</name>
+    <name>device.exposure-time-fixed</name>
     <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
         <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
     </message>
 </context>
@@ -872,21 +872,21 @@
     </message>
 </context>
 <context>
-    <name>device.camera-no-pixel-format-can</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
         <source>the camera has no pixel format {} that can be read</source>
         <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-not-see-what-shown</name>
+    <name>device.screen-not-seen</name>
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-refused-what-asked</name>
+    <name>device.request-refused</name>
     <message>
         <source>the camera refused what it was asked for ({})</source>
         <translation>die Kamera hat das Verlangte verweigert ({})</translation>
@@ -900,14 +900,14 @@
     </message>
 </context>
 <context>
-    <name>device.camera-sees-no-difference-between</name>
+    <name>device.no-contrast</name>
     <message>
         <source>the camera sees no difference between white and black</source>
         <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-sees-not</name>
+    <name>device.other-screen-seen</name>
     <message>
         <source>the camera sees {}, not {}</source>
         <translation>die Kamera sieht {}, nicht {}</translation>
@@ -928,7 +928,7 @@
     </message>
 </context>
 <context>
-    <name>device.cameras-model-plugged</name>
+    <name>device.several-cameras-of-model</name>
     <message>
         <source>{} cameras of this model are plugged in</source>
         <translation>{} Kameras dieses Modells sind angeschlossen</translation>
@@ -949,7 +949,7 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-switched-off</name>
+    <name>device.automatic-function-stays</name>
     <message>
         <source>{} cannot be switched off</source>
         <translation>{} lässt sich nicht ausschalten</translation>
@@ -963,119 +963,119 @@
     </message>
 </context>
 <context>
-    <name>device.change-empty-memory-card</name>
+    <name>device.change-or-empty-card</name>
     <message>
         <source>change or empty the memory card</source>
         <translation>wechseln oder leeren Sie die Speicherkarte</translation>
     </message>
 </context>
 <context>
-    <name>device.charge-change-battery-best-use</name>
+    <name>device.charge-or-change-battery</name>
     <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <source>charge or change the battery, or better, use a mains adapter, and switch the camera on again</source>
         <translation>laden oder wechseln Sie den Akku, am besten verwenden Sie ein Netzteil, und schalten Sie die Kamera wieder ein</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power</name>
+    <name>device.check-cable-and-power</name>
     <message>
         <source>check its cable and its power</source>
         <translation>prüfen Sie Kabel und Stromversorgung</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address-relucent</name>
+    <name>device.check-cable-power-address</name>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
         <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-saving-energy</name>
+    <name>device.check-cable-and-power-saving</name>
     <message>
-        <source>check its cable, and switch its saving of energy off</source>
+        <source>check its cable, and switch off its power saving</source>
         <translation>prüfen Sie das Kabel und schalten Sie den Energiesparmodus aus</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-switch-automatic</name>
+    <name>device.switch-on-and-keep-awake</name>
     <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
         <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-cable-network-card</name>
+    <name>device.check-cable-network-and-programs</name>
     <message>
         <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
         <translation>prüfen Sie Kabel und Netzwerkkarte der Kamera und ob kein anderes Programm sie nutzt</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-view-steady-exposure</name>
+    <name>device.steady-view-and-expose-briefly</name>
     <message>
         <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
         <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
     </message>
 </context>
 <context>
-    <name>device.check-device-allow-command-more</name>
+    <name>device.allow-command-more-time</name>
     <message>
         <source>check the device, or allow the command more time: {}</source>
         <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.check-projector-shows-output-aim</name>
+    <name>device.check-projector-and-aim</name>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>prüfen Sie, ob der Projektor eingeschaltet ist und diesen Ausgang zeigt, richten Sie die Kamera darauf und nehmen Sie den Objektivdeckel ab; oder wählen Sie einen anderen Bildschirm</translation>
     </message>
 </context>
 <context>
-    <name>device.choose-aim-camera</name>
+    <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
         <translation>wählen Sie {} oder richten Sie die Kamera auf {}</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-s-but-keeps</name>
+    <name>device.shortest-exposure-understated</name>
     <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
+        <source>claims exposures from {} s but does not go below {} s</source>
         <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-up-s-but</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
+        <source>claims exposures up to {} s but reaches only {} s</source>
         <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-playback-end-live</name>
+    <name>device.close-menus-and-live-view</name>
     <message>
-        <source>close its menus and its playback, and end its live picture</source>
+        <source>close its menus and its playback, and leave live view</source>
         <translation>schließen Sie ihre Menüs und ihre Wiedergabe und beenden Sie Live-View</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-switch-off</name>
+    <name>device.close-menus-and-restart</name>
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>schließen Sie ihre Menüs und schalten Sie sie aus und wieder ein</translation>
     </message>
 </context>
 <context>
-    <name>device.close-other-programs-try-again</name>
+    <name>device.close-other-programs</name>
     <message>
         <source>close other programs and try again</source>
         <translation>schließen Sie andere Programme und versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>device.command-cannot-started</name>
+    <name>device.cannot-start-command</name>
     <message>
         <source>the command cannot be started ({})</source>
         <translation>der Befehl lässt sich nicht starten ({})</translation>
@@ -1138,28 +1138,28 @@
     </message>
 </context>
 <context>
-    <name>device.connect-camera-measurement-begun</name>
+    <name>device.reconnect-same-camera</name>
     <message>
         <source>connect the camera that the measurement was begun with</source>
         <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
     </message>
 </context>
 <context>
-    <name>device.copy-again-take-photograph-again</name>
+    <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
         <translation>kopieren Sie sie neu oder nehmen Sie das Foto neu auf; eine Kamera, die neuer ist als dieses LibRaw, braucht DNG-Dateien</translation>
     </message>
 </context>
 <context>
-    <name>device.delivers-8-bits-dark-places</name>
+    <name>device.delivers-8-bits</name>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
         <translation>liefert 8 Bit: dunkle Stellen bleiben ungenau</translation>
     </message>
 </context>
 <context>
-    <name>device.develop-files-linearly-16-bit</name>
+    <name>device.develop-linearly</name>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
         <translation>entwickeln Sie die Dateien linear, als TIFF mit 16 Bit, oder verwenden Sie eine andere Kamera</translation>
@@ -1180,21 +1180,21 @@
     </message>
 </context>
 <context>
-    <name>device.free-some-space-record-elsewhere</name>
+    <name>device.free-space-or-record-elsewhere</name>
     <message>
         <source>free some space, or record elsewhere</source>
         <translation>geben Sie Speicherplatz frei oder zeichnen Sie an einem anderen Ort auf</translation>
     </message>
 </context>
 <context>
-    <name>device.free-some-space-there-let</name>
+    <name>device.free-space-or-set-tmpdir</name>
     <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <source>free some space there, or set TMPDIR to a folder that you may write to</source>
         <translation>geben Sie dort Speicherplatz frei oder lassen Sie TMPDIR auf einen Ordner zeigen, in den Sie schreiben dürfen</translation>
     </message>
 </context>
 <context>
-    <name>device.gain-wanted</name>
+    <name>device.gain-out-of-range</name>
     <message>
         <source>a gain of {} is wanted</source>
         <translation>eine Verstärkung von {} ist verlangt</translation>
@@ -1217,33 +1217,33 @@
 <context>
     <name>device.held-by-desktop</name>
     <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <source>another program is using the camera, usually the desktop, which mounts it like a memory stick</source>
         <translation>ein anderes Programm belegt die Kamera, meist der Desktop, der sie wie einen USB-Stick einbindet</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-camera</name>
+    <name>device.camera-size-out-of-range</name>
     <message>
         <source>a camera of {} pixels is impossible: each side is {} to {}</source>
         <translation>eine Kamera mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-projector</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
         <source>a projector of {} pixels is impossible: each side is {} to {}</source>
         <translation>einen Projektor mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
     </message>
 </context>
 <context>
-    <name>device.install-aravis-libaravis-dev-build</name>
+    <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
         <translation>installieren Sie Aravis (libaravis-dev) und erstellen Sie das Programm neu oder verwenden Sie eine Kamera anderer Art</translation>
     </message>
 </context>
 <context>
-    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <name>device.install-libgphoto2</name>
     <message>
         <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
         <translation>installieren Sie libgphoto2 und LibRaw (libgphoto2-dev, libraw-dev) und erstellen Sie das Programm neu oder verwenden Sie einen Befehl</translation>
@@ -1257,28 +1257,28 @@
     </message>
 </context>
 <context>
-    <name>device.it-has</name>
+    <name>device.choose-offered-iso</name>
     <message>
-        <source>it has {}</source>
+        <source>choose one of those that it has: {}</source>
         <translation>sie bietet {}</translation>
     </message>
 </context>
 <context>
-    <name>device.let-command-write-size-begin</name>
+    <name>device.write-announced-size</name>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
         <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
     </message>
 </context>
 <context>
-    <name>device.let-desktop-go-gio-mount</name>
+    <name>device.release-from-desktop</name>
     <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
         <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
     </message>
 </context>
 <context>
-    <name>device.let-write-photograph-output</name>
+    <name>device.write-photograph-to-output</name>
     <message>
         <source>let it write the photograph to {output}: {}</source>
         <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
@@ -1308,35 +1308,35 @@
 <context>
     <name>device.mode-dial-not-manual</name>
     <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <source>the camera&apos;s mode dial is set to {}, where the camera chooses exposures itself</source>
         <translation>das Moduswahlrad der Kamera steht auf {}, dort wählt die Kamera die Belichtung selbst</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-gphoto2</name>
+    <name>device.name-connected-camera</name>
     <message>
         <source>name that one: gphoto2:{}</source>
         <translation>geben Sie diese an: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
         <translation>geben Sie eine davon mit ihrem Anschluss an: gphoto2:{} oder gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.new-picture-not-fully-there</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>a new picture is not fully there after {} frames</source>
+        <source>a new picture has not fully appeared after {} frames</source>
         <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
     </message>
 </context>
 <context>
-    <name>device.no-camera-name-plugged-but</name>
+    <name>device.only-other-camera-connected</name>
     <message>
-        <source>no camera of this name is plugged in, but {}</source>
+        <source>no camera of this name is plugged in, but {} is</source>
         <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
     </message>
 </context>
@@ -1348,7 +1348,7 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came-within</name>
+    <name>device.photograph-timed-out</name>
     <message>
         <source>no photograph came within {} s</source>
         <translation>innerhalb von {} s kam kein Foto</translation>
@@ -1369,28 +1369,28 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger-each-photograph</name>
+    <name>device.no-software-trigger</name>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
         <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
     </message>
 </context>
 <context>
-    <name>device.no-such-video-device-plugged</name>
+    <name>device.video-device-missing</name>
     <message>
         <source>no such video device is plugged in</source>
         <translation>kein solches Videogerät ist angeschlossen</translation>
     </message>
 </context>
 <context>
-    <name>device.none-camera-pixel-formats-can</name>
+    <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
         <translation>keines der Pixelformate der Kamera ist lesbar</translation>
     </message>
 </context>
 <context>
-    <name>device.not-say-when-pictures-captured</name>
+    <name>device.no-capture-times</name>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
         <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
@@ -1404,7 +1404,7 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-asked-none-came</name>
+    <name>device.no-photograph-came</name>
     <message>
         <source>a photograph was asked for and none came</source>
         <translation>ein Foto wurde angefordert, aber keines kam</translation>
@@ -1425,51 +1425,51 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-agreed</name>
+    <name>device.photograph-format-changed</name>
     <message>
         <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
         <translation>das Foto hat {} Pixel als {}, vereinbart waren {} als {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-announced</name>
+    <name>device.photograph-size-unexpected</name>
     <message>
         <source>the photograph has {} pixels where {} were announced</source>
         <translation>das Foto hat {} Pixel, angekündigt waren {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-came-bytes</name>
+    <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
         <translation>ein Foto mit {} Pixeln als {} kam mit {} von {} Bytes an</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera</name>
+    <name>device.photograph-exceeds-sensor</name>
     <message>
         <source>{} pixels are wanted and the camera has {}</source>
         <translation>{} Pixel sind verlangt, die Kamera hat {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera-gives</name>
+    <name>device.photograph-size-refused</name>
     <message>
         <source>{} pixels are wanted and the camera gives {}</source>
         <translation>{} Pixel sind verlangt, die Kamera liefert {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-video-device-gives</name>
+    <name>device.video-size-refused</name>
     <message>
         <source>{} pixels are wanted and the video device gives {}</source>
         <translation>{} Pixel sind verlangt, das Videogerät liefert {}</translation>
     </message>
 </context>
 <context>
-    <name>device.press-shutter-button-half-way</name>
+    <name>device.wake-camera</name>
     <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
         <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
     </message>
 </context>
@@ -1483,19 +1483,19 @@
 <context>
     <name>device.projector-command-lacks</name>
     <message>
-        <source>the projector&apos;s command does not say {}</source>
+        <source>the projector&apos;s command does not contain {}</source>
         <translation>im Befehl des Projektors fehlt {}</translation>
     </message>
 </context>
 <context>
-    <name>device.projector-screen-loses-picture-again</name>
+    <name>device.screen-loses-picture</name>
     <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
+        <source>the projector&apos;s screen keeps losing its picture</source>
         <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
     </message>
 </context>
 <context>
-    <name>device.raw-file-cannot-read</name>
+    <name>device.raw-file-unreadable</name>
     <message>
         <source>the raw file cannot be read ({})</source>
         <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
@@ -1516,42 +1516,42 @@
     </message>
 </context>
 <context>
-    <name>device.raw-file-not-hold-sensor</name>
+    <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
         <translation>die RAW-Datei enthält nicht die Sensorwerte selbst</translation>
     </message>
 </context>
 <context>
-    <name>device.recording-cannot-written</name>
+    <name>device.cannot-write-recording</name>
     <message>
         <source>the recording cannot be written ({})</source>
         <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
     </message>
 </context>
 <context>
-    <name>device.remove-hand-try-again</name>
+    <name>device.remove-file-by-hand</name>
     <message>
         <source>remove it by hand, then try again</source>
         <translation>löschen Sie sie von Hand, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>device.run-terminal-find-out-why</name>
+    <name>device.run-command-in-terminal</name>
     <message>
         <source>run it in a terminal to find out why: {}</source>
         <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.sees-no-colours-brightness-can</name>
+    <name>device.sees-no-colours</name>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
         <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
     </message>
 </context>
 <context>
-    <name>device.set-exposure-mode-timed-manual</name>
+    <name>device.set-manual-exposure-mode</name>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
         <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
@@ -1565,70 +1565,70 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-must-above-zero</name>
+    <name>device.exposure-range-invalid</name>
     <message>
         <source>the shortest exposure must be above zero and no longer than the longest</source>
         <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-frame-rate</name>
+    <name>device.lift-exposure-limits</name>
     <message>
         <source>switch its automatic exposure and its frame rate limit off</source>
         <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-off-camera</name>
+    <name>device.switch-off-automatic-exposure</name>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
         <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-full-size-raw</name>
+    <name>device.switch-to-full-size-raw</name>
     <message>
         <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
         <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-off-choose-another</name>
+    <name>device.restart-or-change-pixel-format</name>
     <message>
         <source>switch the camera off and on, or choose another of its pixel formats</source>
         <translation>schalten Sie die Kamera aus und wieder ein oder wählen Sie ein anderes ihrer Pixelformate</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus</name>
+    <name>device.switch-to-manual-focus</name>
     <message>
         <source>switch its lens to manual focus</source>
         <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus-close</name>
+    <name>device.take-photograph-by-hand</name>
     <message>
         <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
         <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-camera-maker-program</name>
+    <name>device.switch-off-with-makers-program</name>
     <message>
         <source>switch it off with the camera maker&apos;s program, or use another camera</source>
         <translation>schalten Sie dies mit dem Programm des Kameraherstellers aus oder verwenden Sie eine andere Kamera</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-load-default-settings</name>
+    <name>device.restart-with-default-settings</name>
     <message>
         <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
         <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-v4l2-ctl-list</name>
+    <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>schalten Sie dies mit v4l2-ctl aus (--list-ctrls zeigt, was es bietet) oder verwenden Sie eine andere Kamera</translation>
@@ -1663,21 +1663,21 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m-or-another-camera</name>
+    <name>device.turn-dial-or-change-camera</name>
     <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <source>turn its mode dial to M; a camera without manual exposure cannot be used</source>
         <translation>drehen Sie ihr Moduswahlrad auf M; eine Kamera ohne M ist nicht verwendbar</translation>
     </message>
 </context>
 <context>
-    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
         <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
     </message>
 </context>
 <context>
-    <name>device.use-camera-manual-exposure</name>
+    <name>device.use-manual-exposure-camera</name>
     <message>
         <source>use a camera with manual exposure</source>
         <translation>verwenden Sie eine Kamera mit manueller Belichtung</translation>
@@ -1691,35 +1691,35 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-been-unplugged</name>
+    <name>device.video-device-unplugged</name>
     <message>
         <source>the video device has been unplugged</source>
         <translation>das Videogerät wurde getrennt</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-again</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
         <source>the video device cannot be opened again</source>
         <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-another</name>
+    <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>das Videogerät lässt sich nicht öffnen: Vielleicht nutzt es ein anderes Programm</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-no-exposure-can</name>
+    <name>device.video-exposure-not-settable</name>
     <message>
         <source>the video device has no exposure that can be set</source>
         <translation>das Videogerät hat keine einstellbare Belichtung</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-sends-no-pictures</name>
+    <name>device.no-video-pictures</name>
     <message>
         <source>the video device sends no pictures</source>
         <translation>das Videogerät sendet keine Bilder</translation>
@@ -1789,7 +1789,7 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-cannot-used</name>
+    <name>engine.graphics-card-unusable</name>
     <message>
         <source>the graphics card cannot be used</source>
         <translation>die Grafikkarte ist nicht verwendbar</translation>
@@ -1803,16 +1803,16 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-no-mb-memory</name>
+    <name>engine.graphics-memory-exhausted</name>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
         <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-reaches-mb-once</name>
+    <name>engine.graphics-buffer-too-large</name>
     <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <source>the graphics card can hold {} MB in one piece, but {} MB are needed</source>
         <translation>die Grafikkarte kann {} MB auf einmal ansprechen, {} MB sind nötig</translation>
     </message>
 </context>
@@ -1831,21 +1831,21 @@
     </message>
 </context>
 <context>
-    <name>engine.there-no-graphics-card-opengl</name>
+    <name>engine.no-graphics-card</name>
     <message>
         <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
         <translation>keine Grafikkarte mit OpenGL 4.3 und Compute-Shadern ist vorhanden</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-libegl-no-libopengl</name>
+    <name>engine.no-libegl-or-libopengl</name>
     <message>
         <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
         <translation>libEGL oder libOpenGL fehlt, die Grafikkarten ohne Bildschirm öffnen</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-opengl-4-3</name>
+    <name>engine.no-opengl</name>
     <message>
         <source>there is no OpenGL 4.3 with compute shaders</source>
         <translation>OpenGL 4.3 mit Compute-Shadern ist nicht vorhanden</translation>
@@ -1882,7 +1882,7 @@
 <context>
     <name>import.patterns-black-and-white</name>
     <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <source>The patterns hold black and white only: the projector&apos;s response is assumed to be a gamma of 2.2</source>
         <translation>die Muster enthalten nur Schwarz und Weiß: Als Kennlinie des Projektors wird eine Potenz von 2,2 angenommen</translation>
     </message>
 </context>
@@ -1908,7 +1908,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.cameras-no-exposure-time-common</name>
+    <name>linearization.no-common-exposure</name>
     <message>
         <source>the cameras have no exposure time in common</source>
         <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
@@ -1950,7 +1950,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.set-them-ranges-exposure-times</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
         <source>set them to ranges of exposure times that overlap</source>
         <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
@@ -5039,7 +5039,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>report.report-cannot-written</name>
+    <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>der Bericht kann nicht geschrieben werden</translation>
@@ -5074,7 +5074,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-removed</name>
+    <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>die Datei kann nicht entfernt werden ({})</translation>
@@ -5088,7 +5088,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>show.choose-another-folder-log</name>
+    <name>show.choose-another-log-folder</name>
     <message>
         <source>choose another folder with --log</source>
         <translation>wählen Sie mit --log einen anderen Ordner</translation>
@@ -5097,40 +5097,40 @@ Projektor %2</translation>
 <context>
     <name>show.engine-lost-device</name>
     <message>
-        <source>the engine lost its device</source>
+        <source>the engine lost its graphics card</source>
         <translation>die Engine hat ihr Gerät verloren</translation>
     </message>
 </context>
 <context>
-    <name>show.log-cannot-written</name>
+    <name>show.cannot-write-log</name>
     <message>
         <source>the log cannot be written ({})</source>
         <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-asleep-not-wake</name>
+    <name>show.screen-asleep</name>
     <message>
         <source>the projector&apos;s screen is asleep and does not wake</source>
         <translation>der Bildschirm des Projektors schläft und lässt sich nicht wecken</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-pixels-now-calibrated</name>
+    <name>show.screen-size-changed</name>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>der Bildschirm des Projektors hat jetzt {} Pixel, kalibriert wurden {}</translation>
     </message>
 </context>
 <context>
-    <name>show.service-cannot-switched</name>
+    <name>show.cannot-enable-service</name>
     <message>
         <source>the service cannot be switched on ({})</source>
         <translation>der Dienst lässt sich nicht einschalten ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.set-resolution-back-desktop-settings</name>
+    <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
         <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
@@ -5144,9 +5144,9 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>show.switch-saving-energy-screen-saver</name>
+    <name>show.switch-off-power-saving</name>
     <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>schalten Sie seinen Energiesparmodus und den Bildschirmschoner in den Einstellungen des Desktops aus, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -5165,7 +5165,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.black-full-light</name>
+    <name>stage.black-and-full-light</name>
     <message>
         <source>black and full light</source>
         <translation>Schwarz und Volllicht</translation>
@@ -5193,7 +5193,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.checking-projector-camera</name>
+    <name>stage.checking-projector-and-camera</name>
     <message>
         <source>Checking projector and camera</source>
         <translation>Prüfung von Projektor und Kamera</translation>
@@ -5207,7 +5207,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.clusters-held-size</name>
+    <name>stage.capped-clusters</name>
     <message>
         <source>Clusters held to a size</source>
         <translation>Cluster mit begrenzter Größe</translation>
@@ -5256,7 +5256,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.estimating-response-colours</name>
+    <name>stage.estimating-response-and-colours</name>
     <message>
         <source>Estimating response and colours</source>
         <translation>Schätzung von Kennlinie und Farben</translation>
@@ -5298,7 +5298,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.fitting-spread-light</name>
+    <name>stage.fitting-light-spread</name>
     <message>
         <source>Fitting the spread of light</source>
         <translation>Anpassung der Lichtstreuung</translation>
@@ -5312,7 +5312,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.holding-clusters-size</name>
+    <name>stage.capping-clusters</name>
     <message>
         <source>Holding clusters to a size</source>
         <translation>Begrenzung der Clustergröße</translation>
@@ -5379,14 +5379,14 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-projector-picture</name>
+    <name>stage.finding-projector-picture</name>
     <message>
         <source>Looking for the projector&apos;s picture</source>
         <translation>Suche nach dem Projektorbild</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-shadows</name>
+    <name>stage.finding-shadows</name>
     <message>
         <source>Looking for shadows</source>
         <translation>Suche nach Schatten</translation>
@@ -5414,7 +5414,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>
@@ -5572,7 +5572,7 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.separating-direct-indirect-light</name>
+    <name>stage.separating-direct-and-indirect-light</name>
     <message>
         <source>Separating direct and indirect light</source>
         <translation>Trennung von direktem und indirektem Licht</translation>
@@ -5623,7 +5623,7 @@ Projektor %2</translation>
 <context>
     <name>stage.windows</name>
     <message>
-        <source>Windows</source>
+        <source>Computing the windows of the inverse</source>
         <translation>Fenster</translation>
     </message>
 </context>
@@ -5656,14 +5656,14 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-folder-you-may-write</name>
+    <name>view.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
     </message>
 </context>
 <context>
-    <name>view.picture-could-not-written</name>
+    <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>das Bild konnte nicht geschrieben werden</translation>

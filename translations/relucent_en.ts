@@ -14,22 +14,22 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
-            <numerusform>A picture is out {} frame after it is sent: {} ms are waited for.</numerusform>
-            <numerusform>A picture is out {} frames after it is sent: {} ms are waited for.</numerusform>
+            <numerusform>A picture appears {} frame after it is sent: {} ms are waited for.</numerusform>
+            <numerusform>A picture appears {} frames after it is sent: {} ms are waited for.</numerusform>
         </translation>
     </message>
 </context>
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
-            <numerusform>Pictures come late, by {} photograph: the latency has to be measured and waited for.</numerusform>
-            <numerusform>Pictures come late, by {} photographs: the latency has to be measured and waited for.</numerusform>
+            <numerusform>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</numerusform>
+            <numerusform>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</numerusform>
         </translation>
     </message>
 </context>
@@ -240,7 +240,7 @@
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>

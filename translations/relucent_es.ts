@@ -250,7 +250,7 @@
 <context>
     <name>acquisition.light-drifted</name>
     <message>
-        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <source>The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time</source>
         <translation>la luz cambió un {} % entre la primera y la última fotografía; se ha tenido en cuenta, pero deje que el proyector se caliente antes de la próxima vez</translation>
     </message>
 </context>
@@ -264,7 +264,7 @@
 <context>
     <name>acquisition.pixels-flagged</name>
     <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó; estos píxeles quedan fuera de la compensación</translation>
     </message>
 </context>
@@ -327,7 +327,7 @@
 <context>
     <name>alarm.projector-shows-nothing</name>
     <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>el proyector no muestra nada, pero se sigue viendo la luz de la propia sala</translation>
     </message>
 </context>
@@ -341,7 +341,7 @@
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
         <translation>déjela como estaba, mantenga cerradas puertas y cortinas, e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -362,7 +362,7 @@
 <context>
     <name>alarm.safe-before-check</name>
     <message>
-        <source>every photograph up to the check before is safe</source>
+        <source>every photograph up to the previous check is safe</source>
         <translation>todas las fotografías hasta la comprobación anterior están a salvo</translation>
     </message>
 </context>
@@ -404,7 +404,7 @@
 <context>
     <name>alarm.view-changed</name>
     <message>
-        <source>{} % of the view of camera {} look different than before</source>
+        <source>{} % of the view of camera {} look different from before</source>
         <translation>el {} % de la vista de la cámara {} se ve distinto que antes</translation>
     </message>
 </context>
@@ -423,14 +423,14 @@
     </message>
 </context>
 <context>
-    <name>calibration.calibration-manifest-damaged</name>
+    <name>calibration.manifest-damaged</name>
     <message>
         <source>the calibration&apos;s manifest is damaged</source>
         <translation>el manifiesto de la calibración está dañado</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-look-into-folder</name>
+    <name>calibration.cannot-list-folder</name>
     <message>
         <source>cannot look into the folder ({})</source>
         <translation>no se puede ver el contenido de la carpeta ({})</translation>
@@ -444,77 +444,77 @@
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-go</name>
+    <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
         <translation>compruebe que se puede escribir en la carpeta y continúe</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-try</name>
+    <name>calibration.allow-writing-then-retry</name>
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>compruebe que se puede escribir en la carpeta e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-path-you-may-read</name>
+    <name>calibration.check-path-and-permission</name>
     <message>
         <source>check the path and that you may read it</source>
         <translation>revise la ruta y compruebe que tiene permiso de lectura</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-you-may-read-choose</name>
+    <name>calibration.check-permission-or-name</name>
     <message>
         <source>check that you may read it, or choose another name</source>
         <translation>compruebe que tiene permiso de lectura o elija otro nombre</translation>
     </message>
 </context>
 <context>
-    <name>calibration.choose-another-calibration-copy-again</name>
+    <name>calibration.choose-another-or-copy-again</name>
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>elija otra calibración o vuelva a copiarla desde donde se midió</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-bytes-instead</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
         <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-missing</name>
+    <name>calibration.result-file-missing</name>
     <message>
         <source>a file of the calibration&apos;s {} is missing</source>
         <translation>falta un archivo de la calibración ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.free-some-space-there-check</name>
+    <name>disk.free-space-or-check-disk</name>
     <message>
         <source>free some space there or check the disk, then try again</source>
         <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>calibration.no-calibration-relucent</name>
+    <name>calibration.not-a-calibration</name>
     <message>
-        <source>this is no calibration of Relucent</source>
+        <source>this is not a calibration of Relucent</source>
         <translation>esto no es una calibración de Relucent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-moved</name>
+    <name>calibration.cannot-move-photograph</name>
     <message>
         <source>a photograph cannot be moved ({})</source>
         <translation>no se puede mover una fotografía ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-removed</name>
+    <name>calibration.cannot-remove-photograph</name>
     <message>
         <source>a photograph cannot be removed ({})</source>
         <translation>no se puede eliminar una fotografía ({})</translation>
@@ -551,14 +551,14 @@
 <context>
     <name>check.light-unsteady</name>
     <message>
-        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.</source>
         <translation>La luz cambia un {} % entre exposiciones de fotogramas enteros: deje que la lámpara se caliente y apague el brillo dinámico y las lámparas de la sala.</translation>
     </message>
 </context>
 <context>
     <name>check.no-brief-exposure</name>
     <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.</source>
         <translation>La cámara no puede exponer menos de un fotograma, o entonces ve demasiado poco: no se puede detectar el parpadeo dentro de un fotograma.</translation>
     </message>
 </context>
@@ -572,8 +572,8 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
             <numerusform>Una imagen aparece {} fotograma después de enviarse: se esperan {} ms.</numerusform>
             <numerusform>Una imagen aparece {} fotogramas después de enviarse: se esperan {} ms.</numerusform>
@@ -583,8 +583,8 @@
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
             <numerusform>Las imágenes llegan {} fotografía tarde: hay que medir la latencia y esperarla.</numerusform>
             <numerusform>Las imágenes llegan {} fotografías tarde: hay que medir la latencia y esperarla.</numerusform>
@@ -627,37 +627,37 @@
     </message>
 </context>
 <context>
-    <name>content.capture-device-gives-no-picture</name>
+    <name>content.nothing-captured</name>
     <message>
         <source>the capture device gives no picture</source>
         <translation>el dispositivo de captura no da ninguna imagen</translation>
     </message>
 </context>
 <context>
-    <name>content.live-picture-screen-needs-x</name>
+    <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
         <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
     </message>
 </context>
 <context>
-    <name>content.log-desktop-x-xorg-log</name>
+    <name>content.log-in-to-xorg</name>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
         <translation>inicie sesión en un escritorio con X («Xorg» en el inicio de sesión) o reproduzca archivos</translation>
     </message>
 </context>
 <context>
-    <name>content.plug-close-other-programs-use</name>
+    <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
         <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>device.aim-projection-take-cap-off</name>
+    <name>device.aim-uncover-and-expose-longer</name>
     <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>apúntela a la proyección, quite la tapa del objetivo y use una exposición más larga</translation>
     </message>
 </context>
@@ -669,42 +669,42 @@
     </message>
 </context>
 <context>
-    <name>device.ask-less</name>
+    <name>device.ask-for-fewer-pixels</name>
     <message>
         <source>ask for that or less</source>
         <translation>pida ese tamaño o uno menor</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-gives</name>
+    <name>device.ask-for-given-size</name>
     <message>
         <source>ask for the size that it gives</source>
         <translation>pida el tamaño que entrega</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-v4l2-ctl-list</name>
+    <name>device.ask-for-listed-size</name>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
         <translation>pida un tamaño que admita: v4l2-ctl --list-formats-ext los enumera</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-gain-keeps</name>
+    <name>device.gain-refused</name>
     <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
+        <source>was asked for a gain of {} but uses {}</source>
         <translation>se le pidió una ganancia de {} y se queda en {}</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-iso-keeps-iso</name>
+    <name>device.iso-refused</name>
     <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <source>was asked for ISO {} but uses ISO {}</source>
         <translation>se le pidió ISO {} y se queda en ISO {}</translation>
     </message>
 </context>
 <context>
-    <name>device.attempts-photograph-failed</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
         <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
@@ -753,28 +753,28 @@
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-dslr</name>
+    <name>device.built-without-gphoto</name>
     <message>
         <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
         <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-genicam</name>
+    <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
         <translation>esta compilación de Relucent no admite cámaras GenICam</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-expose-s-keeps</name>
+    <name>device.exposure-refused</name>
     <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
         <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-photograph-took-none</name>
+    <name>device.trial-photograph-failed</name>
     <message>
         <source>the camera was asked for a photograph and took none</source>
         <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
@@ -788,37 +788,37 @@
     </message>
 </context>
 <context>
-    <name>device.camera-been-gone-s</name>
+    <name>device.camera-not-back</name>
     <message>
         <source>the camera has been gone for {} s: {}</source>
         <translation>la cámara lleva {} s sin responder: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-came-back-pixels-instead</name>
+    <name>device.reconnected-camera-size-differs</name>
     <message>
         <source>the camera came back with {} pixels instead of {}</source>
         <translation>la cámara ha vuelto con {} píxeles en lugar de {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-can</name>
+    <name>device.choose-gain-in-range</name>
     <message>
-        <source>the camera can do {} to {}</source>
+        <source>choose a gain from {} to {}</source>
         <translation>la cámara admite de {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-claims-exposures-s</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
         <translation>la cámara declara exposiciones de {} a {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-colour-filter-no-bayer</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
         <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
     </message>
 </context>
@@ -832,21 +832,21 @@
 <context>
     <name>device.camera-command-lacks</name>
     <message>
-        <source>the camera&apos;s command does not say {}</source>
+        <source>the camera&apos;s command does not contain {}</source>
         <translation>en la orden de la cámara falta {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-forgotten-pixel-format-set</name>
+    <name>device.pixel-format-lost</name>
     <message>
         <source>the camera has forgotten the pixel format that it was set to</source>
         <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-found-no-focus-took</name>
+    <name>device.no-focus</name>
     <message>
-        <source>the camera found no focus and took no photograph ({})</source>
+        <source>the camera could not focus and took no photograph ({})</source>
         <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
     </message>
 </context>
@@ -858,9 +858,9 @@
     </message>
 </context>
 <context>
-    <name>device.camera-keeps-s-whatever-exposure</name>
+    <name>device.exposure-time-fixed</name>
     <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
         <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
     </message>
 </context>
@@ -872,21 +872,21 @@
     </message>
 </context>
 <context>
-    <name>device.camera-no-pixel-format-can</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
         <source>the camera has no pixel format {} that can be read</source>
         <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-not-see-what-shown</name>
+    <name>device.screen-not-seen</name>
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la cámara no ve lo que se muestra en {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-refused-what-asked</name>
+    <name>device.request-refused</name>
     <message>
         <source>the camera refused what it was asked for ({})</source>
         <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
@@ -900,14 +900,14 @@
     </message>
 </context>
 <context>
-    <name>device.camera-sees-no-difference-between</name>
+    <name>device.no-contrast</name>
     <message>
         <source>the camera sees no difference between white and black</source>
         <translation>la cámara no ve diferencia entre blanco y negro</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-sees-not</name>
+    <name>device.other-screen-seen</name>
     <message>
         <source>the camera sees {}, not {}</source>
         <translation>la cámara ve {} y no {}</translation>
@@ -928,7 +928,7 @@
     </message>
 </context>
 <context>
-    <name>device.cameras-model-plugged</name>
+    <name>device.several-cameras-of-model</name>
     <message>
         <source>{} cameras of this model are plugged in</source>
         <translation>hay {} cámaras de este modelo conectadas</translation>
@@ -949,7 +949,7 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-switched-off</name>
+    <name>device.automatic-function-stays</name>
     <message>
         <source>{} cannot be switched off</source>
         <translation>no se puede desactivar {}</translation>
@@ -963,119 +963,119 @@
     </message>
 </context>
 <context>
-    <name>device.change-empty-memory-card</name>
+    <name>device.change-or-empty-card</name>
     <message>
         <source>change or empty the memory card</source>
         <translation>cambie o vacíe la tarjeta de memoria</translation>
     </message>
 </context>
 <context>
-    <name>device.charge-change-battery-best-use</name>
+    <name>device.charge-or-change-battery</name>
     <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <source>charge or change the battery, or better, use a mains adapter, and switch the camera on again</source>
         <translation>cargue o cambie la batería (mejor, use un adaptador de corriente) y vuelva a encender la cámara</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power</name>
+    <name>device.check-cable-and-power</name>
     <message>
         <source>check its cable and its power</source>
         <translation>revise su cable y su alimentación</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address-relucent</name>
+    <name>device.check-cable-power-address</name>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
         <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-saving-energy</name>
+    <name>device.check-cable-and-power-saving</name>
     <message>
-        <source>check its cable, and switch its saving of energy off</source>
+        <source>check its cable, and switch off its power saving</source>
         <translation>revise su cable y desactive el ahorro de energía</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-switch-automatic</name>
+    <name>device.switch-on-and-keep-awake</name>
     <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
         <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-cable-network-card</name>
+    <name>device.check-cable-network-and-programs</name>
     <message>
         <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
         <translation>revise el cable y la tarjeta de red de la cámara, y que ningún otro programa la use</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-view-steady-exposure</name>
+    <name>device.steady-view-and-expose-briefly</name>
     <message>
         <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
         <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
     </message>
 </context>
 <context>
-    <name>device.check-device-allow-command-more</name>
+    <name>device.allow-command-more-time</name>
     <message>
         <source>check the device, or allow the command more time: {}</source>
         <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.check-projector-shows-output-aim</name>
+    <name>device.check-projector-and-aim</name>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>compruebe que el proyector está encendido y muestra esa salida, apunte la cámara hacia él y quite la tapa del objetivo; o elija otra pantalla</translation>
     </message>
 </context>
 <context>
-    <name>device.choose-aim-camera</name>
+    <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
         <translation>elija {} o apunte la cámara a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-s-but-keeps</name>
+    <name>device.shortest-exposure-understated</name>
     <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
+        <source>claims exposures from {} s but does not go below {} s</source>
         <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-up-s-but</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
+        <source>claims exposures up to {} s but reaches only {} s</source>
         <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-playback-end-live</name>
+    <name>device.close-menus-and-live-view</name>
     <message>
-        <source>close its menus and its playback, and end its live picture</source>
+        <source>close its menus and its playback, and leave live view</source>
         <translation>cierre sus menús y su reproducción, y termine la vista en directo</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-switch-off</name>
+    <name>device.close-menus-and-restart</name>
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>cierre sus menús, apáguela y vuelva a encenderla</translation>
     </message>
 </context>
 <context>
-    <name>device.close-other-programs-try-again</name>
+    <name>device.close-other-programs</name>
     <message>
         <source>close other programs and try again</source>
         <translation>cierre otros programas e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>device.command-cannot-started</name>
+    <name>device.cannot-start-command</name>
     <message>
         <source>the command cannot be started ({})</source>
         <translation>no se puede iniciar el comando ({})</translation>
@@ -1138,28 +1138,28 @@
     </message>
 </context>
 <context>
-    <name>device.connect-camera-measurement-begun</name>
+    <name>device.reconnect-same-camera</name>
     <message>
         <source>connect the camera that the measurement was begun with</source>
         <translation>conecte la cámara con la que se empezó la medición</translation>
     </message>
 </context>
 <context>
-    <name>device.copy-again-take-photograph-again</name>
+    <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
         <translation>cópielo de nuevo o vuelva a tomar la fotografía; una cámara más reciente que esta versión de LibRaw necesita archivos DNG</translation>
     </message>
 </context>
 <context>
-    <name>device.delivers-8-bits-dark-places</name>
+    <name>device.delivers-8-bits</name>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
         <translation>entrega 8 bits: las zonas oscuras quedan inciertas</translation>
     </message>
 </context>
 <context>
-    <name>device.develop-files-linearly-16-bit</name>
+    <name>device.develop-linearly</name>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
         <translation>revele los archivos de forma lineal, como TIFF de 16 bits, o use otra cámara</translation>
@@ -1180,21 +1180,21 @@
     </message>
 </context>
 <context>
-    <name>device.free-some-space-record-elsewhere</name>
+    <name>device.free-space-or-record-elsewhere</name>
     <message>
         <source>free some space, or record elsewhere</source>
         <translation>libere espacio o grabe en otro lugar</translation>
     </message>
 </context>
 <context>
-    <name>device.free-some-space-there-let</name>
+    <name>device.free-space-or-set-tmpdir</name>
     <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <source>free some space there, or set TMPDIR to a folder that you may write to</source>
         <translation>libere espacio allí o indique en TMPDIR una carpeta en la que pueda escribir</translation>
     </message>
 </context>
 <context>
-    <name>device.gain-wanted</name>
+    <name>device.gain-out-of-range</name>
     <message>
         <source>a gain of {} is wanted</source>
         <translation>se pide una ganancia de {}</translation>
@@ -1217,33 +1217,33 @@
 <context>
     <name>device.held-by-desktop</name>
     <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <source>another program is using the camera, usually the desktop, which mounts it like a memory stick</source>
         <translation>otro programa está usando la cámara, normalmente el escritorio, que la monta como una memoria USB</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-camera</name>
+    <name>device.camera-size-out-of-range</name>
     <message>
         <source>a camera of {} pixels is impossible: each side is {} to {}</source>
         <translation>una cámara de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-projector</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
         <source>a projector of {} pixels is impossible: each side is {} to {}</source>
         <translation>un proyector de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.install-aravis-libaravis-dev-build</name>
+    <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
         <translation>instale Aravis (libaravis-dev) y vuelva a compilar, o use otro tipo de cámara</translation>
     </message>
 </context>
 <context>
-    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <name>device.install-libgphoto2</name>
     <message>
         <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
         <translation>instale libgphoto2 y LibRaw (libgphoto2-dev, libraw-dev) y vuelva a compilar, o use un comando</translation>
@@ -1257,28 +1257,28 @@
     </message>
 </context>
 <context>
-    <name>device.it-has</name>
+    <name>device.choose-offered-iso</name>
     <message>
-        <source>it has {}</source>
+        <source>choose one of those that it has: {}</source>
         <translation>admite {}</translation>
     </message>
 </context>
 <context>
-    <name>device.let-command-write-size-begin</name>
+    <name>device.write-announced-size</name>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
         <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
     </message>
 </context>
 <context>
-    <name>device.let-desktop-go-gio-mount</name>
+    <name>device.release-from-desktop</name>
     <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
         <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
     </message>
 </context>
 <context>
-    <name>device.let-write-photograph-output</name>
+    <name>device.write-photograph-to-output</name>
     <message>
         <source>let it write the photograph to {output}: {}</source>
         <translation>haga que escriba la fotografía en {output}: {}</translation>
@@ -1308,35 +1308,35 @@
 <context>
     <name>device.mode-dial-not-manual</name>
     <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <source>the camera&apos;s mode dial is set to {}, where the camera chooses exposures itself</source>
         <translation>el dial de modos de la cámara está en {}, donde la cámara elige ella misma las exposiciones</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-gphoto2</name>
+    <name>device.name-connected-camera</name>
     <message>
         <source>name that one: gphoto2:{}</source>
         <translation>indique esa: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
         <translation>indique una por su puerto: gphoto2:{} o gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.new-picture-not-fully-there</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>a new picture is not fully there after {} frames</source>
+        <source>a new picture has not fully appeared after {} frames</source>
         <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
     </message>
 </context>
 <context>
-    <name>device.no-camera-name-plugged-but</name>
+    <name>device.only-other-camera-connected</name>
     <message>
-        <source>no camera of this name is plugged in, but {}</source>
+        <source>no camera of this name is plugged in, but {} is</source>
         <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
     </message>
 </context>
@@ -1348,7 +1348,7 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came-within</name>
+    <name>device.photograph-timed-out</name>
     <message>
         <source>no photograph came within {} s</source>
         <translation>no ha llegado ninguna fotografía en {} s</translation>
@@ -1369,28 +1369,28 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger-each-photograph</name>
+    <name>device.no-software-trigger</name>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
         <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
     </message>
 </context>
 <context>
-    <name>device.no-such-video-device-plugged</name>
+    <name>device.video-device-missing</name>
     <message>
         <source>no such video device is plugged in</source>
         <translation>no está conectado ese dispositivo de vídeo</translation>
     </message>
 </context>
 <context>
-    <name>device.none-camera-pixel-formats-can</name>
+    <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
         <translation>no se puede leer ninguno de los formatos de píxel de la cámara</translation>
     </message>
 </context>
 <context>
-    <name>device.not-say-when-pictures-captured</name>
+    <name>device.no-capture-times</name>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
         <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
@@ -1404,7 +1404,7 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-asked-none-came</name>
+    <name>device.no-photograph-came</name>
     <message>
         <source>a photograph was asked for and none came</source>
         <translation>se pidió una fotografía y no llegó ninguna</translation>
@@ -1425,51 +1425,51 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-agreed</name>
+    <name>device.photograph-format-changed</name>
     <message>
         <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
         <translation>la fotografía tiene {} píxeles en formato {} cuando se habían acordado {} en formato {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-announced</name>
+    <name>device.photograph-size-unexpected</name>
     <message>
         <source>the photograph has {} pixels where {} were announced</source>
         <translation>la fotografía tiene {} píxeles cuando se habían anunciado {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-came-bytes</name>
+    <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
         <translation>una fotografía de {} píxeles en formato {} ha llegado con {} de {} bytes</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera</name>
+    <name>device.photograph-exceeds-sensor</name>
     <message>
         <source>{} pixels are wanted and the camera has {}</source>
         <translation>se piden {} píxeles y la cámara tiene {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera-gives</name>
+    <name>device.photograph-size-refused</name>
     <message>
         <source>{} pixels are wanted and the camera gives {}</source>
         <translation>se piden {} píxeles y la cámara da {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-video-device-gives</name>
+    <name>device.video-size-refused</name>
     <message>
         <source>{} pixels are wanted and the video device gives {}</source>
         <translation>se piden {} píxeles y el dispositivo de vídeo da {}</translation>
     </message>
 </context>
 <context>
-    <name>device.press-shutter-button-half-way</name>
+    <name>device.wake-camera</name>
     <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
         <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
     </message>
 </context>
@@ -1483,19 +1483,19 @@
 <context>
     <name>device.projector-command-lacks</name>
     <message>
-        <source>the projector&apos;s command does not say {}</source>
+        <source>the projector&apos;s command does not contain {}</source>
         <translation>en la orden del proyector falta {}</translation>
     </message>
 </context>
 <context>
-    <name>device.projector-screen-loses-picture-again</name>
+    <name>device.screen-loses-picture</name>
     <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
+        <source>the projector&apos;s screen keeps losing its picture</source>
         <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
     </message>
 </context>
 <context>
-    <name>device.raw-file-cannot-read</name>
+    <name>device.raw-file-unreadable</name>
     <message>
         <source>the raw file cannot be read ({})</source>
         <translation>no se puede leer el archivo RAW ({})</translation>
@@ -1516,42 +1516,42 @@
     </message>
 </context>
 <context>
-    <name>device.raw-file-not-hold-sensor</name>
+    <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
         <translation>el archivo RAW no contiene los valores propios del sensor</translation>
     </message>
 </context>
 <context>
-    <name>device.recording-cannot-written</name>
+    <name>device.cannot-write-recording</name>
     <message>
         <source>the recording cannot be written ({})</source>
         <translation>no se puede escribir la grabación ({})</translation>
     </message>
 </context>
 <context>
-    <name>device.remove-hand-try-again</name>
+    <name>device.remove-file-by-hand</name>
     <message>
         <source>remove it by hand, then try again</source>
         <translation>elimínelo a mano e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>device.run-terminal-find-out-why</name>
+    <name>device.run-command-in-terminal</name>
     <message>
         <source>run it in a terminal to find out why: {}</source>
         <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.sees-no-colours-brightness-can</name>
+    <name>device.sees-no-colours</name>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
         <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
     </message>
 </context>
 <context>
-    <name>device.set-exposure-mode-timed-manual</name>
+    <name>device.set-manual-exposure-mode</name>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
         <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
@@ -1565,70 +1565,70 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-must-above-zero</name>
+    <name>device.exposure-range-invalid</name>
     <message>
         <source>the shortest exposure must be above zero and no longer than the longest</source>
         <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-frame-rate</name>
+    <name>device.lift-exposure-limits</name>
     <message>
         <source>switch its automatic exposure and its frame rate limit off</source>
         <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-off-camera</name>
+    <name>device.switch-off-automatic-exposure</name>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
         <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-full-size-raw</name>
+    <name>device.switch-to-full-size-raw</name>
     <message>
         <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
         <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-off-choose-another</name>
+    <name>device.restart-or-change-pixel-format</name>
     <message>
         <source>switch the camera off and on, or choose another of its pixel formats</source>
         <translation>apague y vuelva a encender la cámara o elija otro de sus formatos de píxel</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus</name>
+    <name>device.switch-to-manual-focus</name>
     <message>
         <source>switch its lens to manual focus</source>
         <translation>ponga su objetivo en enfoque manual</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus-close</name>
+    <name>device.take-photograph-by-hand</name>
     <message>
         <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
         <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-camera-maker-program</name>
+    <name>device.switch-off-with-makers-program</name>
     <message>
         <source>switch it off with the camera maker&apos;s program, or use another camera</source>
         <translation>desactívelo con el programa del fabricante de la cámara o use otra cámara</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-load-default-settings</name>
+    <name>device.restart-with-default-settings</name>
     <message>
         <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
         <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-v4l2-ctl-list</name>
+    <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>desactívelo con v4l2-ctl (--list-ctrls enumera los controles disponibles) o use otra cámara</translation>
@@ -1663,21 +1663,21 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m-or-another-camera</name>
+    <name>device.turn-dial-or-change-camera</name>
     <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <source>turn its mode dial to M; a camera without manual exposure cannot be used</source>
         <translation>gire su dial de modos a M; no se puede usar una cámara que no lo tenga</translation>
     </message>
 </context>
 <context>
-    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
         <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
     </message>
 </context>
 <context>
-    <name>device.use-camera-manual-exposure</name>
+    <name>device.use-manual-exposure-camera</name>
     <message>
         <source>use a camera with manual exposure</source>
         <translation>use una cámara con exposición manual</translation>
@@ -1691,35 +1691,35 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-been-unplugged</name>
+    <name>device.video-device-unplugged</name>
     <message>
         <source>the video device has been unplugged</source>
         <translation>el dispositivo de vídeo se ha desconectado</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-again</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
         <source>the video device cannot be opened again</source>
         <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-another</name>
+    <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>no se puede abrir el dispositivo de vídeo: quizá lo esté usando otro programa</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-no-exposure-can</name>
+    <name>device.video-exposure-not-settable</name>
     <message>
         <source>the video device has no exposure that can be set</source>
         <translation>el dispositivo de vídeo no tiene una exposición ajustable</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-sends-no-pictures</name>
+    <name>device.no-video-pictures</name>
     <message>
         <source>the video device sends no pictures</source>
         <translation>el dispositivo de vídeo no envía imágenes</translation>
@@ -1789,7 +1789,7 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-cannot-used</name>
+    <name>engine.graphics-card-unusable</name>
     <message>
         <source>the graphics card cannot be used</source>
         <translation>no se puede usar la tarjeta gráfica</translation>
@@ -1803,16 +1803,16 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-no-mb-memory</name>
+    <name>engine.graphics-memory-exhausted</name>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
         <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-reaches-mb-once</name>
+    <name>engine.graphics-buffer-too-large</name>
     <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <source>the graphics card can hold {} MB in one piece, but {} MB are needed</source>
         <translation>la tarjeta gráfica alcanza {} MB a la vez y se necesitan {} MB</translation>
     </message>
 </context>
@@ -1831,21 +1831,21 @@
     </message>
 </context>
 <context>
-    <name>engine.there-no-graphics-card-opengl</name>
+    <name>engine.no-graphics-card</name>
     <message>
         <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
         <translation>no hay ninguna tarjeta gráfica con OpenGL 4.3 y compute shaders</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-libegl-no-libopengl</name>
+    <name>engine.no-libegl-or-libopengl</name>
     <message>
         <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
         <translation>falta libEGL o libOpenGL, que abren tarjetas gráficas sin pantalla</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-opengl-4-3</name>
+    <name>engine.no-opengl</name>
     <message>
         <source>there is no OpenGL 4.3 with compute shaders</source>
         <translation>no hay OpenGL 4.3 con compute shaders</translation>
@@ -1882,7 +1882,7 @@
 <context>
     <name>import.patterns-black-and-white</name>
     <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <source>The patterns hold black and white only: the projector&apos;s response is assumed to be a gamma of 2.2</source>
         <translation>los patrones solo contienen blanco y negro: se supone que la respuesta del proyector es una potencia de 2,2</translation>
     </message>
 </context>
@@ -1908,7 +1908,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.cameras-no-exposure-time-common</name>
+    <name>linearization.no-common-exposure</name>
     <message>
         <source>the cameras have no exposure time in common</source>
         <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
@@ -1950,7 +1950,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.set-them-ranges-exposure-times</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
         <source>set them to ranges of exposure times that overlap</source>
         <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
@@ -5039,7 +5039,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>report.report-cannot-written</name>
+    <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>no se puede escribir el informe</translation>
@@ -5074,7 +5074,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-removed</name>
+    <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>no se puede eliminar ({})</translation>
@@ -5088,7 +5088,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>show.choose-another-folder-log</name>
+    <name>show.choose-another-log-folder</name>
     <message>
         <source>choose another folder with --log</source>
         <translation>elija otra carpeta con --log</translation>
@@ -5097,40 +5097,40 @@ proyector %2</translation>
 <context>
     <name>show.engine-lost-device</name>
     <message>
-        <source>the engine lost its device</source>
+        <source>the engine lost its graphics card</source>
         <translation>el motor ha perdido su dispositivo</translation>
     </message>
 </context>
 <context>
-    <name>show.log-cannot-written</name>
+    <name>show.cannot-write-log</name>
     <message>
         <source>the log cannot be written ({})</source>
         <translation>no se puede escribir el registro ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-asleep-not-wake</name>
+    <name>show.screen-asleep</name>
     <message>
         <source>the projector&apos;s screen is asleep and does not wake</source>
         <translation>la pantalla del proyector está en reposo y no se activa</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-pixels-now-calibrated</name>
+    <name>show.screen-size-changed</name>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>la pantalla del proyector tiene ahora {} píxeles y se calibraron {}</translation>
     </message>
 </context>
 <context>
-    <name>show.service-cannot-switched</name>
+    <name>show.cannot-enable-service</name>
     <message>
         <source>the service cannot be switched on ({})</source>
         <translation>no se puede activar el servicio ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.set-resolution-back-desktop-settings</name>
+    <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
         <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
@@ -5144,9 +5144,9 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>show.switch-saving-energy-screen-saver</name>
+    <name>show.switch-off-power-saving</name>
     <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>desactive su ahorro de energía y el salvapantallas en los ajustes del escritorio e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -5165,7 +5165,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.black-full-light</name>
+    <name>stage.black-and-full-light</name>
     <message>
         <source>black and full light</source>
         <translation>negro y luz plena</translation>
@@ -5193,7 +5193,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.checking-projector-camera</name>
+    <name>stage.checking-projector-and-camera</name>
     <message>
         <source>Checking projector and camera</source>
         <translation>Comprobando proyector y cámara</translation>
@@ -5207,7 +5207,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.clusters-held-size</name>
+    <name>stage.capped-clusters</name>
     <message>
         <source>Clusters held to a size</source>
         <translation>Clústeres de tamaño limitado</translation>
@@ -5256,7 +5256,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.estimating-response-colours</name>
+    <name>stage.estimating-response-and-colours</name>
     <message>
         <source>Estimating response and colours</source>
         <translation>Estimando respuesta y colores</translation>
@@ -5298,7 +5298,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.fitting-spread-light</name>
+    <name>stage.fitting-light-spread</name>
     <message>
         <source>Fitting the spread of light</source>
         <translation>Ajustando la dispersión de la luz</translation>
@@ -5312,7 +5312,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.holding-clusters-size</name>
+    <name>stage.capping-clusters</name>
     <message>
         <source>Holding clusters to a size</source>
         <translation>Limitando el tamaño de clústeres</translation>
@@ -5379,14 +5379,14 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-projector-picture</name>
+    <name>stage.finding-projector-picture</name>
     <message>
         <source>Looking for the projector&apos;s picture</source>
         <translation>Buscando la imagen del proyector</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-shadows</name>
+    <name>stage.finding-shadows</name>
     <message>
         <source>Looking for shadows</source>
         <translation>Buscando sombras</translation>
@@ -5414,7 +5414,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>
@@ -5572,7 +5572,7 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.separating-direct-indirect-light</name>
+    <name>stage.separating-direct-and-indirect-light</name>
     <message>
         <source>Separating direct and indirect light</source>
         <translation>Separando luz directa e indirecta</translation>
@@ -5623,7 +5623,7 @@ proyector %2</translation>
 <context>
     <name>stage.windows</name>
     <message>
-        <source>Windows</source>
+        <source>Computing the windows of the inverse</source>
         <translation>Ventanas</translation>
     </message>
 </context>
@@ -5656,14 +5656,14 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-folder-you-may-write</name>
+    <name>view.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
     </message>
 </context>
 <context>
-    <name>view.picture-could-not-written</name>
+    <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>no se ha podido escribir la imagen</translation>

@@ -250,7 +250,7 @@
 <context>
     <name>acquisition.light-drifted</name>
     <message>
-        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <source>The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time</source>
         <translation>la lumière a changé de {}&#x202f;% entre la première et la dernière photo&#x202f;; il en a été tenu compte, mais laissez le projecteur chauffer avant la prochaine fois</translation>
     </message>
 </context>
@@ -264,7 +264,7 @@
 <context>
     <name>acquisition.pixels-flagged</name>
     <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé&#x202f;; ces pixels sont exclus de la compensation</translation>
     </message>
 </context>
@@ -327,7 +327,7 @@
 <context>
     <name>alarm.projector-shows-nothing</name>
     <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>le projecteur n’affiche rien, seule la lumière de la salle est encore visible</translation>
     </message>
 </context>
@@ -341,7 +341,7 @@
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
         <translation>remettez-la comme avant, gardez portes et rideaux fermés, puis réessayez</translation>
     </message>
 </context>
@@ -362,7 +362,7 @@
 <context>
     <name>alarm.safe-before-check</name>
     <message>
-        <source>every photograph up to the check before is safe</source>
+        <source>every photograph up to the previous check is safe</source>
         <translation>toutes les photos prises jusqu’à la vérification précédente sont en sécurité</translation>
     </message>
 </context>
@@ -404,7 +404,7 @@
 <context>
     <name>alarm.view-changed</name>
     <message>
-        <source>{} % of the view of camera {} look different than before</source>
+        <source>{} % of the view of camera {} look different from before</source>
         <translation>{}&#x202f;% du champ de la caméra {} ont changé d’aspect</translation>
     </message>
 </context>
@@ -423,14 +423,14 @@
     </message>
 </context>
 <context>
-    <name>calibration.calibration-manifest-damaged</name>
+    <name>calibration.manifest-damaged</name>
     <message>
         <source>the calibration&apos;s manifest is damaged</source>
         <translation>le manifeste de la calibration est endommagé</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-look-into-folder</name>
+    <name>calibration.cannot-list-folder</name>
     <message>
         <source>cannot look into the folder ({})</source>
         <translation>impossible de lire le contenu du dossier ({})</translation>
@@ -444,77 +444,77 @@
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-go</name>
+    <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
         <translation>vérifiez que l’écriture dans le dossier est autorisée, puis continuez</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-try</name>
+    <name>calibration.allow-writing-then-retry</name>
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>vérifiez que l’écriture dans le dossier est autorisée, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-path-you-may-read</name>
+    <name>calibration.check-path-and-permission</name>
     <message>
         <source>check the path and that you may read it</source>
         <translation>vérifiez le chemin et que vous avez le droit de le lire</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-you-may-read-choose</name>
+    <name>calibration.check-permission-or-name</name>
     <message>
         <source>check that you may read it, or choose another name</source>
         <translation>vérifiez que vous avez le droit de le lire, ou choisissez un autre nom</translation>
     </message>
 </context>
 <context>
-    <name>calibration.choose-another-calibration-copy-again</name>
+    <name>calibration.choose-another-or-copy-again</name>
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>choisissez une autre calibration, ou recopiez-la depuis l’endroit où elle a été mesurée</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-bytes-instead</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
         <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-missing</name>
+    <name>calibration.result-file-missing</name>
     <message>
         <source>a file of the calibration&apos;s {} is missing</source>
         <translation>un fichier de la calibration ({}) est absent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.free-some-space-there-check</name>
+    <name>disk.free-space-or-check-disk</name>
     <message>
         <source>free some space there or check the disk, then try again</source>
         <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>calibration.no-calibration-relucent</name>
+    <name>calibration.not-a-calibration</name>
     <message>
-        <source>this is no calibration of Relucent</source>
+        <source>this is not a calibration of Relucent</source>
         <translation>ce n’est pas une calibration de Relucent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-moved</name>
+    <name>calibration.cannot-move-photograph</name>
     <message>
         <source>a photograph cannot be moved ({})</source>
         <translation>une photo ne peut pas être déplacée ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-removed</name>
+    <name>calibration.cannot-remove-photograph</name>
     <message>
         <source>a photograph cannot be removed ({})</source>
         <translation>une photo ne peut pas être supprimée ({})</translation>
@@ -551,14 +551,14 @@
 <context>
     <name>check.light-unsteady</name>
     <message>
-        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.</source>
         <translation>La lumière varie de {} % entre des poses de trames entières : laissez chauffer la lampe, désactivez la luminosité dynamique et éteignez les lampes de la salle.</translation>
     </message>
 </context>
 <context>
     <name>check.no-brief-exposure</name>
     <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.</source>
         <translation>La caméra ne peut pas exposer moins d’une trame, ou voit alors trop peu : un scintillement au sein d’une trame ne peut être décelé.</translation>
     </message>
 </context>
@@ -572,8 +572,8 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
             <numerusform>Une image apparaît {} trame après l’envoi : attente de {} ms.</numerusform>
             <numerusform>Une image apparaît {} trames après l’envoi : attente de {} ms.</numerusform>
@@ -583,8 +583,8 @@
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
             <numerusform>Les images arrivent {} photo trop tard : la latence doit être mesurée et attendue.</numerusform>
             <numerusform>Les images arrivent {} photos trop tard : la latence doit être mesurée et attendue.</numerusform>
@@ -627,37 +627,37 @@
     </message>
 </context>
 <context>
-    <name>content.capture-device-gives-no-picture</name>
+    <name>content.nothing-captured</name>
     <message>
         <source>the capture device gives no picture</source>
         <translation>le périphérique de capture ne fournit aucune image</translation>
     </message>
 </context>
 <context>
-    <name>content.live-picture-screen-needs-x</name>
+    <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
         <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
     </message>
 </context>
 <context>
-    <name>content.log-desktop-x-xorg-log</name>
+    <name>content.log-in-to-xorg</name>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
         <translation>ouvrez une session de bureau X («&#x202f;Xorg&#x202f;» à l’ouverture de session), ou diffusez des fichiers</translation>
     </message>
 </context>
 <context>
-    <name>content.plug-close-other-programs-use</name>
+    <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
         <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>device.aim-projection-take-cap-off</name>
+    <name>device.aim-uncover-and-expose-longer</name>
     <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>tournez-la vers la projection, retirez son bouchon d’objectif et allongez la pose</translation>
     </message>
 </context>
@@ -669,42 +669,42 @@
     </message>
 </context>
 <context>
-    <name>device.ask-less</name>
+    <name>device.ask-for-fewer-pixels</name>
     <message>
         <source>ask for that or less</source>
         <translation>n’en demandez pas plus</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-gives</name>
+    <name>device.ask-for-given-size</name>
     <message>
         <source>ask for the size that it gives</source>
         <translation>demandez la taille qu’elle fournit</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-v4l2-ctl-list</name>
+    <name>device.ask-for-listed-size</name>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
         <translation>demandez une taille qu’il propose&#x202f;: v4l2-ctl --list-formats-ext les affiche</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-gain-keeps</name>
+    <name>device.gain-refused</name>
     <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
+        <source>was asked for a gain of {} but uses {}</source>
         <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-iso-keeps-iso</name>
+    <name>device.iso-refused</name>
     <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <source>was asked for ISO {} but uses ISO {}</source>
         <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
     </message>
 </context>
 <context>
-    <name>device.attempts-photograph-failed</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
         <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
@@ -753,28 +753,28 @@
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-dslr</name>
+    <name>device.built-without-gphoto</name>
     <message>
         <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
         <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-genicam</name>
+    <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
         <translation>cette version compilée de Relucent ne gère pas les caméras GenICam</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-expose-s-keeps</name>
+    <name>device.exposure-refused</name>
     <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
         <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-photograph-took-none</name>
+    <name>device.trial-photograph-failed</name>
     <message>
         <source>the camera was asked for a photograph and took none</source>
         <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
@@ -788,37 +788,37 @@
     </message>
 </context>
 <context>
-    <name>device.camera-been-gone-s</name>
+    <name>device.camera-not-back</name>
     <message>
         <source>the camera has been gone for {} s: {}</source>
         <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-came-back-pixels-instead</name>
+    <name>device.reconnected-camera-size-differs</name>
     <message>
         <source>the camera came back with {} pixels instead of {}</source>
         <translation>la caméra est revenue avec {} pixels au lieu de {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-can</name>
+    <name>device.choose-gain-in-range</name>
     <message>
-        <source>the camera can do {} to {}</source>
+        <source>choose a gain from {} to {}</source>
         <translation>la caméra permet de {} à {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-claims-exposures-s</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
         <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-colour-filter-no-bayer</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
         <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
     </message>
 </context>
@@ -832,21 +832,21 @@
 <context>
     <name>device.camera-command-lacks</name>
     <message>
-        <source>the camera&apos;s command does not say {}</source>
+        <source>the camera&apos;s command does not contain {}</source>
         <translation>la commande de la caméra ne contient pas {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-forgotten-pixel-format-set</name>
+    <name>device.pixel-format-lost</name>
     <message>
         <source>the camera has forgotten the pixel format that it was set to</source>
         <translation>la caméra a oublié le format de pixel réglé</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-found-no-focus-took</name>
+    <name>device.no-focus</name>
     <message>
-        <source>the camera found no focus and took no photograph ({})</source>
+        <source>the camera could not focus and took no photograph ({})</source>
         <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
     </message>
 </context>
@@ -858,9 +858,9 @@
     </message>
 </context>
 <context>
-    <name>device.camera-keeps-s-whatever-exposure</name>
+    <name>device.exposure-time-fixed</name>
     <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
         <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
     </message>
 </context>
@@ -872,21 +872,21 @@
     </message>
 </context>
 <context>
-    <name>device.camera-no-pixel-format-can</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
         <source>the camera has no pixel format {} that can be read</source>
         <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-not-see-what-shown</name>
+    <name>device.screen-not-seen</name>
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-refused-what-asked</name>
+    <name>device.request-refused</name>
     <message>
         <source>the camera refused what it was asked for ({})</source>
         <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
@@ -900,14 +900,14 @@
     </message>
 </context>
 <context>
-    <name>device.camera-sees-no-difference-between</name>
+    <name>device.no-contrast</name>
     <message>
         <source>the camera sees no difference between white and black</source>
         <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-sees-not</name>
+    <name>device.other-screen-seen</name>
     <message>
         <source>the camera sees {}, not {}</source>
         <translation>la caméra voit {}, et non {}</translation>
@@ -928,7 +928,7 @@
     </message>
 </context>
 <context>
-    <name>device.cameras-model-plugged</name>
+    <name>device.several-cameras-of-model</name>
     <message>
         <source>{} cameras of this model are plugged in</source>
         <translation>{} caméras de ce modèle sont branchées</translation>
@@ -949,7 +949,7 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-switched-off</name>
+    <name>device.automatic-function-stays</name>
     <message>
         <source>{} cannot be switched off</source>
         <translation>{} ne peut pas être désactivé</translation>
@@ -963,119 +963,119 @@
     </message>
 </context>
 <context>
-    <name>device.change-empty-memory-card</name>
+    <name>device.change-or-empty-card</name>
     <message>
         <source>change or empty the memory card</source>
         <translation>changez ou videz la carte mémoire</translation>
     </message>
 </context>
 <context>
-    <name>device.charge-change-battery-best-use</name>
+    <name>device.charge-or-change-battery</name>
     <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <source>charge or change the battery, or better, use a mains adapter, and switch the camera on again</source>
         <translation>rechargez ou changez la batterie, utilisez de préférence un adaptateur secteur, et rallumez la caméra</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power</name>
+    <name>device.check-cable-and-power</name>
     <message>
         <source>check its cable and its power</source>
         <translation>vérifiez son câble et son alimentation</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address-relucent</name>
+    <name>device.check-cable-power-address</name>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
         <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-saving-energy</name>
+    <name>device.check-cable-and-power-saving</name>
     <message>
-        <source>check its cable, and switch its saving of energy off</source>
+        <source>check its cable, and switch off its power saving</source>
         <translation>vérifiez son câble et désactivez sa mise en veille</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-switch-automatic</name>
+    <name>device.switch-on-and-keep-awake</name>
     <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
         <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-cable-network-card</name>
+    <name>device.check-cable-network-and-programs</name>
     <message>
         <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
         <translation>vérifiez le câble et la carte réseau de la caméra, et qu’aucun autre programme ne l’utilise</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-view-steady-exposure</name>
+    <name>device.steady-view-and-expose-briefly</name>
     <message>
         <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
         <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
     </message>
 </context>
 <context>
-    <name>device.check-device-allow-command-more</name>
+    <name>device.allow-command-more-time</name>
     <message>
         <source>check the device, or allow the command more time: {}</source>
         <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.check-projector-shows-output-aim</name>
+    <name>device.check-projector-and-aim</name>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif&#x202f;; ou choisissez un autre écran</translation>
     </message>
 </context>
 <context>
-    <name>device.choose-aim-camera</name>
+    <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
         <translation>choisissez {}, ou tournez la caméra vers {}</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-s-but-keeps</name>
+    <name>device.shortest-exposure-understated</name>
     <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
+        <source>claims exposures from {} s but does not go below {} s</source>
         <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-up-s-but</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
+        <source>claims exposures up to {} s but reaches only {} s</source>
         <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-playback-end-live</name>
+    <name>device.close-menus-and-live-view</name>
     <message>
-        <source>close its menus and its playback, and end its live picture</source>
+        <source>close its menus and its playback, and leave live view</source>
         <translation>fermez ses menus et sa lecture, et quittez la visée écran (Live View)</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-switch-off</name>
+    <name>device.close-menus-and-restart</name>
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>fermez ses menus, éteignez-la et rallumez-la</translation>
     </message>
 </context>
 <context>
-    <name>device.close-other-programs-try-again</name>
+    <name>device.close-other-programs</name>
     <message>
         <source>close other programs and try again</source>
         <translation>fermez d’autres programmes et réessayez</translation>
     </message>
 </context>
 <context>
-    <name>device.command-cannot-started</name>
+    <name>device.cannot-start-command</name>
     <message>
         <source>the command cannot be started ({})</source>
         <translation>la commande ne peut pas être lancée ({})</translation>
@@ -1138,28 +1138,28 @@
     </message>
 </context>
 <context>
-    <name>device.connect-camera-measurement-begun</name>
+    <name>device.reconnect-same-camera</name>
     <message>
         <source>connect the camera that the measurement was begun with</source>
         <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
     </message>
 </context>
 <context>
-    <name>device.copy-again-take-photograph-again</name>
+    <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
         <translation>recopiez-le, ou reprenez la photo&#x202f;; une caméra plus récente que ce LibRaw demande des fichiers DNG</translation>
     </message>
 </context>
 <context>
-    <name>device.delivers-8-bits-dark-places</name>
+    <name>device.delivers-8-bits</name>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
         <translation>fournit 8 bits&#x202f;: les zones sombres restent incertaines</translation>
     </message>
 </context>
 <context>
-    <name>device.develop-files-linearly-16-bit</name>
+    <name>device.develop-linearly</name>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
         <translation>développez les fichiers en linéaire, en TIFF 16 bits, ou utilisez une autre caméra</translation>
@@ -1180,21 +1180,21 @@
     </message>
 </context>
 <context>
-    <name>device.free-some-space-record-elsewhere</name>
+    <name>device.free-space-or-record-elsewhere</name>
     <message>
         <source>free some space, or record elsewhere</source>
         <translation>libérez de l’espace, ou enregistrez ailleurs</translation>
     </message>
 </context>
 <context>
-    <name>device.free-some-space-there-let</name>
+    <name>device.free-space-or-set-tmpdir</name>
     <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <source>free some space there, or set TMPDIR to a folder that you may write to</source>
         <translation>libérez de l’espace à cet endroit, ou indiquez dans TMPDIR un dossier où vous avez le droit d’écrire</translation>
     </message>
 </context>
 <context>
-    <name>device.gain-wanted</name>
+    <name>device.gain-out-of-range</name>
     <message>
         <source>a gain of {} is wanted</source>
         <translation>un gain de {} est demandé</translation>
@@ -1217,33 +1217,33 @@
 <context>
     <name>device.held-by-desktop</name>
     <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <source>another program is using the camera, usually the desktop, which mounts it like a memory stick</source>
         <translation>un autre programme occupe la caméra, le plus souvent le bureau, qui la monte comme une clé USB</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-camera</name>
+    <name>device.camera-size-out-of-range</name>
     <message>
         <source>a camera of {} pixels is impossible: each side is {} to {}</source>
         <translation>une caméra de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-projector</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
         <source>a projector of {} pixels is impossible: each side is {} to {}</source>
         <translation>un projecteur de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
     </message>
 </context>
 <context>
-    <name>device.install-aravis-libaravis-dev-build</name>
+    <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
         <translation>installez Aravis (libaravis-dev) et recompilez, ou utilisez un autre type de caméra</translation>
     </message>
 </context>
 <context>
-    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <name>device.install-libgphoto2</name>
     <message>
         <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
         <translation>installez libgphoto2 et LibRaw (libgphoto2-dev, libraw-dev) et recompilez, ou utilisez une commande</translation>
@@ -1257,28 +1257,28 @@
     </message>
 </context>
 <context>
-    <name>device.it-has</name>
+    <name>device.choose-offered-iso</name>
     <message>
-        <source>it has {}</source>
+        <source>choose one of those that it has: {}</source>
         <translation>elle propose {}</translation>
     </message>
 </context>
 <context>
-    <name>device.let-command-write-size-begin</name>
+    <name>device.write-announced-size</name>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
         <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
     </message>
 </context>
 <context>
-    <name>device.let-desktop-go-gio-mount</name>
+    <name>device.release-from-desktop</name>
     <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
         <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
     </message>
 </context>
 <context>
-    <name>device.let-write-photograph-output</name>
+    <name>device.write-photograph-to-output</name>
     <message>
         <source>let it write the photograph to {output}: {}</source>
         <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
@@ -1308,35 +1308,35 @@
 <context>
     <name>device.mode-dial-not-manual</name>
     <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <source>the camera&apos;s mode dial is set to {}, where the camera chooses exposures itself</source>
         <translation>la molette de mode de la caméra est sur {}, où la caméra choisit elle-même la pose</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-gphoto2</name>
+    <name>device.name-connected-camera</name>
     <message>
         <source>name that one: gphoto2:{}</source>
         <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
         <translation>indiquez l’une d’elles par son port&#x202f;: gphoto2:{} ou gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.new-picture-not-fully-there</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>a new picture is not fully there after {} frames</source>
+        <source>a new picture has not fully appeared after {} frames</source>
         <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
     </message>
 </context>
 <context>
-    <name>device.no-camera-name-plugged-but</name>
+    <name>device.only-other-camera-connected</name>
     <message>
-        <source>no camera of this name is plugged in, but {}</source>
+        <source>no camera of this name is plugged in, but {} is</source>
         <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
     </message>
 </context>
@@ -1348,7 +1348,7 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came-within</name>
+    <name>device.photograph-timed-out</name>
     <message>
         <source>no photograph came within {} s</source>
         <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
@@ -1369,28 +1369,28 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger-each-photograph</name>
+    <name>device.no-software-trigger</name>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
         <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
     </message>
 </context>
 <context>
-    <name>device.no-such-video-device-plugged</name>
+    <name>device.video-device-missing</name>
     <message>
         <source>no such video device is plugged in</source>
         <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
     </message>
 </context>
 <context>
-    <name>device.none-camera-pixel-formats-can</name>
+    <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
         <translation>aucun des formats de pixel de la caméra ne peut être lu</translation>
     </message>
 </context>
 <context>
-    <name>device.not-say-when-pictures-captured</name>
+    <name>device.no-capture-times</name>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
         <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
@@ -1404,7 +1404,7 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-asked-none-came</name>
+    <name>device.no-photograph-came</name>
     <message>
         <source>a photograph was asked for and none came</source>
         <translation>une photo a été demandée et aucune n’est arrivée</translation>
@@ -1425,51 +1425,51 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-agreed</name>
+    <name>device.photograph-format-changed</name>
     <message>
         <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
         <translation>la photo a {} pixels en {} alors que {} en {} étaient convenus</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-announced</name>
+    <name>device.photograph-size-unexpected</name>
     <message>
         <source>the photograph has {} pixels where {} were announced</source>
         <translation>la photo a {} pixels alors que {} étaient annoncés</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-came-bytes</name>
+    <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
         <translation>une photo de {} pixels en {} est arrivée avec {} octets sur {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera</name>
+    <name>device.photograph-exceeds-sensor</name>
     <message>
         <source>{} pixels are wanted and the camera has {}</source>
         <translation>{} pixels sont demandés et la caméra a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera-gives</name>
+    <name>device.photograph-size-refused</name>
     <message>
         <source>{} pixels are wanted and the camera gives {}</source>
         <translation>{} pixels sont demandés et la caméra fournit {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-video-device-gives</name>
+    <name>device.video-size-refused</name>
     <message>
         <source>{} pixels are wanted and the video device gives {}</source>
         <translation>{} pixels sont demandés et le périphérique vidéo fournit {}</translation>
     </message>
 </context>
 <context>
-    <name>device.press-shutter-button-half-way</name>
+    <name>device.wake-camera</name>
     <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
         <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
     </message>
 </context>
@@ -1483,19 +1483,19 @@
 <context>
     <name>device.projector-command-lacks</name>
     <message>
-        <source>the projector&apos;s command does not say {}</source>
+        <source>the projector&apos;s command does not contain {}</source>
         <translation>la commande du projecteur ne contient pas {}</translation>
     </message>
 </context>
 <context>
-    <name>device.projector-screen-loses-picture-again</name>
+    <name>device.screen-loses-picture</name>
     <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
+        <source>the projector&apos;s screen keeps losing its picture</source>
         <translation>l’écran du projecteur perd sans cesse son image</translation>
     </message>
 </context>
 <context>
-    <name>device.raw-file-cannot-read</name>
+    <name>device.raw-file-unreadable</name>
     <message>
         <source>the raw file cannot be read ({})</source>
         <translation>le fichier RAW ne peut pas être lu ({})</translation>
@@ -1516,42 +1516,42 @@
     </message>
 </context>
 <context>
-    <name>device.raw-file-not-hold-sensor</name>
+    <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
         <translation>le fichier RAW ne contient pas les valeurs mêmes du capteur</translation>
     </message>
 </context>
 <context>
-    <name>device.recording-cannot-written</name>
+    <name>device.cannot-write-recording</name>
     <message>
         <source>the recording cannot be written ({})</source>
         <translation>l’enregistrement ne peut pas être écrit ({})</translation>
     </message>
 </context>
 <context>
-    <name>device.remove-hand-try-again</name>
+    <name>device.remove-file-by-hand</name>
     <message>
         <source>remove it by hand, then try again</source>
         <translation>supprimez-le à la main, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>device.run-terminal-find-out-why</name>
+    <name>device.run-command-in-terminal</name>
     <message>
         <source>run it in a terminal to find out why: {}</source>
         <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.sees-no-colours-brightness-can</name>
+    <name>device.sees-no-colours</name>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
         <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
     </message>
 </context>
 <context>
-    <name>device.set-exposure-mode-timed-manual</name>
+    <name>device.set-manual-exposure-mode</name>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
         <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
@@ -1565,70 +1565,70 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-must-above-zero</name>
+    <name>device.exposure-range-invalid</name>
     <message>
         <source>the shortest exposure must be above zero and no longer than the longest</source>
         <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-frame-rate</name>
+    <name>device.lift-exposure-limits</name>
     <message>
         <source>switch its automatic exposure and its frame rate limit off</source>
         <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-off-camera</name>
+    <name>device.switch-off-automatic-exposure</name>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
         <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-full-size-raw</name>
+    <name>device.switch-to-full-size-raw</name>
     <message>
         <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
         <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-off-choose-another</name>
+    <name>device.restart-or-change-pixel-format</name>
     <message>
         <source>switch the camera off and on, or choose another of its pixel formats</source>
         <translation>éteignez et rallumez la caméra, ou choisissez un autre de ses formats de pixel</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus</name>
+    <name>device.switch-to-manual-focus</name>
     <message>
         <source>switch its lens to manual focus</source>
         <translation>mettez son objectif en mise au point manuelle</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus-close</name>
+    <name>device.take-photograph-by-hand</name>
     <message>
         <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
         <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-camera-maker-program</name>
+    <name>device.switch-off-with-makers-program</name>
     <message>
         <source>switch it off with the camera maker&apos;s program, or use another camera</source>
         <translation>désactivez ce réglage avec le programme du fabricant de la caméra, ou utilisez une autre caméra</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-load-default-settings</name>
+    <name>device.restart-with-default-settings</name>
     <message>
         <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
         <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-v4l2-ctl-list</name>
+    <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>désactivez ce réglage avec v4l2-ctl (--list-ctrls affiche ceux du périphérique), ou utilisez une autre caméra</translation>
@@ -1663,21 +1663,21 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m-or-another-camera</name>
+    <name>device.turn-dial-or-change-camera</name>
     <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <source>turn its mode dial to M; a camera without manual exposure cannot be used</source>
         <translation>tournez sa molette de mode sur M&#x202f;; une caméra sans M ne peut pas être utilisée</translation>
     </message>
 </context>
 <context>
-    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
         <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
     </message>
 </context>
 <context>
-    <name>device.use-camera-manual-exposure</name>
+    <name>device.use-manual-exposure-camera</name>
     <message>
         <source>use a camera with manual exposure</source>
         <translation>utilisez une caméra à exposition manuelle</translation>
@@ -1691,35 +1691,35 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-been-unplugged</name>
+    <name>device.video-device-unplugged</name>
     <message>
         <source>the video device has been unplugged</source>
         <translation>le périphérique vidéo a été débranché</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-again</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
         <source>the video device cannot be opened again</source>
         <translation>le périphérique vidéo ne peut pas être rouvert</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-another</name>
+    <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>le périphérique vidéo ne peut pas être ouvert&#x202f;: un autre programme l’utilise peut-être</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-no-exposure-can</name>
+    <name>device.video-exposure-not-settable</name>
     <message>
         <source>the video device has no exposure that can be set</source>
         <translation>le périphérique vidéo n’a pas d’exposition réglable</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-sends-no-pictures</name>
+    <name>device.no-video-pictures</name>
     <message>
         <source>the video device sends no pictures</source>
         <translation>le périphérique vidéo n’envoie pas d’images</translation>
@@ -1789,7 +1789,7 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-cannot-used</name>
+    <name>engine.graphics-card-unusable</name>
     <message>
         <source>the graphics card cannot be used</source>
         <translation>la carte graphique ne peut pas être utilisée</translation>
@@ -1803,16 +1803,16 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-no-mb-memory</name>
+    <name>engine.graphics-memory-exhausted</name>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
         <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-reaches-mb-once</name>
+    <name>engine.graphics-buffer-too-large</name>
     <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <source>the graphics card can hold {} MB in one piece, but {} MB are needed</source>
         <translation>la carte graphique atteint {}&#x202f;Mo à la fois alors qu’il en faut {}&#x202f;Mo</translation>
     </message>
 </context>
@@ -1831,21 +1831,21 @@
     </message>
 </context>
 <context>
-    <name>engine.there-no-graphics-card-opengl</name>
+    <name>engine.no-graphics-card</name>
     <message>
         <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
         <translation>aucune carte graphique avec OpenGL 4.3 et shaders de calcul n’est présente</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-libegl-no-libopengl</name>
+    <name>engine.no-libegl-or-libopengl</name>
     <message>
         <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
         <translation>il manque libEGL ou libOpenGL, qui ouvrent les cartes graphiques sans écran</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-opengl-4-3</name>
+    <name>engine.no-opengl</name>
     <message>
         <source>there is no OpenGL 4.3 with compute shaders</source>
         <translation>il manque OpenGL 4.3 avec shaders de calcul</translation>
@@ -1882,7 +1882,7 @@
 <context>
     <name>import.patterns-black-and-white</name>
     <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <source>The patterns hold black and white only: the projector&apos;s response is assumed to be a gamma of 2.2</source>
         <translation>les motifs ne contiennent que du noir et du blanc&#x202f;: la réponse du projecteur est supposée être une puissance de 2,2</translation>
     </message>
 </context>
@@ -1908,7 +1908,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.cameras-no-exposure-time-common</name>
+    <name>linearization.no-common-exposure</name>
     <message>
         <source>the cameras have no exposure time in common</source>
         <translation>les caméras n’ont aucun temps de pose en commun</translation>
@@ -1950,7 +1950,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.set-them-ranges-exposure-times</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
         <source>set them to ranges of exposure times that overlap</source>
         <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
@@ -5039,7 +5039,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>report.report-cannot-written</name>
+    <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>le rapport ne peut pas être écrit</translation>
@@ -5074,7 +5074,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-removed</name>
+    <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>le fichier ne peut pas être retiré ({})</translation>
@@ -5088,7 +5088,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>show.choose-another-folder-log</name>
+    <name>show.choose-another-log-folder</name>
     <message>
         <source>choose another folder with --log</source>
         <translation>choisissez un autre dossier avec --log</translation>
@@ -5097,40 +5097,40 @@ projecteur %2</translation>
 <context>
     <name>show.engine-lost-device</name>
     <message>
-        <source>the engine lost its device</source>
+        <source>the engine lost its graphics card</source>
         <translation>le moteur de rendu a perdu son périphérique</translation>
     </message>
 </context>
 <context>
-    <name>show.log-cannot-written</name>
+    <name>show.cannot-write-log</name>
     <message>
         <source>the log cannot be written ({})</source>
         <translation>le journal ne peut pas être écrit ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-asleep-not-wake</name>
+    <name>show.screen-asleep</name>
     <message>
         <source>the projector&apos;s screen is asleep and does not wake</source>
         <translation>l’écran du projecteur est en veille et ne se réveille pas</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-pixels-now-calibrated</name>
+    <name>show.screen-size-changed</name>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>l’écran du projecteur a maintenant {} pixels alors que {} ont été calibrés</translation>
     </message>
 </context>
 <context>
-    <name>show.service-cannot-switched</name>
+    <name>show.cannot-enable-service</name>
     <message>
         <source>the service cannot be switched on ({})</source>
         <translation>le service ne peut pas être activé ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.set-resolution-back-desktop-settings</name>
+    <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
         <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
@@ -5144,9 +5144,9 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>show.switch-saving-energy-screen-saver</name>
+    <name>show.switch-off-power-saving</name>
     <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>désactivez sa mise en veille et l’économiseur d’écran dans les réglages du bureau, puis réessayez</translation>
     </message>
 </context>
@@ -5165,7 +5165,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.black-full-light</name>
+    <name>stage.black-and-full-light</name>
     <message>
         <source>black and full light</source>
         <translation>noir et pleine lumière</translation>
@@ -5193,7 +5193,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.checking-projector-camera</name>
+    <name>stage.checking-projector-and-camera</name>
     <message>
         <source>Checking projector and camera</source>
         <translation>Vérification du projecteur et de la caméra</translation>
@@ -5207,7 +5207,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.clusters-held-size</name>
+    <name>stage.capped-clusters</name>
     <message>
         <source>Clusters held to a size</source>
         <translation>Groupes de taille limitée</translation>
@@ -5256,7 +5256,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.estimating-response-colours</name>
+    <name>stage.estimating-response-and-colours</name>
     <message>
         <source>Estimating response and colours</source>
         <translation>Estimation de la réponse et des couleurs</translation>
@@ -5298,7 +5298,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.fitting-spread-light</name>
+    <name>stage.fitting-light-spread</name>
     <message>
         <source>Fitting the spread of light</source>
         <translation>Ajustement de l’étalement de la lumière</translation>
@@ -5312,7 +5312,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.holding-clusters-size</name>
+    <name>stage.capping-clusters</name>
     <message>
         <source>Holding clusters to a size</source>
         <translation>Limitation de la taille des groupes</translation>
@@ -5379,14 +5379,14 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-projector-picture</name>
+    <name>stage.finding-projector-picture</name>
     <message>
         <source>Looking for the projector&apos;s picture</source>
         <translation>Recherche de l’image du projecteur</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-shadows</name>
+    <name>stage.finding-shadows</name>
     <message>
         <source>Looking for shadows</source>
         <translation>Recherche d’ombres</translation>
@@ -5414,7 +5414,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>
@@ -5572,7 +5572,7 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.separating-direct-indirect-light</name>
+    <name>stage.separating-direct-and-indirect-light</name>
     <message>
         <source>Separating direct and indirect light</source>
         <translation>Séparation des lumières directe et indirecte</translation>
@@ -5623,7 +5623,7 @@ projecteur %2</translation>
 <context>
     <name>stage.windows</name>
     <message>
-        <source>Windows</source>
+        <source>Computing the windows of the inverse</source>
         <translation>Fenêtres</translation>
     </message>
 </context>
@@ -5656,14 +5656,14 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-folder-you-may-write</name>
+    <name>view.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
     </message>
 </context>
 <context>
-    <name>view.picture-could-not-written</name>
+    <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>l’image n’a pas pu être écrite</translation>

@@ -250,7 +250,7 @@
 <context>
     <name>acquisition.light-drifted</name>
     <message>
-        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <source>The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time</source>
         <translation>la luce è cambiata del {} % tra la prima e l’ultima foto; se n’è tenuto conto, ma la prossima volta lasciare prima scaldare il proiettore</translation>
     </message>
 </context>
@@ -264,7 +264,7 @@
 <context>
     <name>acquisition.pixels-flagged</name>
     <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato; questi pixel sono esclusi dalla compensazione</translation>
     </message>
 </context>
@@ -327,7 +327,7 @@
 <context>
     <name>alarm.projector-shows-nothing</name>
     <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>il proiettore non mostra nulla, ma la luce della sala è ancora visibile</translation>
     </message>
 </context>
@@ -341,7 +341,7 @@
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
         <translation>riportarla com’era, tenere chiuse porte e tende, poi riprovare</translation>
     </message>
 </context>
@@ -362,7 +362,7 @@
 <context>
     <name>alarm.safe-before-check</name>
     <message>
-        <source>every photograph up to the check before is safe</source>
+        <source>every photograph up to the previous check is safe</source>
         <translation>ogni foto fino al controllo precedente è al sicuro</translation>
     </message>
 </context>
@@ -404,7 +404,7 @@
 <context>
     <name>alarm.view-changed</name>
     <message>
-        <source>{} % of the view of camera {} look different than before</source>
+        <source>{} % of the view of camera {} look different from before</source>
         <translation>il {} % dell’inquadratura della fotocamera {} appare diverso da prima</translation>
     </message>
 </context>
@@ -423,14 +423,14 @@
     </message>
 </context>
 <context>
-    <name>calibration.calibration-manifest-damaged</name>
+    <name>calibration.manifest-damaged</name>
     <message>
         <source>the calibration&apos;s manifest is damaged</source>
         <translation>il manifest della calibrazione è danneggiato</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-look-into-folder</name>
+    <name>calibration.cannot-list-folder</name>
     <message>
         <source>cannot look into the folder ({})</source>
         <translation>impossibile esaminare il contenuto della cartella ({})</translation>
@@ -444,77 +444,77 @@
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-go</name>
+    <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
         <translation>controllare che la cartella sia scrivibile, poi proseguire</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-try</name>
+    <name>calibration.allow-writing-then-retry</name>
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>controllare che la cartella sia scrivibile, poi riprovare</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-path-you-may-read</name>
+    <name>calibration.check-path-and-permission</name>
     <message>
         <source>check the path and that you may read it</source>
         <translation>controllare il percorso e i permessi di lettura</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-you-may-read-choose</name>
+    <name>calibration.check-permission-or-name</name>
     <message>
         <source>check that you may read it, or choose another name</source>
         <translation>controllare di avere il permesso di lettura o scegliere un altro nome</translation>
     </message>
 </context>
 <context>
-    <name>calibration.choose-another-calibration-copy-again</name>
+    <name>calibration.choose-another-or-copy-again</name>
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>scegliere un’altra calibrazione o copiarla di nuovo da dove è stata misurata</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-bytes-instead</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
         <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-missing</name>
+    <name>calibration.result-file-missing</name>
     <message>
         <source>a file of the calibration&apos;s {} is missing</source>
         <translation>manca un file della calibrazione ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.free-some-space-there-check</name>
+    <name>disk.free-space-or-check-disk</name>
     <message>
         <source>free some space there or check the disk, then try again</source>
         <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
     </message>
 </context>
 <context>
-    <name>calibration.no-calibration-relucent</name>
+    <name>calibration.not-a-calibration</name>
     <message>
-        <source>this is no calibration of Relucent</source>
+        <source>this is not a calibration of Relucent</source>
         <translation>questa non è una calibrazione di Relucent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-moved</name>
+    <name>calibration.cannot-move-photograph</name>
     <message>
         <source>a photograph cannot be moved ({})</source>
         <translation>impossibile spostare una foto ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-removed</name>
+    <name>calibration.cannot-remove-photograph</name>
     <message>
         <source>a photograph cannot be removed ({})</source>
         <translation>impossibile eliminare una foto ({})</translation>
@@ -551,14 +551,14 @@
 <context>
     <name>check.light-unsteady</name>
     <message>
-        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.</source>
         <translation>La luce cambia di {} % tra pose di fotogrammi interi: lasciare scaldare la lampada, disattivare la luminosità dinamica e spegnere le lampade della sala.</translation>
     </message>
 </context>
 <context>
     <name>check.no-brief-exposure</name>
     <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.</source>
         <translation>La fotocamera non può esporre per una parte di fotogramma, o allora vede troppo poco: lo sfarfallio entro un fotogramma non è rilevabile.</translation>
     </message>
 </context>
@@ -572,8 +572,8 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
             <numerusform>Un’immagine appare {} fotogramma dopo l’invio: si attendono {} ms.</numerusform>
             <numerusform>Un’immagine appare {} fotogrammi dopo l’invio: si attendono {} ms.</numerusform>
@@ -583,8 +583,8 @@
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
             <numerusform>Le immagini arrivano in ritardo di {} foto: la latenza va misurata e attesa.</numerusform>
             <numerusform>Le immagini arrivano in ritardo di {} foto: la latenza va misurata e attesa.</numerusform>
@@ -627,37 +627,37 @@
     </message>
 </context>
 <context>
-    <name>content.capture-device-gives-no-picture</name>
+    <name>content.nothing-captured</name>
     <message>
         <source>the capture device gives no picture</source>
         <translation>il dispositivo di acquisizione non fornisce immagini</translation>
     </message>
 </context>
 <context>
-    <name>content.live-picture-screen-needs-x</name>
+    <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
         <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
     </message>
 </context>
 <context>
-    <name>content.log-desktop-x-xorg-log</name>
+    <name>content.log-in-to-xorg</name>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
         <translation>accedere a un desktop con X («Xorg» all’accesso) o riprodurre file</translation>
     </message>
 </context>
 <context>
-    <name>content.plug-close-other-programs-use</name>
+    <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
         <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
     </message>
 </context>
 <context>
-    <name>device.aim-projection-take-cap-off</name>
+    <name>device.aim-uncover-and-expose-longer</name>
     <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>puntarla sulla proiezione, togliere il tappo dell’obiettivo e usare un’esposizione più lunga</translation>
     </message>
 </context>
@@ -669,42 +669,42 @@
     </message>
 </context>
 <context>
-    <name>device.ask-less</name>
+    <name>device.ask-for-fewer-pixels</name>
     <message>
         <source>ask for that or less</source>
         <translation>richiedere quella dimensione o una minore</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-gives</name>
+    <name>device.ask-for-given-size</name>
     <message>
         <source>ask for the size that it gives</source>
         <translation>richiedere la dimensione che fornisce</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-v4l2-ctl-list</name>
+    <name>device.ask-for-listed-size</name>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
         <translation>richiedere una dimensione disponibile: v4l2-ctl --list-formats-ext le elenca</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-gain-keeps</name>
+    <name>device.gain-refused</name>
     <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
+        <source>was asked for a gain of {} but uses {}</source>
         <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-iso-keeps-iso</name>
+    <name>device.iso-refused</name>
     <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <source>was asked for ISO {} but uses ISO {}</source>
         <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
     </message>
 </context>
 <context>
-    <name>device.attempts-photograph-failed</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
         <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
@@ -753,28 +753,28 @@
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-dslr</name>
+    <name>device.built-without-gphoto</name>
     <message>
         <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
         <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-genicam</name>
+    <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
         <translation>questa build di Relucent non supporta le fotocamere GenICam</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-expose-s-keeps</name>
+    <name>device.exposure-refused</name>
     <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
         <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-photograph-took-none</name>
+    <name>device.trial-photograph-failed</name>
     <message>
         <source>the camera was asked for a photograph and took none</source>
         <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
@@ -788,37 +788,37 @@
     </message>
 </context>
 <context>
-    <name>device.camera-been-gone-s</name>
+    <name>device.camera-not-back</name>
     <message>
         <source>the camera has been gone for {} s: {}</source>
         <translation>la fotocamera è assente da {} s: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-came-back-pixels-instead</name>
+    <name>device.reconnected-camera-size-differs</name>
     <message>
         <source>the camera came back with {} pixels instead of {}</source>
         <translation>la fotocamera è tornata con {} pixel invece di {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-can</name>
+    <name>device.choose-gain-in-range</name>
     <message>
-        <source>the camera can do {} to {}</source>
+        <source>choose a gain from {} to {}</source>
         <translation>la fotocamera consente valori da {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-claims-exposures-s</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
         <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-colour-filter-no-bayer</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
         <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
     </message>
 </context>
@@ -832,21 +832,21 @@
 <context>
     <name>device.camera-command-lacks</name>
     <message>
-        <source>the camera&apos;s command does not say {}</source>
+        <source>the camera&apos;s command does not contain {}</source>
         <translation>nel comando della fotocamera manca {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-forgotten-pixel-format-set</name>
+    <name>device.pixel-format-lost</name>
     <message>
         <source>the camera has forgotten the pixel format that it was set to</source>
         <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-found-no-focus-took</name>
+    <name>device.no-focus</name>
     <message>
-        <source>the camera found no focus and took no photograph ({})</source>
+        <source>the camera could not focus and took no photograph ({})</source>
         <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
     </message>
 </context>
@@ -858,9 +858,9 @@
     </message>
 </context>
 <context>
-    <name>device.camera-keeps-s-whatever-exposure</name>
+    <name>device.exposure-time-fixed</name>
     <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
         <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
     </message>
 </context>
@@ -872,21 +872,21 @@
     </message>
 </context>
 <context>
-    <name>device.camera-no-pixel-format-can</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
         <source>the camera has no pixel format {} that can be read</source>
         <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-not-see-what-shown</name>
+    <name>device.screen-not-seen</name>
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-refused-what-asked</name>
+    <name>device.request-refused</name>
     <message>
         <source>the camera refused what it was asked for ({})</source>
         <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
@@ -900,14 +900,14 @@
     </message>
 </context>
 <context>
-    <name>device.camera-sees-no-difference-between</name>
+    <name>device.no-contrast</name>
     <message>
         <source>the camera sees no difference between white and black</source>
         <translation>la fotocamera non vede differenza tra bianco e nero</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-sees-not</name>
+    <name>device.other-screen-seen</name>
     <message>
         <source>the camera sees {}, not {}</source>
         <translation>la fotocamera vede {} e non {}</translation>
@@ -928,7 +928,7 @@
     </message>
 </context>
 <context>
-    <name>device.cameras-model-plugged</name>
+    <name>device.several-cameras-of-model</name>
     <message>
         <source>{} cameras of this model are plugged in</source>
         <translation>sono collegate {} fotocamere di questo modello</translation>
@@ -949,7 +949,7 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-switched-off</name>
+    <name>device.automatic-function-stays</name>
     <message>
         <source>{} cannot be switched off</source>
         <translation>impossibile disattivare {}</translation>
@@ -963,119 +963,119 @@
     </message>
 </context>
 <context>
-    <name>device.change-empty-memory-card</name>
+    <name>device.change-or-empty-card</name>
     <message>
         <source>change or empty the memory card</source>
         <translation>sostituire o svuotare la scheda di memoria</translation>
     </message>
 </context>
 <context>
-    <name>device.charge-change-battery-best-use</name>
+    <name>device.charge-or-change-battery</name>
     <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <source>charge or change the battery, or better, use a mains adapter, and switch the camera on again</source>
         <translation>caricare o sostituire la batteria (meglio usare un alimentatore di rete) e riaccendere la fotocamera</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power</name>
+    <name>device.check-cable-and-power</name>
     <message>
         <source>check its cable and its power</source>
         <translation>controllare il cavo e l’alimentazione</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address-relucent</name>
+    <name>device.check-cable-power-address</name>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
         <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-saving-energy</name>
+    <name>device.check-cable-and-power-saving</name>
     <message>
-        <source>check its cable, and switch its saving of energy off</source>
+        <source>check its cable, and switch off its power saving</source>
         <translation>controllare il cavo e disattivare il risparmio energetico</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-switch-automatic</name>
+    <name>device.switch-on-and-keep-awake</name>
     <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
         <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-cable-network-card</name>
+    <name>device.check-cable-network-and-programs</name>
     <message>
         <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
         <translation>controllare il cavo e la scheda di rete della fotocamera, e che nessun altro programma la usi</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-view-steady-exposure</name>
+    <name>device.steady-view-and-expose-briefly</name>
     <message>
         <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
         <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
     </message>
 </context>
 <context>
-    <name>device.check-device-allow-command-more</name>
+    <name>device.allow-command-more-time</name>
     <message>
         <source>check the device, or allow the command more time: {}</source>
         <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.check-projector-shows-output-aim</name>
+    <name>device.check-projector-and-aim</name>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>controllare che il proiettore sia acceso e mostri quell’uscita, puntare la fotocamera sulla proiezione e togliere il tappo dell’obiettivo; oppure scegliere un altro schermo</translation>
     </message>
 </context>
 <context>
-    <name>device.choose-aim-camera</name>
+    <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
         <translation>scegliere {} o puntare la fotocamera su {}</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-s-but-keeps</name>
+    <name>device.shortest-exposure-understated</name>
     <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
+        <source>claims exposures from {} s but does not go below {} s</source>
         <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-up-s-but</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
+        <source>claims exposures up to {} s but reaches only {} s</source>
         <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-playback-end-live</name>
+    <name>device.close-menus-and-live-view</name>
     <message>
-        <source>close its menus and its playback, and end its live picture</source>
+        <source>close its menus and its playback, and leave live view</source>
         <translation>chiuderne i menu e la riproduzione, e terminare il live view</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-switch-off</name>
+    <name>device.close-menus-and-restart</name>
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>chiuderne i menu, poi spegnerla e riaccenderla</translation>
     </message>
 </context>
 <context>
-    <name>device.close-other-programs-try-again</name>
+    <name>device.close-other-programs</name>
     <message>
         <source>close other programs and try again</source>
         <translation>chiudere altri programmi e riprovare</translation>
     </message>
 </context>
 <context>
-    <name>device.command-cannot-started</name>
+    <name>device.cannot-start-command</name>
     <message>
         <source>the command cannot be started ({})</source>
         <translation>impossibile avviare il comando ({})</translation>
@@ -1138,28 +1138,28 @@
     </message>
 </context>
 <context>
-    <name>device.connect-camera-measurement-begun</name>
+    <name>device.reconnect-same-camera</name>
     <message>
         <source>connect the camera that the measurement was begun with</source>
         <translation>collegare la fotocamera con cui è iniziata la misura</translation>
     </message>
 </context>
 <context>
-    <name>device.copy-again-take-photograph-again</name>
+    <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
         <translation>copiarlo di nuovo o scattare di nuovo la foto; una fotocamera più recente di questa versione di LibRaw richiede file DNG</translation>
     </message>
 </context>
 <context>
-    <name>device.delivers-8-bits-dark-places</name>
+    <name>device.delivers-8-bits</name>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
         <translation>fornisce 8 bit: le zone scure restano incerte</translation>
     </message>
 </context>
 <context>
-    <name>device.develop-files-linearly-16-bit</name>
+    <name>device.develop-linearly</name>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
         <translation>sviluppare i file in modo lineare, come TIFF a 16 bit, o usare un’altra fotocamera</translation>
@@ -1180,21 +1180,21 @@
     </message>
 </context>
 <context>
-    <name>device.free-some-space-record-elsewhere</name>
+    <name>device.free-space-or-record-elsewhere</name>
     <message>
         <source>free some space, or record elsewhere</source>
         <translation>liberare spazio o registrare altrove</translation>
     </message>
 </context>
 <context>
-    <name>device.free-some-space-there-let</name>
+    <name>device.free-space-or-set-tmpdir</name>
     <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <source>free some space there, or set TMPDIR to a folder that you may write to</source>
         <translation>liberare spazio lì o indicare in TMPDIR una cartella in cui è consentito scrivere</translation>
     </message>
 </context>
 <context>
-    <name>device.gain-wanted</name>
+    <name>device.gain-out-of-range</name>
     <message>
         <source>a gain of {} is wanted</source>
         <translation>è richiesto un guadagno di {}</translation>
@@ -1217,33 +1217,33 @@
 <context>
     <name>device.held-by-desktop</name>
     <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <source>another program is using the camera, usually the desktop, which mounts it like a memory stick</source>
         <translation>un altro programma sta usando la fotocamera, di solito il desktop, che la monta come una chiavetta USB</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-camera</name>
+    <name>device.camera-size-out-of-range</name>
     <message>
         <source>a camera of {} pixels is impossible: each side is {} to {}</source>
         <translation>una fotocamera di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-projector</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
         <source>a projector of {} pixels is impossible: each side is {} to {}</source>
         <translation>un proiettore di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
     </message>
 </context>
 <context>
-    <name>device.install-aravis-libaravis-dev-build</name>
+    <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
         <translation>installare Aravis (libaravis-dev) e ricompilare, o usare un altro tipo di fotocamera</translation>
     </message>
 </context>
 <context>
-    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <name>device.install-libgphoto2</name>
     <message>
         <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
         <translation>installare libgphoto2 e LibRaw (libgphoto2-dev, libraw-dev) e ricompilare, o usare un comando</translation>
@@ -1257,28 +1257,28 @@
     </message>
 </context>
 <context>
-    <name>device.it-has</name>
+    <name>device.choose-offered-iso</name>
     <message>
-        <source>it has {}</source>
+        <source>choose one of those that it has: {}</source>
         <translation>valori disponibili: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.let-command-write-size-begin</name>
+    <name>device.write-announced-size</name>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
         <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
     </message>
 </context>
 <context>
-    <name>device.let-desktop-go-gio-mount</name>
+    <name>device.release-from-desktop</name>
     <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
         <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
     </message>
 </context>
 <context>
-    <name>device.let-write-photograph-output</name>
+    <name>device.write-photograph-to-output</name>
     <message>
         <source>let it write the photograph to {output}: {}</source>
         <translation>fare in modo che scriva la foto in {output}: {}</translation>
@@ -1308,35 +1308,35 @@
 <context>
     <name>device.mode-dial-not-manual</name>
     <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <source>the camera&apos;s mode dial is set to {}, where the camera chooses exposures itself</source>
         <translation>la ghiera dei modi della fotocamera è su {}, dove la fotocamera sceglie da sola le esposizioni</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-gphoto2</name>
+    <name>device.name-connected-camera</name>
     <message>
         <source>name that one: gphoto2:{}</source>
         <translation>indicare quella: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
         <translation>indicarne una con la sua porta: gphoto2:{} o gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.new-picture-not-fully-there</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>a new picture is not fully there after {} frames</source>
+        <source>a new picture has not fully appeared after {} frames</source>
         <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
     </message>
 </context>
 <context>
-    <name>device.no-camera-name-plugged-but</name>
+    <name>device.only-other-camera-connected</name>
     <message>
-        <source>no camera of this name is plugged in, but {}</source>
+        <source>no camera of this name is plugged in, but {} is</source>
         <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
     </message>
 </context>
@@ -1348,7 +1348,7 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came-within</name>
+    <name>device.photograph-timed-out</name>
     <message>
         <source>no photograph came within {} s</source>
         <translation>nessuna foto è arrivata entro {} s</translation>
@@ -1369,28 +1369,28 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger-each-photograph</name>
+    <name>device.no-software-trigger</name>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
         <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
     </message>
 </context>
 <context>
-    <name>device.no-such-video-device-plugged</name>
+    <name>device.video-device-missing</name>
     <message>
         <source>no such video device is plugged in</source>
         <translation>quel dispositivo video non è collegato</translation>
     </message>
 </context>
 <context>
-    <name>device.none-camera-pixel-formats-can</name>
+    <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
         <translation>nessuno dei formati pixel della fotocamera è leggibile</translation>
     </message>
 </context>
 <context>
-    <name>device.not-say-when-pictures-captured</name>
+    <name>device.no-capture-times</name>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
         <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
@@ -1404,7 +1404,7 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-asked-none-came</name>
+    <name>device.no-photograph-came</name>
     <message>
         <source>a photograph was asked for and none came</source>
         <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
@@ -1425,51 +1425,51 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-agreed</name>
+    <name>device.photograph-format-changed</name>
     <message>
         <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
         <translation>la foto ha {} pixel in formato {} mentre erano concordati {} in formato {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-announced</name>
+    <name>device.photograph-size-unexpected</name>
     <message>
         <source>the photograph has {} pixels where {} were announced</source>
         <translation>la foto ha {} pixel mentre ne erano annunciati {}</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-came-bytes</name>
+    <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
         <translation>una foto di {} pixel in formato {} è arrivata con {} byte su {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera</name>
+    <name>device.photograph-exceeds-sensor</name>
     <message>
         <source>{} pixels are wanted and the camera has {}</source>
         <translation>sono richiesti {} pixel e la fotocamera ne ha {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera-gives</name>
+    <name>device.photograph-size-refused</name>
     <message>
         <source>{} pixels are wanted and the camera gives {}</source>
         <translation>sono richiesti {} pixel e la fotocamera ne fornisce {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-video-device-gives</name>
+    <name>device.video-size-refused</name>
     <message>
         <source>{} pixels are wanted and the video device gives {}</source>
         <translation>sono richiesti {} pixel e il dispositivo video ne fornisce {}</translation>
     </message>
 </context>
 <context>
-    <name>device.press-shutter-button-half-way</name>
+    <name>device.wake-camera</name>
     <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
         <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
     </message>
 </context>
@@ -1483,19 +1483,19 @@
 <context>
     <name>device.projector-command-lacks</name>
     <message>
-        <source>the projector&apos;s command does not say {}</source>
+        <source>the projector&apos;s command does not contain {}</source>
         <translation>nel comando del proiettore manca {}</translation>
     </message>
 </context>
 <context>
-    <name>device.projector-screen-loses-picture-again</name>
+    <name>device.screen-loses-picture</name>
     <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
+        <source>the projector&apos;s screen keeps losing its picture</source>
         <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
     </message>
 </context>
 <context>
-    <name>device.raw-file-cannot-read</name>
+    <name>device.raw-file-unreadable</name>
     <message>
         <source>the raw file cannot be read ({})</source>
         <translation>impossibile leggere il file RAW ({})</translation>
@@ -1516,42 +1516,42 @@
     </message>
 </context>
 <context>
-    <name>device.raw-file-not-hold-sensor</name>
+    <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
         <translation>il file RAW non contiene i valori originali del sensore</translation>
     </message>
 </context>
 <context>
-    <name>device.recording-cannot-written</name>
+    <name>device.cannot-write-recording</name>
     <message>
         <source>the recording cannot be written ({})</source>
         <translation>impossibile scrivere la registrazione ({})</translation>
     </message>
 </context>
 <context>
-    <name>device.remove-hand-try-again</name>
+    <name>device.remove-file-by-hand</name>
     <message>
         <source>remove it by hand, then try again</source>
         <translation>eliminarlo a mano, poi riprovare</translation>
     </message>
 </context>
 <context>
-    <name>device.run-terminal-find-out-why</name>
+    <name>device.run-command-in-terminal</name>
     <message>
         <source>run it in a terminal to find out why: {}</source>
         <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
     </message>
 </context>
 <context>
-    <name>device.sees-no-colours-brightness-can</name>
+    <name>device.sees-no-colours</name>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
         <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
     </message>
 </context>
 <context>
-    <name>device.set-exposure-mode-timed-manual</name>
+    <name>device.set-manual-exposure-mode</name>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
         <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
@@ -1565,70 +1565,70 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-must-above-zero</name>
+    <name>device.exposure-range-invalid</name>
     <message>
         <source>the shortest exposure must be above zero and no longer than the longest</source>
         <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-frame-rate</name>
+    <name>device.lift-exposure-limits</name>
     <message>
         <source>switch its automatic exposure and its frame rate limit off</source>
         <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-off-camera</name>
+    <name>device.switch-off-automatic-exposure</name>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
         <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-full-size-raw</name>
+    <name>device.switch-to-full-size-raw</name>
     <message>
         <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
         <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-off-choose-another</name>
+    <name>device.restart-or-change-pixel-format</name>
     <message>
         <source>switch the camera off and on, or choose another of its pixel formats</source>
         <translation>spegnere e riaccendere la fotocamera o scegliere un altro dei suoi formati pixel</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus</name>
+    <name>device.switch-to-manual-focus</name>
     <message>
         <source>switch its lens to manual focus</source>
         <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus-close</name>
+    <name>device.take-photograph-by-hand</name>
     <message>
         <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
         <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-camera-maker-program</name>
+    <name>device.switch-off-with-makers-program</name>
     <message>
         <source>switch it off with the camera maker&apos;s program, or use another camera</source>
         <translation>disattivarlo con il programma del produttore della fotocamera o usare un’altra fotocamera</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-load-default-settings</name>
+    <name>device.restart-with-default-settings</name>
     <message>
         <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
         <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-v4l2-ctl-list</name>
+    <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>disattivarlo con v4l2-ctl (--list-ctrls elenca i controlli disponibili) o usare un’altra fotocamera</translation>
@@ -1663,21 +1663,21 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m-or-another-camera</name>
+    <name>device.turn-dial-or-change-camera</name>
     <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <source>turn its mode dial to M; a camera without manual exposure cannot be used</source>
         <translation>ruotarne la ghiera dei modi su M; una fotocamera che ne è priva non è utilizzabile</translation>
     </message>
 </context>
 <context>
-    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
         <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
     </message>
 </context>
 <context>
-    <name>device.use-camera-manual-exposure</name>
+    <name>device.use-manual-exposure-camera</name>
     <message>
         <source>use a camera with manual exposure</source>
         <translation>usare una fotocamera con esposizione manuale</translation>
@@ -1691,35 +1691,35 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-been-unplugged</name>
+    <name>device.video-device-unplugged</name>
     <message>
         <source>the video device has been unplugged</source>
         <translation>il dispositivo video è stato scollegato</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-again</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
         <source>the video device cannot be opened again</source>
         <translation>impossibile riaprire il dispositivo video</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-another</name>
+    <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>impossibile aprire il dispositivo video: forse un altro programma lo sta usando</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-no-exposure-can</name>
+    <name>device.video-exposure-not-settable</name>
     <message>
         <source>the video device has no exposure that can be set</source>
         <translation>il dispositivo video non ha un’esposizione impostabile</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-sends-no-pictures</name>
+    <name>device.no-video-pictures</name>
     <message>
         <source>the video device sends no pictures</source>
         <translation>il dispositivo video non invia immagini</translation>
@@ -1789,7 +1789,7 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-cannot-used</name>
+    <name>engine.graphics-card-unusable</name>
     <message>
         <source>the graphics card cannot be used</source>
         <translation>la scheda grafica non è utilizzabile</translation>
@@ -1803,16 +1803,16 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-no-mb-memory</name>
+    <name>engine.graphics-memory-exhausted</name>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
         <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-reaches-mb-once</name>
+    <name>engine.graphics-buffer-too-large</name>
     <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <source>the graphics card can hold {} MB in one piece, but {} MB are needed</source>
         <translation>la scheda grafica raggiunge {} MB alla volta mentre servono {} MB</translation>
     </message>
 </context>
@@ -1831,21 +1831,21 @@
     </message>
 </context>
 <context>
-    <name>engine.there-no-graphics-card-opengl</name>
+    <name>engine.no-graphics-card</name>
     <message>
         <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
         <translation>non c’è una scheda grafica con OpenGL 4.3 e compute shader</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-libegl-no-libopengl</name>
+    <name>engine.no-libegl-or-libopengl</name>
     <message>
         <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
         <translation>manca libEGL o libOpenGL, che aprono le schede grafiche senza schermo</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-opengl-4-3</name>
+    <name>engine.no-opengl</name>
     <message>
         <source>there is no OpenGL 4.3 with compute shaders</source>
         <translation>OpenGL 4.3 con compute shader non è disponibile</translation>
@@ -1882,7 +1882,7 @@
 <context>
     <name>import.patterns-black-and-white</name>
     <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <source>The patterns hold black and white only: the projector&apos;s response is assumed to be a gamma of 2.2</source>
         <translation>i pattern contengono solo bianco e nero: la risposta del proiettore è assunta come potenza di 2,2</translation>
     </message>
 </context>
@@ -1908,7 +1908,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.cameras-no-exposure-time-common</name>
+    <name>linearization.no-common-exposure</name>
     <message>
         <source>the cameras have no exposure time in common</source>
         <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
@@ -1950,7 +1950,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.set-them-ranges-exposure-times</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
         <source>set them to ranges of exposure times that overlap</source>
         <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
@@ -5039,7 +5039,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>report.report-cannot-written</name>
+    <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>impossibile scrivere il rapporto</translation>
@@ -5074,7 +5074,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-removed</name>
+    <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>impossibile eliminarlo ({})</translation>
@@ -5088,7 +5088,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>show.choose-another-folder-log</name>
+    <name>show.choose-another-log-folder</name>
     <message>
         <source>choose another folder with --log</source>
         <translation>scegliere un’altra cartella con --log</translation>
@@ -5097,40 +5097,40 @@ proiettore %2</translation>
 <context>
     <name>show.engine-lost-device</name>
     <message>
-        <source>the engine lost its device</source>
+        <source>the engine lost its graphics card</source>
         <translation>il motore ha perso il suo dispositivo</translation>
     </message>
 </context>
 <context>
-    <name>show.log-cannot-written</name>
+    <name>show.cannot-write-log</name>
     <message>
         <source>the log cannot be written ({})</source>
         <translation>impossibile scrivere il log ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-asleep-not-wake</name>
+    <name>show.screen-asleep</name>
     <message>
         <source>the projector&apos;s screen is asleep and does not wake</source>
         <translation>lo schermo del proiettore è in standby e non si riattiva</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-pixels-now-calibrated</name>
+    <name>show.screen-size-changed</name>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>lo schermo del proiettore ora ha {} pixel e ne sono stati calibrati {}</translation>
     </message>
 </context>
 <context>
-    <name>show.service-cannot-switched</name>
+    <name>show.cannot-enable-service</name>
     <message>
         <source>the service cannot be switched on ({})</source>
         <translation>impossibile attivare il servizio ({})</translation>
     </message>
 </context>
 <context>
-    <name>show.set-resolution-back-desktop-settings</name>
+    <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
         <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
@@ -5144,9 +5144,9 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>show.switch-saving-energy-screen-saver</name>
+    <name>show.switch-off-power-saving</name>
     <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>disattivarne il risparmio energetico e il salvaschermo nelle impostazioni del desktop, poi riprovare</translation>
     </message>
 </context>
@@ -5165,7 +5165,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.black-full-light</name>
+    <name>stage.black-and-full-light</name>
     <message>
         <source>black and full light</source>
         <translation>nero e piena luce</translation>
@@ -5193,7 +5193,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.checking-projector-camera</name>
+    <name>stage.checking-projector-and-camera</name>
     <message>
         <source>Checking projector and camera</source>
         <translation>Controllo di proiettore e fotocamera</translation>
@@ -5207,7 +5207,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.clusters-held-size</name>
+    <name>stage.capped-clusters</name>
     <message>
         <source>Clusters held to a size</source>
         <translation>Cluster di dimensione limitata</translation>
@@ -5256,7 +5256,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.estimating-response-colours</name>
+    <name>stage.estimating-response-and-colours</name>
     <message>
         <source>Estimating response and colours</source>
         <translation>Stima della risposta e dei colori</translation>
@@ -5298,7 +5298,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.fitting-spread-light</name>
+    <name>stage.fitting-light-spread</name>
     <message>
         <source>Fitting the spread of light</source>
         <translation>Modello della diffusione della luce</translation>
@@ -5312,7 +5312,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.holding-clusters-size</name>
+    <name>stage.capping-clusters</name>
     <message>
         <source>Holding clusters to a size</source>
         <translation>Limitazione dei cluster</translation>
@@ -5379,14 +5379,14 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-projector-picture</name>
+    <name>stage.finding-projector-picture</name>
     <message>
         <source>Looking for the projector&apos;s picture</source>
         <translation>Ricerca dell’immagine del proiettore</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-shadows</name>
+    <name>stage.finding-shadows</name>
     <message>
         <source>Looking for shadows</source>
         <translation>Ricerca delle ombre</translation>
@@ -5414,7 +5414,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>
@@ -5572,7 +5572,7 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.separating-direct-indirect-light</name>
+    <name>stage.separating-direct-and-indirect-light</name>
     <message>
         <source>Separating direct and indirect light</source>
         <translation>Separazione di luce diretta e indiretta</translation>
@@ -5623,7 +5623,7 @@ proiettore %2</translation>
 <context>
     <name>stage.windows</name>
     <message>
-        <source>Windows</source>
+        <source>Computing the windows of the inverse</source>
         <translation>Finestre</translation>
     </message>
 </context>
@@ -5656,14 +5656,14 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-folder-you-may-write</name>
+    <name>view.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
     </message>
 </context>
 <context>
-    <name>view.picture-could-not-written</name>
+    <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>impossibile scrivere l’immagine</translation>

@@ -249,7 +249,7 @@
 <context>
     <name>acquisition.light-drifted</name>
     <message>
-        <source>The light changed by {} % between the first and the last photograph; that was followed, but let the projector warm up before the next time</source>
+        <source>The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time</source>
         <translation>从第一张到最后一张照片，光线变化了 {} %。已作修正，但下次请先让投影机预热</translation>
     </message>
 </context>
@@ -263,7 +263,7 @@
 <context>
     <name>acquisition.pixels-flagged</name>
     <message>
-        <source>{} % of the camera pixels see something else than predicted in the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
+        <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁。这些像素不参与补偿</translation>
     </message>
 </context>
@@ -326,7 +326,7 @@
 <context>
     <name>alarm.projector-shows-nothing</name>
     <message>
-        <source>the projector shows nothing, the room&apos;s own light is still seen</source>
+        <source>the projector shows nothing, though the room&apos;s own light is still seen</source>
         <translation>投影机没有显示，但仍能看到环境光</translation>
     </message>
 </context>
@@ -340,7 +340,7 @@
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>switch it back, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
         <translation>请将灯光恢复原状，保持门和窗帘关闭，然后重试</translation>
     </message>
 </context>
@@ -361,7 +361,7 @@
 <context>
     <name>alarm.safe-before-check</name>
     <message>
-        <source>every photograph up to the check before is safe</source>
+        <source>every photograph up to the previous check is safe</source>
         <translation>上一次检查之前的照片都是安全的</translation>
     </message>
 </context>
@@ -403,7 +403,7 @@
 <context>
     <name>alarm.view-changed</name>
     <message>
-        <source>{} % of the view of camera {} look different than before</source>
+        <source>{} % of the view of camera {} look different from before</source>
         <translation>相机 {1} 的画面有 {0} % 与之前不同</translation>
     </message>
 </context>
@@ -422,14 +422,14 @@
     </message>
 </context>
 <context>
-    <name>calibration.calibration-manifest-damaged</name>
+    <name>calibration.manifest-damaged</name>
     <message>
         <source>the calibration&apos;s manifest is damaged</source>
         <translation>校准数据的清单文件已损坏</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-look-into-folder</name>
+    <name>calibration.cannot-list-folder</name>
     <message>
         <source>cannot look into the folder ({})</source>
         <translation>无法查看文件夹内容（{}）</translation>
@@ -443,77 +443,77 @@
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-go</name>
+    <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
         <translation>请确认该文件夹可写入，然后继续</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-folder-may-written-try</name>
+    <name>calibration.allow-writing-then-retry</name>
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>请确认该文件夹可写入，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-path-you-may-read</name>
+    <name>calibration.check-path-and-permission</name>
     <message>
         <source>check the path and that you may read it</source>
         <translation>请检查路径，并确认您有读取权限</translation>
     </message>
 </context>
 <context>
-    <name>calibration.check-you-may-read-choose</name>
+    <name>calibration.check-permission-or-name</name>
     <message>
         <source>check that you may read it, or choose another name</source>
         <translation>请确认您有读取权限，或换一个名称</translation>
     </message>
 </context>
 <context>
-    <name>calibration.choose-another-calibration-copy-again</name>
+    <name>calibration.choose-another-or-copy-again</name>
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>请选择其他校准数据，或从测量处重新复制</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-bytes-instead</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
         <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
         <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
     </message>
 </context>
 <context>
-    <name>calibration.file-calibration-missing</name>
+    <name>calibration.result-file-missing</name>
     <message>
         <source>a file of the calibration&apos;s {} is missing</source>
         <translation>校准数据“{}”缺少一个文件</translation>
     </message>
 </context>
 <context>
-    <name>calibration.free-some-space-there-check</name>
+    <name>disk.free-space-or-check-disk</name>
     <message>
         <source>free some space there or check the disk, then try again</source>
         <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>calibration.no-calibration-relucent</name>
+    <name>calibration.not-a-calibration</name>
     <message>
-        <source>this is no calibration of Relucent</source>
+        <source>this is not a calibration of Relucent</source>
         <translation>这不是 Relucent 的校准数据</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-moved</name>
+    <name>calibration.cannot-move-photograph</name>
     <message>
         <source>a photograph cannot be moved ({})</source>
         <translation>无法移动照片（{}）</translation>
     </message>
 </context>
 <context>
-    <name>calibration.photograph-cannot-removed</name>
+    <name>calibration.cannot-remove-photograph</name>
     <message>
         <source>a photograph cannot be removed ({})</source>
         <translation>无法删除照片（{}）</translation>
@@ -550,14 +550,14 @@
 <context>
     <name>check.light-unsteady</name>
     <message>
-        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch dynamic brightness and lamps in the room off.</source>
+        <source>The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.</source>
         <translation>整帧曝光之间光线变化 {} %：请让灯预热，并关闭动态亮度和室内的灯。</translation>
     </message>
 </context>
 <context>
     <name>check.no-brief-exposure</name>
     <message>
-        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be told.</source>
+        <source>The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.</source>
         <translation>相机无法按不足一帧曝光，或此时看到的太少：无法判断帧内闪烁。</translation>
     </message>
 </context>
@@ -571,8 +571,8 @@
 <context>
     <name>check.picture-out</name>
     <message numerus="yes">
-        <source>A picture is out {} frames after it is sent: {} ms are waited for.</source>
-        <comment>A picture is out {} frame after it is sent: {} ms are waited for.</comment>
+        <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
+        <comment>A picture appears {} frame after it is sent: {} ms are waited for.</comment>
         <translation>
             <numerusform>图像在发送 {} 帧后显示：等待 {} ms。</numerusform>
         </translation>
@@ -581,8 +581,8 @@
 <context>
     <name>check.pictures-late</name>
     <message numerus="yes">
-        <source>Pictures come late, by {} photographs: the latency has to be measured and waited for.</source>
-        <comment>Pictures come late, by {} photograph: the latency has to be measured and waited for.</comment>
+        <source>Pictures arrive {} photographs late: measure the latency, so that it is waited for.</source>
+        <comment>Pictures arrive {} photograph late: measure the latency, so that it is waited for.</comment>
         <translation>
             <numerusform>图像晚到 {} 张照片：必须测量延迟并等待。</numerusform>
         </translation>
@@ -624,37 +624,37 @@
     </message>
 </context>
 <context>
-    <name>content.capture-device-gives-no-picture</name>
+    <name>content.nothing-captured</name>
     <message>
         <source>the capture device gives no picture</source>
         <translation>采集设备没有给出图像</translation>
     </message>
 </context>
 <context>
-    <name>content.live-picture-screen-needs-x</name>
+    <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
         <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
     </message>
 </context>
 <context>
-    <name>content.log-desktop-x-xorg-log</name>
+    <name>content.log-in-to-xorg</name>
     <message>
         <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
         <translation>请登录到 X 桌面（登录时选择“Xorg”），或播放文件</translation>
     </message>
 </context>
 <context>
-    <name>content.plug-close-other-programs-use</name>
+    <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
         <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>device.aim-projection-take-cap-off</name>
+    <name>device.aim-uncover-and-expose-longer</name>
     <message>
-        <source>aim it at the projection, take its cap off, and expose longer</source>
+        <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>请将相机对准投影，取下镜头盖，并加长曝光</translation>
     </message>
 </context>
@@ -666,42 +666,42 @@
     </message>
 </context>
 <context>
-    <name>device.ask-less</name>
+    <name>device.ask-for-fewer-pixels</name>
     <message>
         <source>ask for that or less</source>
         <translation>请指定不大于此的尺寸</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-gives</name>
+    <name>device.ask-for-given-size</name>
     <message>
         <source>ask for the size that it gives</source>
         <translation>请指定相机所给出的尺寸</translation>
     </message>
 </context>
 <context>
-    <name>device.ask-size-v4l2-ctl-list</name>
+    <name>device.ask-for-listed-size</name>
     <message>
         <source>ask for a size that it has: v4l2-ctl --list-formats-ext names them</source>
         <translation>请指定它支持的尺寸：可用 v4l2-ctl --list-formats-ext 列出</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-gain-keeps</name>
+    <name>device.gain-refused</name>
     <message>
-        <source>was asked for a gain of {} and keeps to {}</source>
+        <source>was asked for a gain of {} but uses {}</source>
         <translation>要求增益 {}，却保持 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.asked-iso-keeps-iso</name>
+    <name>device.iso-refused</name>
     <message>
-        <source>was asked for ISO {} and keeps to ISO {}</source>
+        <source>was asked for ISO {} but uses ISO {}</source>
         <translation>要求 ISO {}，却保持 ISO {}</translation>
     </message>
 </context>
 <context>
-    <name>device.attempts-photograph-failed</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
         <source>{} attempts at a photograph failed: {}</source>
         <translation>尝试拍摄 {} 次均失败：{}</translation>
@@ -750,28 +750,28 @@
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-dslr</name>
+    <name>device.built-without-gphoto</name>
     <message>
         <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
         <translation>此构建的 Relucent 不支持单反和无反相机</translation>
     </message>
 </context>
 <context>
-    <name>device.build-relucent-not-know-genicam</name>
+    <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
         <translation>此构建的 Relucent 不支持 GenICam 相机</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-expose-s-keeps</name>
+    <name>device.exposure-refused</name>
     <message>
-        <source>the camera was asked to expose {} s and keeps to {} s</source>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
         <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-asked-photograph-took-none</name>
+    <name>device.trial-photograph-failed</name>
     <message>
         <source>the camera was asked for a photograph and took none</source>
         <translation>已要求相机拍摄，但它没有拍摄</translation>
@@ -785,37 +785,37 @@
     </message>
 </context>
 <context>
-    <name>device.camera-been-gone-s</name>
+    <name>device.camera-not-back</name>
     <message>
         <source>the camera has been gone for {} s: {}</source>
         <translation>相机已失去连接 {} 秒：{}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-came-back-pixels-instead</name>
+    <name>device.reconnected-camera-size-differs</name>
     <message>
         <source>the camera came back with {} pixels instead of {}</source>
         <translation>重新连接的相机为 {} 像素，应为 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-can</name>
+    <name>device.choose-gain-in-range</name>
     <message>
-        <source>the camera can do {} to {}</source>
+        <source>choose a gain from {} to {}</source>
         <translation>相机支持的范围为 {} 至 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-claims-exposures-s</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
         <source>the camera claims exposures of {} to {} s</source>
         <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-colour-filter-no-bayer</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the camera&apos;s colour filter is no Bayer filter</source>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
         <translation>相机的滤色片不是拜耳滤色片</translation>
     </message>
 </context>
@@ -829,21 +829,21 @@
 <context>
     <name>device.camera-command-lacks</name>
     <message>
-        <source>the camera&apos;s command does not say {}</source>
+        <source>the camera&apos;s command does not contain {}</source>
         <translation>相机的命令中缺少 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-forgotten-pixel-format-set</name>
+    <name>device.pixel-format-lost</name>
     <message>
         <source>the camera has forgotten the pixel format that it was set to</source>
         <translation>相机丢失了已设定的像素格式</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-found-no-focus-took</name>
+    <name>device.no-focus</name>
     <message>
-        <source>the camera found no focus and took no photograph ({})</source>
+        <source>the camera could not focus and took no photograph ({})</source>
         <translation>相机未能对焦，没有拍摄照片（{}）</translation>
     </message>
 </context>
@@ -855,9 +855,9 @@
     </message>
 </context>
 <context>
-    <name>device.camera-keeps-s-whatever-exposure</name>
+    <name>device.exposure-time-fixed</name>
     <message>
-        <source>the camera keeps to {} s whatever exposure it is asked for</source>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
         <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
     </message>
 </context>
@@ -869,21 +869,21 @@
     </message>
 </context>
 <context>
-    <name>device.camera-no-pixel-format-can</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
         <source>the camera has no pixel format {} that can be read</source>
         <translation>相机没有可读取的像素格式 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-not-see-what-shown</name>
+    <name>device.screen-not-seen</name>
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>相机看不到 {} 上显示的内容</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-refused-what-asked</name>
+    <name>device.request-refused</name>
     <message>
         <source>the camera refused what it was asked for ({})</source>
         <translation>相机拒绝了请求（{}）</translation>
@@ -897,14 +897,14 @@
     </message>
 </context>
 <context>
-    <name>device.camera-sees-no-difference-between</name>
+    <name>device.no-contrast</name>
     <message>
         <source>the camera sees no difference between white and black</source>
         <translation>相机看不出白与黑的差别</translation>
     </message>
 </context>
 <context>
-    <name>device.camera-sees-not</name>
+    <name>device.other-screen-seen</name>
     <message>
         <source>the camera sees {}, not {}</source>
         <translation>相机看到的是 {}，而不是 {}</translation>
@@ -925,7 +925,7 @@
     </message>
 </context>
 <context>
-    <name>device.cameras-model-plugged</name>
+    <name>device.several-cameras-of-model</name>
     <message>
         <source>{} cameras of this model are plugged in</source>
         <translation>接上了 {} 台此型号的相机</translation>
@@ -946,7 +946,7 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-switched-off</name>
+    <name>device.automatic-function-stays</name>
     <message>
         <source>{} cannot be switched off</source>
         <translation>无法关闭 {}</translation>
@@ -960,119 +960,119 @@
     </message>
 </context>
 <context>
-    <name>device.change-empty-memory-card</name>
+    <name>device.change-or-empty-card</name>
     <message>
         <source>change or empty the memory card</source>
         <translation>请更换或清空存储卡</translation>
     </message>
 </context>
 <context>
-    <name>device.charge-change-battery-best-use</name>
+    <name>device.charge-or-change-battery</name>
     <message>
-        <source>charge or change the battery, best use a mains adapter, and switch the camera on again</source>
+        <source>charge or change the battery, or better, use a mains adapter, and switch the camera on again</source>
         <translation>请充电或更换电池（最好使用电源适配器），然后重新打开相机</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power</name>
+    <name>device.check-cable-and-power</name>
     <message>
         <source>check its cable and its power</source>
         <translation>请检查线缆和电源</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address-relucent</name>
+    <name>device.check-cable-power-address</name>
     <message>
         <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
         <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-saving-energy</name>
+    <name>device.check-cable-and-power-saving</name>
     <message>
-        <source>check its cable, and switch its saving of energy off</source>
+        <source>check its cable, and switch off its power saving</source>
         <translation>请检查线缆，并关闭其节能功能</translation>
     </message>
 </context>
 <context>
-    <name>device.check-cable-switch-switch-automatic</name>
+    <name>device.switch-on-and-keep-awake</name>
     <message>
-        <source>check its cable, switch it on and switch its automatic power-off off</source>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
         <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-cable-network-card</name>
+    <name>device.check-cable-network-and-programs</name>
     <message>
         <source>check the camera&apos;s cable and network card, and that no other program uses it</source>
         <translation>请检查相机的线缆和网卡，并确认没有其他程序在使用相机</translation>
     </message>
 </context>
 <context>
-    <name>device.check-camera-view-steady-exposure</name>
+    <name>device.steady-view-and-expose-briefly</name>
     <message>
         <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
         <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
     </message>
 </context>
 <context>
-    <name>device.check-device-allow-command-more</name>
+    <name>device.allow-command-more-time</name>
     <message>
         <source>check the device, or allow the command more time: {}</source>
         <translation>请检查设备，或给该命令更多时间：{}</translation>
     </message>
 </context>
 <context>
-    <name>device.check-projector-shows-output-aim</name>
+    <name>device.check-projector-and-aim</name>
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>请确认投影机已打开并显示该输出，将相机对准它，取下镜头盖；或选择其他屏幕</translation>
     </message>
 </context>
 <context>
-    <name>device.choose-aim-camera</name>
+    <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
         <translation>请选择 {}，或将相机对准 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-s-but-keeps</name>
+    <name>device.shortest-exposure-understated</name>
     <message>
-        <source>claims exposures from {} s but keeps to {} s</source>
+        <source>claims exposures from {} s but does not go below {} s</source>
         <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.claims-exposures-up-s-but</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>claims exposures up to {} s but keeps to {} s</source>
+        <source>claims exposures up to {} s but reaches only {} s</source>
         <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-playback-end-live</name>
+    <name>device.close-menus-and-live-view</name>
     <message>
-        <source>close its menus and its playback, and end its live picture</source>
+        <source>close its menus and its playback, and leave live view</source>
         <translation>请关闭相机的菜单和回放，并退出实时取景</translation>
     </message>
 </context>
 <context>
-    <name>device.close-menus-switch-off</name>
+    <name>device.close-menus-and-restart</name>
     <message>
         <source>close its menus, and switch it off and on</source>
         <translation>请关闭相机的菜单，再关机并重新开机</translation>
     </message>
 </context>
 <context>
-    <name>device.close-other-programs-try-again</name>
+    <name>device.close-other-programs</name>
     <message>
         <source>close other programs and try again</source>
         <translation>请关闭其他程序，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>device.command-cannot-started</name>
+    <name>device.cannot-start-command</name>
     <message>
         <source>the command cannot be started ({})</source>
         <translation>无法启动命令（{}）</translation>
@@ -1135,28 +1135,28 @@
     </message>
 </context>
 <context>
-    <name>device.connect-camera-measurement-begun</name>
+    <name>device.reconnect-same-camera</name>
     <message>
         <source>connect the camera that the measurement was begun with</source>
         <translation>请连接开始测量时所用的相机</translation>
     </message>
 </context>
 <context>
-    <name>device.copy-again-take-photograph-again</name>
+    <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
         <translation>请重新复制或重新拍摄；相机若比此 LibRaw 更新，则需使用 DNG 文件</translation>
     </message>
 </context>
 <context>
-    <name>device.delivers-8-bits-dark-places</name>
+    <name>device.delivers-8-bits</name>
     <message>
         <source>delivers 8 bits: dark places stay uncertain</source>
         <translation>输出 8 位：暗处仍不确定</translation>
     </message>
 </context>
 <context>
-    <name>device.develop-files-linearly-16-bit</name>
+    <name>device.develop-linearly</name>
     <message>
         <source>develop the files linearly, as 16-bit TIFF, or use another camera</source>
         <translation>请将文件线性转换为 16 位 TIFF，或换用其他相机</translation>
@@ -1177,21 +1177,21 @@
     </message>
 </context>
 <context>
-    <name>device.free-some-space-record-elsewhere</name>
+    <name>device.free-space-or-record-elsewhere</name>
     <message>
         <source>free some space, or record elsewhere</source>
         <translation>请腾出一些空间，或记录到别处</translation>
     </message>
 </context>
 <context>
-    <name>device.free-some-space-there-let</name>
+    <name>device.free-space-or-set-tmpdir</name>
     <message>
-        <source>free some space there, or let TMPDIR name a folder that you may write to</source>
+        <source>free some space there, or set TMPDIR to a folder that you may write to</source>
         <translation>请在该处腾出一些空间，或将 TMPDIR 设为您可写入的文件夹</translation>
     </message>
 </context>
 <context>
-    <name>device.gain-wanted</name>
+    <name>device.gain-out-of-range</name>
     <message>
         <source>a gain of {} is wanted</source>
         <translation>指定的增益为 {}</translation>
@@ -1214,33 +1214,33 @@
 <context>
     <name>device.held-by-desktop</name>
     <message>
-        <source>another program holds the camera, mostly the desktop, which mounts it like a memory stick</source>
+        <source>another program is using the camera, usually the desktop, which mounts it like a memory stick</source>
         <translation>另一个程序正在占用相机，通常是桌面将其当作 U 盘挂载了</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-camera</name>
+    <name>device.camera-size-out-of-range</name>
     <message>
         <source>a camera of {} pixels is impossible: each side is {} to {}</source>
         <translation>不可能有 {} 像素的相机：每边为 {} 至 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.impossible-projector</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
         <source>a projector of {} pixels is impossible: each side is {} to {}</source>
         <translation>不可能有 {} 像素的投影机：每边为 {} 至 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.install-aravis-libaravis-dev-build</name>
+    <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
         <translation>请安装 Aravis（libaravis-dev）并重新编译，或使用其他类型的相机</translation>
     </message>
 </context>
 <context>
-    <name>device.install-libgphoto2-libraw-libgphoto2-dev</name>
+    <name>device.install-libgphoto2</name>
     <message>
         <source>install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command</source>
         <translation>请安装 libgphoto2 和 LibRaw（libgphoto2-dev、libraw-dev）并重新编译，或使用命令</translation>
@@ -1254,28 +1254,28 @@
     </message>
 </context>
 <context>
-    <name>device.it-has</name>
+    <name>device.choose-offered-iso</name>
     <message>
-        <source>it has {}</source>
+        <source>choose one of those that it has: {}</source>
         <translation>可选值为 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.let-command-write-size-begin</name>
+    <name>device.write-announced-size</name>
     <message>
         <source>let the command write that size, or begin again with the size that the camera delivers</source>
         <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
     </message>
 </context>
 <context>
-    <name>device.let-desktop-go-gio-mount</name>
+    <name>device.release-from-desktop</name>
     <message>
-        <source>let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file manager) and close programs for photographs</source>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
         <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
     </message>
 </context>
 <context>
-    <name>device.let-write-photograph-output</name>
+    <name>device.write-photograph-to-output</name>
     <message>
         <source>let it write the photograph to {output}: {}</source>
         <translation>请让命令将照片写入 {output}：{}</translation>
@@ -1305,35 +1305,35 @@
 <context>
     <name>device.mode-dial-not-manual</name>
     <message>
-        <source>the camera&apos;s mode dial stands on {}, where the camera chooses exposures itself</source>
+        <source>the camera&apos;s mode dial is set to {}, where the camera chooses exposures itself</source>
         <translation>相机的模式转盘处于 {}，此时曝光由相机自行选择</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-gphoto2</name>
+    <name>device.name-connected-camera</name>
     <message>
         <source>name that one: gphoto2:{}</source>
         <translation>请指定该相机：gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.name-one-port-gphoto2-gphoto2</name>
+    <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
         <translation>请用端口指定其中一台：gphoto2:{} 或 gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.new-picture-not-fully-there</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>a new picture is not fully there after {} frames</source>
+        <source>a new picture has not fully appeared after {} frames</source>
         <translation>新图像在 {} 帧后仍未完全显示</translation>
     </message>
 </context>
 <context>
-    <name>device.no-camera-name-plugged-but</name>
+    <name>device.only-other-camera-connected</name>
     <message>
-        <source>no camera of this name is plugged in, but {}</source>
+        <source>no camera of this name is plugged in, but {} is</source>
         <translation>没有接上此名称的相机，接上的是 {}</translation>
     </message>
 </context>
@@ -1345,7 +1345,7 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came-within</name>
+    <name>device.photograph-timed-out</name>
     <message>
         <source>no photograph came within {} s</source>
         <translation>{} 秒内没有收到照片</translation>
@@ -1366,28 +1366,28 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger-each-photograph</name>
+    <name>device.no-software-trigger</name>
     <message>
         <source>has no software trigger: each photograph may wait for one more exposure</source>
         <translation>没有软件触发：每张照片可能多等一次曝光</translation>
     </message>
 </context>
 <context>
-    <name>device.no-such-video-device-plugged</name>
+    <name>device.video-device-missing</name>
     <message>
         <source>no such video device is plugged in</source>
         <translation>没有接上这样的视频设备</translation>
     </message>
 </context>
 <context>
-    <name>device.none-camera-pixel-formats-can</name>
+    <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
         <translation>相机的像素格式均无法读取</translation>
     </message>
 </context>
 <context>
-    <name>device.not-say-when-pictures-captured</name>
+    <name>device.no-capture-times</name>
     <message>
         <source>does not say when pictures were captured: some are dropped before each photograph</source>
         <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
@@ -1401,7 +1401,7 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-asked-none-came</name>
+    <name>device.no-photograph-came</name>
     <message>
         <source>a photograph was asked for and none came</source>
         <translation>已要求拍摄，但没有收到照片</translation>
@@ -1422,51 +1422,51 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-agreed</name>
+    <name>device.photograph-format-changed</name>
     <message>
         <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
         <translation>照片为 {} 像素（{}），与约定的 {}（{}）不符</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-announced</name>
+    <name>device.photograph-size-unexpected</name>
     <message>
         <source>the photograph has {} pixels where {} were announced</source>
         <translation>照片为 {} 像素，与事先告知的 {} 不符</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-pixels-came-bytes</name>
+    <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
         <translation>一张 {} 像素（{}）的照片只收到 {} 字节，应为 {} 字节</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera</name>
+    <name>device.photograph-exceeds-sensor</name>
     <message>
         <source>{} pixels are wanted and the camera has {}</source>
         <translation>指定了 {} 像素，但相机有 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-camera-gives</name>
+    <name>device.photograph-size-refused</name>
     <message>
         <source>{} pixels are wanted and the camera gives {}</source>
         <translation>指定了 {} 像素，但相机给出的是 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.pixels-wanted-video-device-gives</name>
+    <name>device.video-size-refused</name>
     <message>
         <source>{} pixels are wanted and the video device gives {}</source>
         <translation>指定了 {} 像素，但视频设备给出的是 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.press-shutter-button-half-way</name>
+    <name>device.wake-camera</name>
     <message>
-        <source>press its shutter button half way or switch it off and on, and switch its automatic power-off off</source>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
         <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
     </message>
 </context>
@@ -1480,19 +1480,19 @@
 <context>
     <name>device.projector-command-lacks</name>
     <message>
-        <source>the projector&apos;s command does not say {}</source>
+        <source>the projector&apos;s command does not contain {}</source>
         <translation>投影机的命令中缺少 {}</translation>
     </message>
 </context>
 <context>
-    <name>device.projector-screen-loses-picture-again</name>
+    <name>device.screen-loses-picture</name>
     <message>
-        <source>the projector&apos;s screen loses its picture again and again</source>
+        <source>the projector&apos;s screen keeps losing its picture</source>
         <translation>投影机的屏幕一再丢失图像</translation>
     </message>
 </context>
 <context>
-    <name>device.raw-file-cannot-read</name>
+    <name>device.raw-file-unreadable</name>
     <message>
         <source>the raw file cannot be read ({})</source>
         <translation>无法读取 RAW 文件（{}）</translation>
@@ -1513,42 +1513,42 @@
     </message>
 </context>
 <context>
-    <name>device.raw-file-not-hold-sensor</name>
+    <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
         <translation>RAW 文件中没有传感器的原始数值</translation>
     </message>
 </context>
 <context>
-    <name>device.recording-cannot-written</name>
+    <name>device.cannot-write-recording</name>
     <message>
         <source>the recording cannot be written ({})</source>
         <translation>无法写入记录（{}）</translation>
     </message>
 </context>
 <context>
-    <name>device.remove-hand-try-again</name>
+    <name>device.remove-file-by-hand</name>
     <message>
         <source>remove it by hand, then try again</source>
         <translation>请手动删除，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>device.run-terminal-find-out-why</name>
+    <name>device.run-command-in-terminal</name>
     <message>
         <source>run it in a terminal to find out why: {}</source>
         <translation>请在终端中运行以查明原因：{}</translation>
     </message>
 </context>
 <context>
-    <name>device.sees-no-colours-brightness-can</name>
+    <name>device.sees-no-colours</name>
     <message>
         <source>sees no colours: brightness can be compensated, colours cannot</source>
         <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
     </message>
 </context>
 <context>
-    <name>device.set-exposure-mode-timed-manual</name>
+    <name>device.set-manual-exposure-mode</name>
     <message>
         <source>set its exposure mode to timed and manual, or update its firmware</source>
         <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
@@ -1562,70 +1562,70 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-must-above-zero</name>
+    <name>device.exposure-range-invalid</name>
     <message>
         <source>the shortest exposure must be above zero and no longer than the longest</source>
         <translation>最短曝光必须大于零且不长于最长曝光</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-frame-rate</name>
+    <name>device.lift-exposure-limits</name>
     <message>
         <source>switch its automatic exposure and its frame rate limit off</source>
         <translation>请关闭相机的自动曝光和帧率限制</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-automatic-exposure-off-camera</name>
+    <name>device.switch-off-automatic-exposure</name>
     <message>
         <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
         <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-full-size-raw</name>
+    <name>device.switch-to-full-size-raw</name>
     <message>
         <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
         <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-camera-off-choose-another</name>
+    <name>device.restart-or-change-pixel-format</name>
     <message>
         <source>switch the camera off and on, or choose another of its pixel formats</source>
         <translation>请将相机关机并重新开机，或选择它的其他像素格式</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus</name>
+    <name>device.switch-to-manual-focus</name>
     <message>
         <source>switch its lens to manual focus</source>
         <translation>请将镜头切换到手动对焦</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-lens-manual-focus-close</name>
+    <name>device.take-photograph-by-hand</name>
     <message>
         <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
         <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-camera-maker-program</name>
+    <name>device.switch-off-with-makers-program</name>
     <message>
         <source>switch it off with the camera maker&apos;s program, or use another camera</source>
         <translation>请用相机厂商的程序将其关闭，或换用其他相机</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-load-default-settings</name>
+    <name>device.restart-with-default-settings</name>
     <message>
         <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
         <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>device.switch-off-v4l2-ctl-list</name>
+    <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>请用 v4l2-ctl 将其关闭（--list-ctrls 可列出其控制项），或换用其他相机</translation>
@@ -1660,21 +1660,21 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m-or-another-camera</name>
+    <name>device.turn-dial-or-change-camera</name>
     <message>
-        <source>turn its mode dial to M; a camera without it cannot be used</source>
+        <source>turn its mode dial to M; a camera without manual exposure cannot be used</source>
         <translation>请将相机的模式转盘转到 M；没有 M 的相机无法使用</translation>
     </message>
 </context>
 <context>
-    <name>device.unpacked-mono-bayer-rgb-8</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
         <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
         <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
     </message>
 </context>
 <context>
-    <name>device.use-camera-manual-exposure</name>
+    <name>device.use-manual-exposure-camera</name>
     <message>
         <source>use a camera with manual exposure</source>
         <translation>请使用有手动曝光的相机</translation>
@@ -1688,35 +1688,35 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-been-unplugged</name>
+    <name>device.video-device-unplugged</name>
     <message>
         <source>the video device has been unplugged</source>
         <translation>视频设备已断开</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-again</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
         <source>the video device cannot be opened again</source>
         <translation>无法重新打开视频设备</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-cannot-opened-another</name>
+    <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>无法打开视频设备：可能有其他程序正在使用它</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-no-exposure-can</name>
+    <name>device.video-exposure-not-settable</name>
     <message>
         <source>the video device has no exposure that can be set</source>
         <translation>视频设备没有可设置的曝光</translation>
     </message>
 </context>
 <context>
-    <name>device.video-device-sends-no-pictures</name>
+    <name>device.no-video-pictures</name>
     <message>
         <source>the video device sends no pictures</source>
         <translation>视频设备没有发送图像</translation>
@@ -1786,7 +1786,7 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-cannot-used</name>
+    <name>engine.graphics-card-unusable</name>
     <message>
         <source>the graphics card cannot be used</source>
         <translation>无法使用显卡</translation>
@@ -1800,16 +1800,16 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-no-mb-memory</name>
+    <name>engine.graphics-memory-exhausted</name>
     <message>
         <source>the graphics card has no {} MB of memory left</source>
         <translation>显卡没有 {} MB 的剩余显存</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-reaches-mb-once</name>
+    <name>engine.graphics-buffer-too-large</name>
     <message>
-        <source>the graphics card reaches {} MB at once where {} MB are needed</source>
+        <source>the graphics card can hold {} MB in one piece, but {} MB are needed</source>
         <translation>显卡一次只能访问 {} MB，而需要 {} MB</translation>
     </message>
 </context>
@@ -1828,21 +1828,21 @@
     </message>
 </context>
 <context>
-    <name>engine.there-no-graphics-card-opengl</name>
+    <name>engine.no-graphics-card</name>
     <message>
         <source>there is no graphics card with OpenGL 4.3 and compute shaders</source>
         <translation>没有支持 OpenGL 4.3 和计算着色器的显卡</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-libegl-no-libopengl</name>
+    <name>engine.no-libegl-or-libopengl</name>
     <message>
         <source>there is no libEGL or no libOpenGL, which open graphics cards without a display</source>
         <translation>缺少 libEGL 或 libOpenGL，没有显示器时需要用它们打开显卡</translation>
     </message>
 </context>
 <context>
-    <name>engine.there-no-opengl-4-3</name>
+    <name>engine.no-opengl</name>
     <message>
         <source>there is no OpenGL 4.3 with compute shaders</source>
         <translation>没有支持计算着色器的 OpenGL 4.3</translation>
@@ -1879,7 +1879,7 @@
 <context>
     <name>import.patterns-black-and-white</name>
     <message>
-        <source>The patterns hold black and white only: the projector&apos;s response is taken to be a power of 2.2</source>
+        <source>The patterns hold black and white only: the projector&apos;s response is assumed to be a gamma of 2.2</source>
         <translation>图案只含黑白：投影机响应按 2.2 次幂处理</translation>
     </message>
 </context>
@@ -1905,7 +1905,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.cameras-no-exposure-time-common</name>
+    <name>linearization.no-common-exposure</name>
     <message>
         <source>the cameras have no exposure time in common</source>
         <translation>各相机没有共同的曝光时间</translation>
@@ -1947,7 +1947,7 @@
     </message>
 </context>
 <context>
-    <name>linearization.set-them-ranges-exposure-times</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
         <source>set them to ranges of exposure times that overlap</source>
         <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
@@ -5012,7 +5012,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>report.report-cannot-written</name>
+    <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>无法写入报告</translation>
@@ -5047,7 +5047,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.cannot-removed</name>
+    <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>无法删除（{}）</translation>
@@ -5061,7 +5061,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.choose-another-folder-log</name>
+    <name>show.choose-another-log-folder</name>
     <message>
         <source>choose another folder with --log</source>
         <translation>请用 --log 指定其他文件夹</translation>
@@ -5070,40 +5070,40 @@ projector %2</source>
 <context>
     <name>show.engine-lost-device</name>
     <message>
-        <source>the engine lost its device</source>
+        <source>the engine lost its graphics card</source>
         <translation>引擎失去了它使用的设备</translation>
     </message>
 </context>
 <context>
-    <name>show.log-cannot-written</name>
+    <name>show.cannot-write-log</name>
     <message>
         <source>the log cannot be written ({})</source>
         <translation>无法写入日志（{}）</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-asleep-not-wake</name>
+    <name>show.screen-asleep</name>
     <message>
         <source>the projector&apos;s screen is asleep and does not wake</source>
         <translation>投影机的屏幕处于休眠状态，无法唤醒</translation>
     </message>
 </context>
 <context>
-    <name>show.projector-screen-pixels-now-calibrated</name>
+    <name>show.screen-size-changed</name>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>投影机的屏幕现在为 {} 像素，校准时为 {}</translation>
     </message>
 </context>
 <context>
-    <name>show.service-cannot-switched</name>
+    <name>show.cannot-enable-service</name>
     <message>
         <source>the service cannot be switched on ({})</source>
         <translation>无法启用服务（{}）</translation>
     </message>
 </context>
 <context>
-    <name>show.set-resolution-back-desktop-settings</name>
+    <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
         <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
@@ -5117,9 +5117,9 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.switch-saving-energy-screen-saver</name>
+    <name>show.switch-off-power-saving</name>
     <message>
-        <source>switch its saving of energy and the screen saver off in the desktop&apos;s settings, then try again</source>
+        <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>请在桌面设置中关闭节能功能和屏幕保护程序，然后重试</translation>
     </message>
 </context>
@@ -5138,7 +5138,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.black-full-light</name>
+    <name>stage.black-and-full-light</name>
     <message>
         <source>black and full light</source>
         <translation>黑场和全亮</translation>
@@ -5166,7 +5166,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.checking-projector-camera</name>
+    <name>stage.checking-projector-and-camera</name>
     <message>
         <source>Checking projector and camera</source>
         <translation>正在检查投影机和相机</translation>
@@ -5180,7 +5180,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.clusters-held-size</name>
+    <name>stage.capped-clusters</name>
     <message>
         <source>Clusters held to a size</source>
         <translation>限定大小的簇</translation>
@@ -5229,7 +5229,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.estimating-response-colours</name>
+    <name>stage.estimating-response-and-colours</name>
     <message>
         <source>Estimating response and colours</source>
         <translation>正在估计响应和颜色</translation>
@@ -5271,7 +5271,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.fitting-spread-light</name>
+    <name>stage.fitting-light-spread</name>
     <message>
         <source>Fitting the spread of light</source>
         <translation>正在拟合光的扩散</translation>
@@ -5285,7 +5285,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.holding-clusters-size</name>
+    <name>stage.capping-clusters</name>
     <message>
         <source>Holding clusters to a size</source>
         <translation>正在限制簇的大小</translation>
@@ -5351,14 +5351,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.looking-projector-picture</name>
+    <name>stage.finding-projector-picture</name>
     <message>
         <source>Looking for the projector&apos;s picture</source>
         <translation>正在查找投影机的画面</translation>
     </message>
 </context>
 <context>
-    <name>stage.looking-shadows</name>
+    <name>stage.finding-shadows</name>
     <message>
         <source>Looking for shadows</source>
         <translation>正在查找阴影</translation>
@@ -5386,7 +5386,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.measuring-flagged-pixels-again</name>
+    <name>stage.remeasuring-flagged-pixels</name>
     <message numerus="yes">
         <source>measuring {} flagged pixels again</source>
         <comment>measuring {} flagged pixel again</comment>
@@ -5543,7 +5543,7 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.separating-direct-indirect-light</name>
+    <name>stage.separating-direct-and-indirect-light</name>
     <message>
         <source>Separating direct and indirect light</source>
         <translation>正在分离直接光与间接光</translation>
@@ -5594,7 +5594,7 @@ projector %2</source>
 <context>
     <name>stage.windows</name>
     <message>
-        <source>Windows</source>
+        <source>Computing the windows of the inverse</source>
         <translation>窗口</translation>
     </message>
 </context>
@@ -5627,14 +5627,14 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>view.choose-folder-you-may-write</name>
+    <name>view.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>请选择您可写入且有可用空间的文件夹</translation>
     </message>
 </context>
 <context>
-    <name>view.picture-could-not-written</name>
+    <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>无法写入图像</translation>

@@ -56,7 +56,7 @@ class Repair {
       std::size_t ill = countOf(verified_.flagged);
       if (ill == 0) break;
       verified_.remeasured += round == 1 ? static_cast<int>(ill) : 0;
-      Progress part = progress.part(0.25, RELUCENT_PLURAL_MESSAGE("stage.measuring-flagged-pixels-again",
+      Progress part = progress.part(0.25, RELUCENT_PLURAL_MESSAGE("stage.remeasuring-flagged-pixels",
                                                                   "measuring {} flagged pixels again",
                                                                   "measuring {} flagged pixel again")
                                               .with(ill));

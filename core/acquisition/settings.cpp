@@ -10,36 +10,36 @@ namespace relucent::acquisition {
 std::vector<Message> problems(const AcquisitionSettings& settings) {
   std::vector<Message> found;
   if (!(settings.relativeThreshold > 0.0 && settings.relativeThreshold < 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.relative-threshold-must-lie-between",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.relative-threshold-out-of-range",
                                              "the relative threshold must lie between 0 and 1, not at {}")
                         .with(settings.relativeThreshold));
   if (!(settings.absoluteThreshold >= 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.absolute-threshold-cannot-below-0",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.absolute-threshold-negative",
                                              "the absolute threshold cannot be below 0, as {} is")
                         .with(settings.absoluteThreshold));
   if (!(settings.noiseSigmas > 0.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("acquisition.noise-threshold-must-above-0",
+        RELUCENT_ENGLISH_MESSAGE("acquisition.noise-threshold-not-positive",
                                  "the noise threshold must be above 0 standard deviations, not {}")
             .with(settings.noiseSigmas));
   if (!(settings.dimShare >= 0.0 && settings.dimShare <= 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.share-dim-pixels-must-lie",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.dim-share-out-of-range",
                                              "the share for dim pixels must lie between 0 and 1, not at {}")
                         .with(settings.dimShare));
   if (settings.references < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.least-one-reference-shot-needed",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.no-reference-shots",
                                              "at least one reference shot is needed, not {}")
                         .with(settings.references));
   if (settings.checkInterval < 1)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("acquisition.checks-cannot-shots-apart", "checks cannot be {} shots apart")
+        RELUCENT_ENGLISH_MESSAGE("acquisition.check-interval-not-positive", "checks cannot be {} shots apart")
             .with(settings.checkInterval));
   if (settings.verificationPatterns < 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.number-verification-patterns-cannot",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.verification-patterns-negative",
                                              "the number of verification patterns cannot be {}")
                         .with(settings.verificationPatterns));
   if (!(settings.flagRelative > 0.0 && settings.flagSigmas > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.limits-flagging-must-above-0",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.flag-limits-not-positive",
                                              "the limits for flagging must be above 0, not {} and {}")
                         .with(settings.flagRelative, settings.flagSigmas));
   return found;

@@ -47,9 +47,9 @@ bool holdsAnything(const fs::path& folder) {
   fs::directory_iterator entries(folder, code);
   if (code)
     throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("calibration.cannot-look-into-folder", "cannot look into the folder ({})")
+                RELUCENT_MESSAGE("calibration.cannot-list-folder", "cannot look into the folder ({})")
                     .with(code.message()),
-                RELUCENT_MESSAGE("calibration.check-you-may-read-choose",
+                RELUCENT_MESSAGE("calibration.check-permission-or-name",
                                  "check that you may read it, or choose another name"),
                 folder.string());
   return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
@@ -64,16 +64,16 @@ platform::FolderLock locked(const fs::path& folder, CalibrationFolder::Access ac
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.another-program-working-calibration",
+                RELUCENT_ENGLISH_MESSAGE("calibration.in-use",
                                          "another program is working on this calibration"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.wait-until-finished-close-try",
+                RELUCENT_ENGLISH_MESSAGE("calibration.wait-or-close-other-program",
                                          "wait until it has finished, or close it, then try again"),
                 folder.string());
   throw Error(
       ErrorKind::disk,
       RELUCENT_MESSAGE("calibration.cannot-open-folder", "cannot open the folder ({})")
           .with(failure.code().message()),
-      RELUCENT_MESSAGE("calibration.check-path-you-may-read", "check the path and that you may read it"),
+      RELUCENT_MESSAGE("calibration.check-path-and-permission", "check the path and that you may read it"),
       folder.string());
 }
 
@@ -81,14 +81,14 @@ void checkSynced(const platform::FileOutcome& outcome, const fs::path& path) {
   if (outcome.code)
     throw Error(ErrorKind::disk,
                 RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(outcome.code.message()),
-                RELUCENT_MESSAGE("calibration.free-some-space-there-check",
+                RELUCENT_MESSAGE("disk.free-space-or-check-disk",
                                  "free some space there or check the disk, then try again"),
                 path.string());
 }
 
 Error damaged(const fs::path& manifest, const Message& what) {
   return Error(ErrorKind::format, what,
-               RELUCENT_MESSAGE("calibration.choose-another-calibration-copy-again",
+               RELUCENT_MESSAGE("calibration.choose-another-or-copy-again",
                                 "choose another calibration, or copy it again from where it was measured"),
                manifest.string());
 }
@@ -97,20 +97,20 @@ Error damaged(const fs::path& manifest, const Message& what) {
 Json readManifest(const fs::path& file) {
   Json manifest = Json::parse(readFile(file), nullptr, false);
   if (manifest.is_discarded() || !manifest.is_object())
-    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
                                          "the calibration's manifest is damaged"));
   if (manifest.value("format", Json()) != formatName)
     throw damaged(
-        file, RELUCENT_MESSAGE("calibration.no-calibration-relucent", "this is no calibration of Relucent"));
+        file, RELUCENT_MESSAGE("calibration.not-a-calibration", "this is not a calibration of Relucent"));
   Json written = manifest.value("version", Json());
   if (!written.is_number_integer())
-    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
                                          "the calibration's manifest is damaged"));
   if (written.get<int>() > CalibrationFolder::version)
     throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("calibration.calibration-made-newer-relucent",
+                RELUCENT_ENGLISH_MESSAGE("calibration.of-newer-version",
                                          "the calibration was made by a newer Relucent"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.open-version-update-one",
+                RELUCENT_ENGLISH_MESSAGE("calibration.update-relucent",
                                          "open it with that version, or update this one"),
                 file.string());
 
@@ -129,7 +129,7 @@ Json readManifest(const fs::path& file) {
                  return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
                });
   if (!whole)
-    throw damaged(file, RELUCENT_MESSAGE("calibration.calibration-manifest-damaged",
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
                                          "the calibration's manifest is damaged"));
   return manifest;
 }
@@ -162,8 +162,8 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
   std::error_code code;
   if (fs::exists(path, code) && !fs::is_directory(path, code))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.there-file-name", "there is a file of this name"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.choose-another-name-calibration",
+                RELUCENT_ENGLISH_MESSAGE("calibration.name-is-a-file", "there is a file of this name"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-another-name",
                                          "choose another name for the calibration"),
                 path.string());
   createFolder(path);
@@ -171,15 +171,15 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
   if (fs::exists(path / manifestName, code))
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.there-calibration-already", "there is a calibration already"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.go-resume-choose-another-name",
+        RELUCENT_ENGLISH_MESSAGE("calibration.already-exists", "there is a calibration already"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.resume-or-choose-another-name",
                                  "go on with it by `resume`, or choose another name"),
         path.string());
   if (holdsAnything(path))
     throw Error(
         ErrorKind::input,
         RELUCENT_ENGLISH_MESSAGE("calibration.folder-holds-other-files", "the folder holds other files"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder-calibration",
+        RELUCENT_ENGLISH_MESSAGE("calibration.choose-empty-folder",
                                  "choose a new or an empty folder for the calibration"),
         path.string());
 
@@ -199,16 +199,16 @@ CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) 
   if (!fs::is_directory(path, code))
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.there-no-such-calibration", "there is no such calibration"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.check-name-make-one-calibrate",
+        RELUCENT_ENGLISH_MESSAGE("calibration.not-found", "there is no such calibration"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.check-name-or-calibrate",
                                  "check the name, or make one by `calibrate`"),
         path.string());
   if (!fs::exists(path / manifestName, code))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.folder-no-calibration-holds-no",
-                                         "this folder is no calibration: it holds no {}")
+                RELUCENT_ENGLISH_MESSAGE("calibration.manifest-missing",
+                                         "this folder is not a calibration: it holds no {}")
                     .with(manifestName),
-                RELUCENT_ENGLISH_MESSAGE("calibration.check-name-make-one-calibrate",
+                RELUCENT_ENGLISH_MESSAGE("calibration.check-name-or-calibrate",
                                          "check the name, or make one by `calibrate`"),
                 path.string());
 
@@ -271,7 +271,7 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
       removeLeftovers(results, isResultLeftover);
       throw Error(ErrorKind::disk,
                   RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(error.code().message()),
-                  RELUCENT_MESSAGE("calibration.free-some-space-there-check",
+                  RELUCENT_MESSAGE("disk.free-space-or-check-disk",
                                    "free some space there or check the disk, then try again"),
                   results.string());
     } catch (...) {
@@ -331,11 +331,11 @@ fs::path fileOf(const StageResult& result, const std::string& name) {
   std::error_code code;
   std::uint64_t bytes = fs::file_size(path, code);
   if (file == result.files.end() || code)
-    throw damaged(path, RELUCENT_MESSAGE("calibration.file-calibration-missing",
+    throw damaged(path, RELUCENT_MESSAGE("calibration.result-file-missing",
                                          "a file of the calibration's {} is missing")
                             .with(nameOf(result.stage)));
   if (bytes != file->bytes)
-    throw damaged(path, RELUCENT_MESSAGE("calibration.file-calibration-bytes-instead",
+    throw damaged(path, RELUCENT_MESSAGE("calibration.result-file-size-wrong",
                                          "a file of the calibration's {} has {} bytes instead of {}")
                             .with(nameOf(result.stage), as::bytes(bytes), file->bytes));
   return path;

@@ -208,7 +208,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     if (acquisition.transport.cameras() != cameras || acquisition.transport.projectors() != projectors)
       throw Error(
           ErrorKind::format,
-          RELUCENT_ENGLISH_MESSAGE("calibration.light-transport-belongs-other-devices",
+          RELUCENT_ENGLISH_MESSAGE("calibration.transport-of-other-devices",
                                    "the light transport belongs to other devices than the manifest says"),
           damagedAdvice, transport.string());
     acquisition.black = readMaps(result, "black", cameras);

@@ -21,7 +21,7 @@ auto readingJson(const StageResult& result, const Read& read) {
     return read(*result.values);
   } catch (const Json::exception& cause) {
     throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("calibration.result-stage-cannot-read",
+                RELUCENT_ENGLISH_MESSAGE("calibration.result-unreadable",
                                          "the result of the stage \"{}\" cannot be read ({})")
                     .with(nameOf(result.stage), cause.what()),
                 damagedAdvice, result.folder.string());

@@ -232,9 +232,9 @@ void ShotJournal::forget(const rig::ShotId& id, const std::string& fingerprint) 
   if (code)
     throw Error(
         ErrorKind::disk,
-        RELUCENT_MESSAGE("calibration.photograph-cannot-removed", "a photograph cannot be removed ({})")
+        RELUCENT_MESSAGE("calibration.cannot-remove-photograph", "a photograph cannot be removed ({})")
             .with(code.message()),
-        RELUCENT_MESSAGE("calibration.check-folder-may-written-go",
+        RELUCENT_MESSAGE("calibration.allow-writing-then-resume",
                          "check that the folder may be written to, then go on"),
         path.string());
 }

@@ -57,8 +57,12 @@ std::string textOf(const devices::CameraList& devices) {
 
 calibration::Json toJson(const pipeline::RigCheck& check) {
   calibration::Json verdicts = calibration::Json::array();
-  for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(check))
-    verdicts.push_back(english(devices::messageOf(verdict)));
+  calibration::Json ids = calibration::Json::array();  // for programs: sentences are reworded at times
+  for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(check)) {
+    const Message message = devices::messageOf(verdict);
+    verdicts.push_back(english(message));
+    ids.push_back(message.id());
+  }
   return {{"latency_frames", check.latency.frames},
           {"latency_seconds", check.latency.seconds},
           {"step", check.latency.step},
@@ -75,7 +79,8 @@ calibration::Json toJson(const pipeline::RigCheck& check) {
             {"colours", check.light.colours},
             {"bands", check.light.bands},
             {"dither", check.light.dither}}},
-          {"verdicts", std::move(verdicts)}};
+          {"verdicts", std::move(verdicts)},
+          {"verdict_ids", std::move(ids)}};
 }
 
 std::string textOf(const pipeline::RigCheck& check) {

@@ -77,7 +77,7 @@ inline void readCamera(const std::string& text, pipeline::CommandRigSettings& co
     commands.cameraAddress = text;
   else if (text.find(':') != std::string::npos)
     throw WrongUsage(
-        fmt::format("'{}' is no camera: write {}", text, devices::cameraRegistry().addressForms()));
+        fmt::format("'{}' is not a camera: write {}", text, devices::cameraRegistry().addressForms()));
   else
     size = parseSize(text);
 }

@@ -9,21 +9,21 @@ namespace relucent::clustering {
 std::vector<Message> problems(const ClusteringSettings& settings) {
   std::vector<Message> found;
   if (!(settings.leastLuminance >= 0.0f))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.least-luminance-must-not-negative",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.least-luminance-negative",
                                              "the least luminance must not be negative"));
   if (!(settings.leastShare >= 0.0 && settings.leastShare <= 1.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("clusters.share-row-brightest-connection-must",
+        RELUCENT_ENGLISH_MESSAGE("clusters.row-share-out-of-range",
                                  "the share of a row's brightest connection must lie between 0 and 1"));
   if (!(settings.patchRadius >= 0.0 && settings.patchRadius <= 10000.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("clusters.radius-patch-must-lie-between",
+        RELUCENT_ENGLISH_MESSAGE("clusters.patch-radius-out-of-range",
                                  "the radius of a patch must lie between 0 and 10000 projector pixels"));
   if (!(settings.patchCut >= 0.0 && settings.patchCut < 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.cut-patch-must-least-0",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.patch-cut-out-of-range",
                                              "the cut of a patch must be at least 0 and below 1"));
   if (settings.mostUnknowns < 1 || settings.mostUnknowns > 4096)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.capped-cluster-must-1-4096",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.cap-out-of-range",
                                              "a capped cluster must have 1 to 4096 projector pixels"));
   return found;
 }

@@ -134,10 +134,10 @@ std::vector<Message> problems(const ConnectionGraphSettings& settings) {
   std::vector<Message> found;
   if (!(settings.leastShare >= 0.0 && settings.leastShare <= 1.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("clusters.share-row-brightest-connection-must",
+        RELUCENT_ENGLISH_MESSAGE("clusters.row-share-out-of-range",
                                  "the share of a row's brightest connection must lie between 0 and 1"));
   if (settings.coarsestLevel < 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.coarsest-level-must-not-negative",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("clusters.coarsest-level-negative",
                                              "the coarsest level must not be negative"));
   return found;
 }

@@ -62,7 +62,7 @@ class Grouper::Work {
     double cutByCap = 0.0;
     if (statistics.capped) {
       Progress capping =
-          joining.part(0.7, RELUCENT_MESSAGE("stage.holding-clusters-size", "Holding clusters to a size"));
+          joining.part(0.7, RELUCENT_MESSAGE("stage.capping-clusters", "Holding clusters to a size"));
       bound_.join({graph_, patches_.kept(), patches_.brightest()},
                   static_cast<std::uint32_t>(settings.mostUnknowns), capping);
       number(bound_);

@@ -36,7 +36,7 @@ double Iteration::objective(const CameraStack& lit) const {
   if (!std::isfinite(f))
     throw Error(
         ErrorKind::numerics,
-        RELUCENT_ENGLISH_MESSAGE("compensation.light-transport-wanted-image-holds",
+        RELUCENT_ENGLISH_MESSAGE("compensation.values-not-finite",
                                  "the light transport or the wanted image holds values that are not finite"),
         RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
   return f;

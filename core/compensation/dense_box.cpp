@@ -124,7 +124,7 @@ class ActiveSet {
     Eigen::LLT<Eigen::MatrixXd> factor(part);
     if (factor.info() != Eigen::Success)
       throw Error(ErrorKind::numerics,
-                  RELUCENT_ENGLISH_MESSAGE("compensation.dense-least-squares-problem-cannot",
+                  RELUCENT_ENGLISH_MESSAGE("compensation.dense-factorization-failed",
                                            "a dense least-squares problem cannot be factored"),
                   RELUCENT_ENGLISH_MESSAGE("compensation.choose-another-solver", "choose another solver"));
     constexpr int mostCorrections = 10;
@@ -153,14 +153,14 @@ class ActiveSet {
 std::vector<Message> problems(const DenseBoxSettings& settings) {
   std::vector<Message> found;
   if (!(settings.lower < settings.upper))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.lower-bound-must-lie-below",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.bounds-out-of-order",
                                              "the lower bound must lie below the upper"));
   if (!(settings.tolerance > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-solver-tolerance-must-above",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-tolerance-not-positive",
                                              "the dense solver's tolerance must be above 0"));
   if (settings.mostIterations < 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-solver-iterations-cannot-fewer",
-                                             "the dense solver's iterations cannot be fewer than none"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-iterations-negative",
+                                             "the number of the dense solver's iterations cannot be negative"));
   return found;
 }
 
@@ -171,7 +171,7 @@ DenseBoxResult solveDenseBox(const Eigen::MatrixXd& a, const VectorXd& b, const 
   require(a.rows() == b.size(), "a matrix of {} rows and {} values", a.rows(), b.size());
   if (!a.allFinite() || !b.allFinite())
     throw Error(ErrorKind::numerics,
-                RELUCENT_ENGLISH_MESSAGE("compensation.least-squares-problem-holds-values",
+                RELUCENT_ENGLISH_MESSAGE("compensation.dense-values-not-finite",
                                          "a least-squares problem holds values that are not finite"),
                 RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 

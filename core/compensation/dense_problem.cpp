@@ -35,10 +35,10 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
   if (columns.size() > mostUnknowns || columns.size() * rows.size() > mostValues)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE(
-                    "compensation.unknowns-values-too-many-dense",
+                    "compensation.dense-problem-too-large",
                     "{} unknowns from {} values are too many for the dense solver, which takes {}")
                     .with(columns.size(), rows.size(), mostUnknowns),
-                RELUCENT_ENGLISH_MESSAGE("compensation.choose-another-solver-place-content",
+                RELUCENT_ENGLISH_MESSAGE("compensation.change-solver-or-shrink-content",
                                          "choose another solver, or place the content on fewer pixels"));
 
   // sqrt(W) T, a column for every free value.

@@ -26,7 +26,7 @@ void eachRow(std::size_t rows, Progress& progress, const Body& body) {
 std::vector<Message> problems(const DirectLightSettings& settings) {
   if (settings.reach > 0.0 && settings.reach <= 1.0) return {};
   return {
-      RELUCENT_ENGLISH_MESSAGE("compensation.reach-of-direct-light",
+      RELUCENT_ENGLISH_MESSAGE("compensation.direct-reach-out-of-range",
                                "the reach of direct light must lie between 0 and 1 of the projector's side")};
 }
 

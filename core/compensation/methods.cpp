@@ -44,11 +44,11 @@ std::vector<Message> problems(const CompensatorSettings& settings) {
   for (const Message& problem : problems(settings.clusterInverse)) found.push_back(problem);
   if (!(settings.correctionByInverse >= 0.0f && settings.correctionByInverse <= 2.0f) ||
       !(settings.correctionByAdjoint >= 0.0f && settings.correctionByAdjoint <= 2.0f))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.correction-windows-must-lie-between",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.window-correction-out-of-range",
                                              "the correction of the windows must lie between 0 and 2"));
   for (float step : settings.steps)
     if (!(step > 0.0f))
-      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.steps-refined-method-must-above",
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.refinement-steps-not-positive",
                                                "the steps of the refined method must be above 0"));
   return found;
 }

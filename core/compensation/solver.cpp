@@ -41,10 +41,10 @@ SolveResult solveBy(Algorithm algorithm, const detail::Iteration& at, const Cons
 std::vector<Message> problems(const SolverSettings& settings) {
   std::vector<Message> found;
   if (settings.mostIterations < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-needs-least-one-iteration",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-iterations-not-positive",
                                              "the solver needs at least one iteration"));
   if (!(settings.tolerance > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-tolerance-must-above-0",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.solver-tolerance-not-positive",
                                              "the solver's tolerance must be above 0"));
   return found;
 }

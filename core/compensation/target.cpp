@@ -31,10 +31,10 @@ Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue) {
   std::optional<Corners> found = largestUpright(placeable(venue), view, aspect);
   if (!found)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("compensation.no-part-camera-view-lit",
+                RELUCENT_ENGLISH_MESSAGE("compensation.no-lit-area",
                                          "no part of the camera's view is lit well enough to hold a picture"),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "compensation.aim-camera-projection-set-corners",
+                    "compensation.aim-camera-or-set-corners",
                     "aim the camera at the projection or set the corners of the content by hand"));
   return *found;
 }
@@ -51,7 +51,7 @@ void checkInView(const Corners& corners, Size view) {
     throw Error(
         ErrorKind::input,
         RELUCENT_ENGLISH_MESSAGE(
-            "compensation.corner-content-lies-outside-camera",
+            "compensation.corner-outside-view",
             "the {} corner of the content at ({}, {}) lies outside the camera's view of {} pixels")
             .with(names[i], as::number(x, as::digits(6)), as::number(y, as::digits(6)), as::size(view)),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-view", "move the corners into the view"));
@@ -79,7 +79,7 @@ Message cornerProblem(const Corners& corners) {
         "the corners of the content go counter-clockwise: they must go clockwise from top left");
   return RELUCENT_ENGLISH_MESSAGE(
       "compensation.corners-not-convex",
-      "the corners of the content span no convex quadrilateral: they must go clockwise from top left");
+      "the corners of the content do not span a convex quadrilateral: they must go clockwise from top left");
 }
 
 /// The brightest white that all but `percentile` percent of the usable pixels inside can show.
@@ -95,7 +95,7 @@ float whiteLevel(const MeasuredVenue& venue, const CameraMask& inside, double pe
   if (brightest.empty())
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("compensation.corners-content-enclose-no-pixel",
+        RELUCENT_ENGLISH_MESSAGE("compensation.corners-enclose-nothing-lit",
                                  "the corners of the content enclose no pixel that the projector lights"),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
                                  "move the corners into the lit part of the camera's view"));
@@ -105,7 +105,7 @@ float whiteLevel(const MeasuredVenue& venue, const CameraMask& inside, double pe
   if (!(*chosen > 0.0f))
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("compensation.some-colour-projector-hardly-reaches",
+        RELUCENT_ENGLISH_MESSAGE("compensation.colour-hardly-seen",
                                  "some colour of the projector hardly reaches the camera within the content"),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
                                  "move the corners into the lit part of the camera's view"));
@@ -120,13 +120,13 @@ std::vector<Message> problems(const TargetSettings& settings) {
     if (Message problem = cornerProblem(*settings.corners); !problem.empty()) found.push_back(problem);
   if (!(settings.reachablePercentile >= 0.0 && settings.reachablePercentile <= 100.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "compensation.share-pixels-too-dark-white",
+        "compensation.reachable-percentile-out-of-range",
         "the share of pixels too dark for white must lie between 0 and 100 percent"));
   if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-must-lie-between",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
   if (!(settings.unreachableWeight >= 0.0 && settings.unreachableWeight <= 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.weight-unreachable-pixels-must-lie",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.unreachable-weight-out-of-range",
                                              "the weight of unreachable pixels must lie between 0 and 1"));
   return found;
 }

@@ -68,13 +68,13 @@ std::vector<Message> problems(const UncorrectableSettings& settings) {
     if (!(value >= 0.0 && value <= 1.0)) found.push_back(sentence);
   };
   share(settings.leastDirectShare,
-        RELUCENT_ENGLISH_MESSAGE("compensation.least-direct-share",
+        RELUCENT_ENGLISH_MESSAGE("compensation.direct-share-out-of-range",
                                  "the least share of direct light must lie between 0 and 1"));
   share(settings.apart,
-        RELUCENT_ENGLISH_MESSAGE("compensation.distance-of-views",
+        RELUCENT_ENGLISH_MESSAGE("compensation.view-distance-out-of-range",
                                  "the distance of two views must lie between 0 and 1 of the camera's side"));
   share(settings.comparable,
-        RELUCENT_ENGLISH_MESSAGE("compensation.comparable-share",
+        RELUCENT_ENGLISH_MESSAGE("compensation.comparable-share-out-of-range",
                                  "the share of light that is comparable must lie between 0 and 1"));
   return found;
 }
@@ -88,7 +88,7 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
           "a target of {} pixels and {} flags for {} camera pixels", target.inside.size(),
           venue.usable.size(), pixels);
 
-  Progress looking = progress.part(0.6, RELUCENT_MESSAGE("stage.looking-shadows", "Looking for shadows"));
+  Progress looking = progress.part(0.6, RELUCENT_MESSAGE("stage.finding-shadows", "Looking for shadows"));
   std::vector<DirectLook> looks = directLooks(venue.transport, settings.direct, looking);
   CameraMask lit = directlyLit(looks, settings.leastDirectShare), twice(pixels, 0);
   for (std::size_t i = 0; i < pixels; ++i) lit[i] = lit[i] && venue.usable[i];

@@ -53,7 +53,7 @@ class AravisFailure {
         RELUCENT_MESSAGE("device.camera-refuses", "the camera refuses ({}: {})")
             .with(action, error_->message),
         RELUCENT_MESSAGE(
-            "device.switch-off-load-default-settings",
+            "device.restart-with-default-settings",
             "switch it off and on, load its default settings with its maker's program, and try again"),
         camera_);
   }

@@ -98,7 +98,7 @@ class AravisDriver : public CameraDriver {
         frame.damage.empty() && arv_buffer_get_image_pixel_format(buffer) != setup_.pixelFormat;
     arv_stream_push_buffer(stream_.get(), buffer);
     if (foreign)
-      throw CameraLost(RELUCENT_MESSAGE("device.camera-forgotten-pixel-format-set",
+      throw CameraLost(RELUCENT_MESSAGE("device.pixel-format-lost",
                                         "the camera has forgotten the pixel format that it was set to"));
     return frame;
   }

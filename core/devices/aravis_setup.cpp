@@ -47,12 +47,12 @@ class Setup {
         any || std::find(available.begin(), available.end(), settings_.format) != available.end();
     if (!format || !offered)
       throw Error(ErrorKind::device,
-                  any ? RELUCENT_MESSAGE("device.none-camera-pixel-formats-can",
+                  any ? RELUCENT_MESSAGE("device.no-readable-pixel-format",
                                          "none of the camera's pixel formats can be read")
-                      : RELUCENT_MESSAGE("device.camera-no-pixel-format-can",
+                      : RELUCENT_MESSAGE("device.pixel-format-not-offered",
                                          "the camera has no pixel format {} that can be read")
                             .with(settings_.format),
-                  RELUCENT_MESSAGE("device.unpacked-mono-bayer-rgb-8",
+                  RELUCENT_MESSAGE("device.choose-readable-pixel-format",
                                    "it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read")
                       .with(fmt::to_string(fmt::join(available, ", "))),
                   name_);
@@ -63,7 +63,7 @@ class Setup {
     failure.check("pixel format");
     if (format->layout == SensorLayout::mono)
       traits.remarks.push_back(
-          RELUCENT_MESSAGE("device.sees-no-colours-brightness-can",
+          RELUCENT_MESSAGE("device.sees-no-colours",
                            "sees no colours: brightness can be compensated, colours cannot"));
   }
 
@@ -77,9 +77,9 @@ class Setup {
     if (wanted.width > sensor.width || wanted.height > sensor.height)
       throw Error(
           ErrorKind::device,
-          RELUCENT_MESSAGE("device.pixels-wanted-camera", "{} pixels are wanted and the camera has {}")
+          RELUCENT_MESSAGE("device.photograph-exceeds-sensor", "{} pixels are wanted and the camera has {}")
               .with(as::size(*settings_.photograph), as::size(photographSize(sensor, setup_.format))),
-          RELUCENT_MESSAGE("device.ask-less", "ask for that or less"), name_);
+          RELUCENT_MESSAGE("device.ask-for-fewer-pixels", "ask for that or less"), name_);
     // An even corner keeps the colour filter's order.
     arv_camera_set_region(camera_, (sensor.width - wanted.width) / 4 * 2,
                           (sensor.height - wanted.height) / 4 * 2, wanted.width, wanted.height, failure);
@@ -90,10 +90,10 @@ class Setup {
     traits.size = photographSize({width, height}, setup_.format);
     if (settings_.photograph && traits.size != *settings_.photograph)
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.pixels-wanted-camera-gives",
+                  RELUCENT_MESSAGE("device.photograph-size-refused",
                                    "{} pixels are wanted and the camera gives {}")
                       .with(as::size(*settings_.photograph), as::size(traits.size)),
-                  RELUCENT_MESSAGE("device.ask-size-gives", "ask for the size that it gives"), name_);
+                  RELUCENT_MESSAGE("device.ask-for-given-size", "ask for the size that it gives"), name_);
   }
 
   /// Throws: Error{device} if the camera goes on deciding something by itself.
@@ -107,8 +107,8 @@ class Setup {
       if (refused || held != "Off")
         throw Error(
             ErrorKind::device,
-            RELUCENT_MESSAGE("device.cannot-switched-off", "{} cannot be switched off").with(automatic),
-            RELUCENT_MESSAGE("device.switch-off-camera-maker-program",
+            RELUCENT_MESSAGE("device.automatic-function-stays", "{} cannot be switched off").with(automatic),
+            RELUCENT_MESSAGE("device.switch-off-with-makers-program",
                              "switch it off with the camera maker's program, or use another camera"),
             name_);
     }
@@ -129,15 +129,15 @@ class Setup {
     const double wanted = settings_.gain.value_or(lowest);
     if (wanted < lowest || wanted > highest)
       throw Error(
-          ErrorKind::device, RELUCENT_MESSAGE("device.gain-wanted", "a gain of {} is wanted").with(wanted),
-          RELUCENT_MESSAGE("device.camera-can", "the camera can do {} to {}").with(lowest, highest), name_);
+          ErrorKind::device, RELUCENT_MESSAGE("device.gain-out-of-range", "a gain of {} is wanted").with(wanted),
+          RELUCENT_MESSAGE("device.choose-gain-in-range", "choose a gain from {} to {}").with(lowest, highest), name_);
     arv_camera_set_gain(camera_, wanted, failure);
     failure.check("gain");
     traits.gain = arv_camera_get_gain(camera_, failure);
     failure.check("gain");
     if (std::abs(traits.gain - wanted) > 0.01 * std::max(1.0, highest - lowest))
       traits.remarks.push_back(
-          RELUCENT_MESSAGE("device.asked-gain-keeps", "was asked for a gain of {} and keeps to {}")
+          RELUCENT_MESSAGE("device.gain-refused", "was asked for a gain of {} but uses {}")
               .with(as::number(wanted, as::digits(4)), as::number(traits.gain, as::digits(4))));
   }
 
@@ -154,7 +154,7 @@ class Setup {
     traits.triggered = setup_.triggered;
     if (!setup_.triggered)
       traits.remarks.push_back(
-          RELUCENT_MESSAGE("device.no-software-trigger-each-photograph",
+          RELUCENT_MESSAGE("device.no-software-trigger",
                            "has no software trigger: each photograph may wait for one more exposure"));
   }
 

@@ -20,8 +20,8 @@ Message messageOf(const CheckVerdict& verdict) {
     case Finding::picturesLate:
       return RELUCENT_PLURAL_MESSAGE(
                  "check.pictures-late",
-                 "Pictures come late, by {} photographs: the latency has to be measured and waited for.",
-                 "Pictures come late, by {} photograph: the latency has to be measured and waited for.")
+                 "Pictures arrive {} photographs late: measure the latency, so that it is waited for.",
+                 "Pictures arrive {} photograph late: measure the latency, so that it is waited for.")
           .with(verdict.count);
     case Finding::otherScreenSeen:
       return RELUCENT_MESSAGE("check.other-screen-seen", "The camera sees {} and not {}.")
@@ -30,8 +30,8 @@ Message messageOf(const CheckVerdict& verdict) {
       return RELUCENT_MESSAGE("check.screen-not-seen", "The camera does not see {}.").with(verdict.screen);
     case Finding::pictureOut:
       return RELUCENT_PLURAL_MESSAGE("check.picture-out",
-                                     "A picture is out {} frames after it is sent: {} ms are waited for.",
-                                     "A picture is out {} frame after it is sent: {} ms are waited for.")
+                                     "A picture appears {} frames after it is sent: {} ms are waited for.",
+                                     "A picture appears {} frame after it is sent: {} ms are waited for.")
           .with(verdict.count, as::milliseconds(verdict.seconds, as::decimals(0)));
     case Finding::whiteChanges:
       return RELUCENT_MESSAGE("check.white-changes",
@@ -40,13 +40,11 @@ Message messageOf(const CheckVerdict& verdict) {
           .with(smallShare, frame);
     case Finding::lightUnsteady:
       return RELUCENT_MESSAGE("check.light-unsteady",
-                              "The light changes by {} % between exposures of whole frames: let the lamp "
-                              "warm up, and switch dynamic brightness and lamps in the room off.")
+                              "The light changes by {} % between exposures of whole frames: let the lamp warm up, and switch off dynamic brightness and the lamps in the room.")
           .with(smallShare);
     case Finding::noBriefExposure:
       return RELUCENT_MESSAGE("check.no-brief-exposure",
-                              "The camera cannot expose for a part of a frame, or sees too little then: "
-                              "flicker within a frame cannot be told.");
+                              "The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame cannot be detected.");
     case Finding::lampFlickers:
       return RELUCENT_MESSAGE("check.lamp-flickers",
                               "The lamp flickers within a frame, by {} % in {} ms: expose whole frames, "

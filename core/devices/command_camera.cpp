@@ -47,7 +47,7 @@ void clear(const fs::path& folder) {
       throw Error(
           ErrorKind::disk,
           RELUCENT_MESSAGE("device.cannot-remove-file", "cannot remove the file ({})").with(code.message()),
-          RELUCENT_MESSAGE("device.remove-hand-try-again", "remove it by hand, then try again"),
+          RELUCENT_MESSAGE("device.remove-file-by-hand", "remove it by hand, then try again"),
           file.string());
   }
 }
@@ -83,31 +83,31 @@ std::vector<Message> problems(const CommandCameraSettings& settings) {
   std::vector<Message> found;
   if (settings.command.find("{exposure}") == std::string::npos)
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "device.camera-command-not-say-exposure",
-        "the camera's command does not say {exposure}, the exposure time in seconds"));
+        "device.camera-command-lacks-exposure",
+        "the camera's command does not contain {exposure}, the exposure time in seconds"));
   if (settings.command.find("{output}") == std::string::npos)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.camera-command-not-say-output",
-                                 "the camera's command does not say {output}, the file that it is to write"));
+        RELUCENT_ENGLISH_MESSAGE("device.camera-command-lacks-output",
+                                 "the camera's command does not contain {output}, the file that it is to write"));
   if (settings.size && settings.size->empty())
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.camera-pixels-impossible", "a camera of {} pixels is impossible")
+        RELUCENT_ENGLISH_MESSAGE("device.camera-size-empty", "a camera of {} pixels is impossible")
             .with(as::size(*settings.size)));
   if (rankOf(fs::path("x." + settings.extension)) == extensions.size())
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.photographs-read-not", "photographs are read as {}, not as {}")
+        RELUCENT_ENGLISH_MESSAGE("device.photograph-extension-unsupported", "photographs are read as {}, not as {}")
             .with(fmt::to_string(fmt::join(extensions, ", ")), settings.extension));
   if (!(settings.exposures.shortest > 0.0) || !std::isfinite(settings.exposures.longest) ||
       !(settings.exposures.longest >= settings.exposures.shortest))
     found.push_back(
-        RELUCENT_MESSAGE("device.shortest-exposure-must-above-zero",
+        RELUCENT_MESSAGE("device.exposure-range-invalid",
                          "the shortest exposure must be above zero and no longer than the longest"));
   if (settings.attempts < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-needs-least-one",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-attempts-not-positive",
                                              "the camera's command needs at least one attempt"));
   if (settings.timeout.count() <= 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-needs-time-run",
-                                             "the camera's command needs time to run"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-command-timeout-not-positive",
+                                             "the time allowed to the camera's command must be above 0 seconds"));
   return found;
 }
 
@@ -132,11 +132,11 @@ rig::RawFrame CommandCamera::checkedPhotograph(const rig::CaptureRequest& reques
   rig::RawFrame frame = photograph(request);
   if (frame.signal.size() != size_)
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.photograph-pixels-announced",
+                RELUCENT_MESSAGE("device.photograph-size-unexpected",
                                  "the photograph has {} pixels where {} were announced")
                     .with(as::size(frame.signal.width(), frame.signal.height()), as::size(size_)),
                 RELUCENT_MESSAGE(
-                    "device.let-command-write-size-begin",
+                    "device.write-announced-size",
                     "let the command write that size, or begin again with the size that the camera delivers"),
                 name());
   rig::checkFrame(frame, size_, name());
@@ -159,7 +159,7 @@ rig::RawFrame CommandCamera::photograph(const rig::CaptureRequest& request) {
   if (picture.empty())
     throw Error(
         ErrorKind::device, missed(filesIn(folder_.path()), output.filename().string()),
-        RELUCENT_MESSAGE("device.let-write-photograph-output", "let it write the photograph to {output}: {}")
+        RELUCENT_MESSAGE("device.write-photograph-to-output", "let it write the photograph to {output}: {}")
             .with(command),
         name());
   try {

@@ -11,22 +11,22 @@ std::vector<Message> problems(const CommandProjectorSettings& settings) {
   std::vector<Message> found;
   if (settings.command.find("{image}") == std::string::npos)
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "device.projector-command-not-say-image",
-        "the projector's command does not say {image}, the file that it is to show"));
+        "device.projector-command-lacks-image",
+        "the projector's command does not contain {image}, the file that it is to show"));
   if (settings.size.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-pixels-impossible",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-size-empty",
                                              "a projector of {} pixels is impossible")
                         .with(as::size(settings.size)));
   if (settings.bits != 8 && settings.bits != 16)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.pictures-projector-8-16-bits",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-bits-unsupported",
                                              "pictures for the projector have 8 or 16 bits, not {}")
                         .with(settings.bits));
   if (settings.attempts < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-needs-least-one",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-attempts-not-positive",
                                              "the projector's command needs at least one attempt"));
   if (settings.timeout.count() <= 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-needs-time-run",
-                                             "the projector's command needs time to run"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.projector-command-timeout-not-positive",
+                                             "the time allowed to the projector's command must be above 0 seconds"));
   return found;
 }
 

@@ -46,17 +46,17 @@ bool near(double a, double b) {
 std::vector<Message> problems(const DrivenCameraSettings& settings) {
   std::vector<Message> found;
   if (settings.timeout.count() <= 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-needs-time", "a photograph needs time"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-timeout-not-positive", "the time allowed for a photograph must be above 0 seconds"));
   if (settings.attempts < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-needs-least-one-attempt",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-attempts-not-positive",
                                              "a photograph needs at least one attempt"));
   if (settings.connectFor.count() < 0 || settings.reconnectFor.count() < 0 ||
       settings.reconnectPause.count() <= 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.times-look-lost-camera-must",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.reconnect-times-negative",
                                              "times to look for a lost camera must not be negative"));
   if (settings.skipAfterChange < 0)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.no-fewer-than-0-frames", "no fewer than 0 frames can be skipped"));
+        RELUCENT_ENGLISH_MESSAGE("device.skipped-frames-negative", "the number of frames to skip cannot be negative"));
   return found;
 }
 
@@ -72,7 +72,7 @@ DrivenCamera::DrivenCamera(std::unique_ptr<CameraDriver> driver, DrivenCameraSet
       isConnected_ = false;
       if (driver_->now() - begun >= settings_.connectFor)
         throw Error(ErrorKind::device, lost.reason(),
-                    lost.advice().empty() ? RELUCENT_MESSAGE("device.check-cable-power-address-relucent",
+                    lost.advice().empty() ? RELUCENT_MESSAGE("device.check-cable-power-address",
                                                              "check its cable, its power and its address; "
                                                              "`relucent-cli devices` lists what is there")
                                           : lost.advice(),
@@ -100,9 +100,9 @@ void DrivenCamera::probe(CameraTraits& traits) {
   if (!(claimed.shortest > 0.0) || !(claimed.longest >= claimed.shortest))
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("device.camera-claims-exposures-s", "the camera claims exposures of {} to {} s")
+        RELUCENT_MESSAGE("device.claimed-exposures-invalid", "the camera claims exposures of {} to {} s")
             .with(as::seconds(claimed.shortest, as::digits(4)), as::seconds(claimed.longest, as::digits(4))),
-        RELUCENT_MESSAGE("device.set-exposure-mode-timed-manual",
+        RELUCENT_MESSAGE("device.set-manual-exposure-mode",
                          "set its exposure mode to timed and manual, or update its firmware"),
         name());
   const double wanted = std::min(claimed.longest, std::max(longestUseful, claimed.shortest));
@@ -111,21 +111,21 @@ void DrivenCamera::probe(CameraTraits& traits) {
   traits.exposures = {std::min(shortest, longest), std::max(shortest, longest)};
   if (!(traits.exposures.shortest > 0.0) || near(shortest, longest))
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.camera-keeps-s-whatever-exposure",
-                                 "the camera keeps to {} s whatever exposure it is asked for")
+                RELUCENT_MESSAGE("device.exposure-time-fixed",
+                                 "the camera exposes {} s whatever exposure it is asked for")
                     .with(as::seconds(longest, as::digits(4))),
                 RELUCENT_MESSAGE(
-                    "device.switch-automatic-exposure-off-camera",
+                    "device.switch-off-automatic-exposure",
                     "switch its automatic exposure off; a camera without manual exposure cannot be used"),
                 name());
   if (!near(longest, wanted))
     traits.remarks.push_back(
-        RELUCENT_MESSAGE("device.claims-exposures-up-s-but", "claims exposures up to {} s but keeps to {} s")
+        RELUCENT_MESSAGE("device.longest-exposure-overstated", "claims exposures up to {} s but reaches only {} s")
             .with(as::seconds(wanted, as::digits(4)), as::seconds(longest, as::digits(4))));
   if (!near(shortest, claimed.shortest))
     traits.remarks.push_back(
-        RELUCENT_MESSAGE("device.claims-exposures-s-but-keeps",
-                         "claims exposures from {} s but keeps to {} s")
+        RELUCENT_MESSAGE("device.shortest-exposure-understated",
+                         "claims exposures from {} s but does not go below {} s")
             .with(as::seconds(claimed.shortest, as::digits(4)), as::seconds(shortest, as::digits(4))));
 }
 
@@ -137,10 +137,10 @@ void DrivenCamera::reconnect() {
       const CameraTraits traits = connected();
       if (traits.size != traits_.size)
         throw Error(ErrorKind::device,
-                    RELUCENT_MESSAGE("device.camera-came-back-pixels-instead",
+                    RELUCENT_MESSAGE("device.reconnected-camera-size-differs",
                                      "the camera came back with {} pixels instead of {}")
                         .with(as::size(traits.size), as::size(traits_.size)),
-                    RELUCENT_MESSAGE("device.connect-camera-measurement-begun",
+                    RELUCENT_MESSAGE("device.reconnect-same-camera",
                                      "connect the camera that the measurement was begun with"),
                     name());
       ++reconnections_;
@@ -154,10 +154,10 @@ void DrivenCamera::reconnect() {
     const microseconds away = driver_->now() - begun;
     if (away >= settings_.reconnectFor)
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.camera-been-gone-s", "the camera has been gone for {} s: {}")
+                  RELUCENT_MESSAGE("device.camera-not-back", "the camera has been gone for {} s: {}")
                       .with(as::seconds(inSeconds(away), as::decimals(0)), reason),
                   thenGoOn(advice.empty()
-                               ? RELUCENT_MESSAGE("device.check-cable-power", "check its cable and its power")
+                               ? RELUCENT_MESSAGE("device.check-cable-and-power", "check its cable and its power")
                                : advice),
                   name());
     driver_->wait(settings_.reconnectPause);
@@ -168,10 +168,10 @@ double DrivenCamera::expose(double seconds) {
   const double held = driver_->setExposure(seconds);
   if (!(held > 0.0) || held > tolerableRatio * seconds || seconds > tolerableRatio * held)
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.camera-asked-expose-s-keeps",
-                                 "the camera was asked to expose {} s and keeps to {} s")
+                RELUCENT_MESSAGE("device.exposure-refused",
+                                 "the camera was asked to expose {} s but exposes {} s")
                     .with(as::seconds(seconds, as::digits(4)), as::seconds(held, as::digits(4))),
-                RELUCENT_MESSAGE("device.switch-automatic-exposure-frame-rate",
+                RELUCENT_MESSAGE("device.lift-exposure-limits",
                                  "switch its automatic exposure and its frame rate limit off"),
                 name());
   if (held != held_) toSkip_ = settings_.skipAfterChange;
@@ -194,7 +194,7 @@ DriverFrame DrivenCamera::freshFrame(double seconds) {
   for (;;) {
     std::optional<DriverFrame> frame = driver_->next(std::max(microseconds{0}, deadline - driver_->now()));
     if (!frame)
-      throw Unusable{RELUCENT_MESSAGE("device.no-photograph-came-within", "no photograph came within {} s")
+      throw Unusable{RELUCENT_MESSAGE("device.photograph-timed-out", "no photograph came within {} s")
                          .with(as::seconds(inSeconds(deadline - asked), as::digits(3)))};
     if (isStale(*frame, asked, seconds)) continue;
     if (toSkip_ > 0) {
@@ -229,7 +229,7 @@ rig::RawFrame DrivenCamera::capture(const rig::CaptureRequest& request) {
       const DriverFrame taken = freshFrame(seconds);
       const Size size = photographSize(taken.frame.size, taken.frame.format);
       if (size != traits_.size || taken.frame.format != traits_.format)
-        throw CameraLost(RELUCENT_MESSAGE("device.photograph-pixels-agreed",
+        throw CameraLost(RELUCENT_MESSAGE("device.photograph-format-changed",
                                           "the photograph has {} pixels as {} where {} as {} were agreed")
                              .with(as::size(size), nameOf(taken.frame.format), as::size(traits_.size),
                                    nameOf(traits_.format)));
@@ -248,11 +248,11 @@ rig::RawFrame DrivenCamera::capture(const rig::CaptureRequest& request) {
   }
   throw Error(
       ErrorKind::device,
-      RELUCENT_MESSAGE("device.attempts-photograph-failed", "{} attempts at a photograph failed: {}")
+      RELUCENT_MESSAGE("device.photograph-attempts-failed", "{} attempts at a photograph failed: {}")
           .with(settings_.attempts, reason),
       thenGoOn(advice.empty()
                    ? RELUCENT_MESSAGE(
-                         "device.check-camera-cable-network-card",
+                         "device.check-cable-network-and-programs",
                          "check the camera's cable and network card, and that no other program uses it")
                    : advice),
       name());

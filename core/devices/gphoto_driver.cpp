@@ -147,7 +147,7 @@ class GphotoDriver : public CameraDriver {
         discard(*event.file);
       }
       if (isOwed_)
-        throw CameraLost(RELUCENT_MESSAGE("device.photograph-asked-none-came",
+        throw CameraLost(RELUCENT_MESSAGE("device.no-photograph-came",
                                           "a photograph was asked for and none came"));
       discardPendingEvents();
     });
@@ -165,18 +165,18 @@ class GphotoDriver : public CameraDriver {
         meant.push_back(camera);
     if (meant.size() > 1)
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.cameras-model-plugged", "{} cameras of this model are plugged in")
+                  RELUCENT_MESSAGE("device.several-cameras-of-model", "{} cameras of this model are plugged in")
                       .with(meant.size()),
-                  RELUCENT_MESSAGE("device.name-one-port-gphoto2-gphoto2",
+                  RELUCENT_MESSAGE("device.name-camera-by-port",
                                    "name one by its port: gphoto2:{} or gphoto2:{}")
                       .with(meant[0].port, meant[1].port),
                   name());
     if (meant.size() == 1) return meant.front();
     if (cameras.empty() || !model_.empty()) throw GphotoFailure(GphotoFault::absent, "not listed");
     throw CameraLost(
-        RELUCENT_MESSAGE("device.no-camera-name-plugged-but", "no camera of this name is plugged in, but {}")
+        RELUCENT_MESSAGE("device.only-other-camera-connected", "no camera of this name is plugged in, but {} is")
             .with(cameras.front().model),
-        RELUCENT_MESSAGE("device.name-one-gphoto2", "name that one: gphoto2:{}").with(cameras.front().model));
+        RELUCENT_MESSAGE("device.name-connected-camera", "name that one: gphoto2:{}").with(cameras.front().model));
   }
 
   bool isListed() const {
@@ -196,9 +196,9 @@ class GphotoDriver : public CameraDriver {
     trigger();
     const std::optional<DriverFrame> trial = next(trialTime);
     if (!trial)
-      throw CameraLost(RELUCENT_MESSAGE("device.camera-asked-photograph-took-none",
+      throw CameraLost(RELUCENT_MESSAGE("device.trial-photograph-failed",
                                         "the camera was asked for a photograph and took none"),
-                       RELUCENT_MESSAGE("device.switch-lens-manual-focus-close",
+                       RELUCENT_MESSAGE("device.take-photograph-by-hand",
                                         "switch its lens to manual focus, close its menus, and take a "
                                         "photograph by hand to see what it complains of"));
     if (!trial->damage.empty()) throw CameraLost(trial->damage);
@@ -206,7 +206,7 @@ class GphotoDriver : public CameraDriver {
     traits.format = trial->frame.format;
     if (traits.format.layout == SensorLayout::mono)
       traits.remarks.push_back(
-          RELUCENT_MESSAGE("device.sees-no-colours-brightness-can",
+          RELUCENT_MESSAGE("device.sees-no-colours",
                            "sees no colours: brightness can be compensated, colours cannot"));
   }
 
@@ -256,9 +256,9 @@ class GphotoDriver : public CameraDriver {
     if (wanted.width > has.width || wanted.height > has.height)
       throw Error(
           ErrorKind::device,
-          RELUCENT_MESSAGE("device.pixels-wanted-camera", "{} pixels are wanted and the camera has {}")
+          RELUCENT_MESSAGE("device.photograph-exceeds-sensor", "{} pixels are wanted and the camera has {}")
               .with(as::size(wanted), as::size(has)),
-          RELUCENT_MESSAGE("device.ask-less", "ask for that or less"), name());
+          RELUCENT_MESSAGE("device.ask-for-fewer-pixels", "ask for that or less"), name());
     frame = cut(frame, sensorSize(wanted, frame.format));
   }
 

@@ -45,14 +45,14 @@ CameraLost lostByEmptyBattery(int percent) {
                        "the camera's battery seems to be empty ({} % when it was last asked)")
           .with(as::share(percent / 100.0)),
       RELUCENT_MESSAGE(
-          "device.charge-change-battery-best-use",
-          "charge or change the battery, best use a mains adapter, and switch the camera on again"));
+          "device.charge-or-change-battery",
+          "charge or change the battery, or better, use a mains adapter, and switch the camera on again"));
 }
 
 CameraLost lostByFullCard() {
   return CameraLost(RELUCENT_MESSAGE("device.card-full",
                                      "the camera has no room left for a photograph: its memory card is full"),
-                    RELUCENT_MESSAGE("device.change-empty-memory-card", "change or empty the memory card"));
+                    RELUCENT_MESSAGE("device.change-or-empty-card", "change or empty the memory card"));
 }
 
 CameraLost lostBy(const GphotoFailure& failure, const GphotoCondition& condition) {
@@ -62,44 +62,42 @@ CameraLost lostBy(const GphotoFailure& failure, const GphotoCondition& condition
       return CameraLost(
           RELUCENT_MESSAGE(
               "device.held-by-desktop",
-              "another program holds the camera, mostly the desktop, which mounts it like a memory stick"),
-          RELUCENT_MESSAGE("device.let-desktop-go-gio-mount",
-                           "let the desktop go of it with `gio mount -s gphoto2` (or eject it in the file "
-                           "manager) and close programs for photographs"));
+              "another program is using the camera, usually the desktop, which mounts it like a memory stick"),
+          RELUCENT_MESSAGE("device.release-from-desktop",
+                           "make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs"));
     case GphotoFault::full:
       return lostByFullCard();
     case GphotoFault::busy:
       return CameraLost(RELUCENT_MESSAGE("device.camera-stays-busy", "the camera stays busy"),
-                        RELUCENT_MESSAGE("device.close-menus-playback-end-live",
-                                         "close its menus and its playback, and end its live picture"));
+                        RELUCENT_MESSAGE("device.close-menus-and-live-view",
+                                         "close its menus and its playback, and leave live view"));
     case GphotoFault::absent:
     case GphotoFault::silent:
       if (hasEmptyBattery) return lostByEmptyBattery(*condition.battery);
       if (failure.fault() == GphotoFault::silent && condition.isListed)
         return CameraLost(RELUCENT_MESSAGE("device.camera-asleep",
                                            "the camera is there but does not answer, it may be asleep"),
-                          RELUCENT_MESSAGE("device.press-shutter-button-half-way",
-                                           "press its shutter button half way or switch it off and on, and "
-                                           "switch its automatic power-off off"));
+                          RELUCENT_MESSAGE("device.wake-camera",
+                                           "press its shutter button half way or switch it off and on, and disable its automatic power-off"));
       return CameraLost(
           RELUCENT_MESSAGE("device.camera-gone",
                            "the camera has been unplugged or switched off, or has fallen asleep"),
-          RELUCENT_MESSAGE("device.check-cable-switch-switch-automatic",
-                           "check its cable, switch it on and switch its automatic power-off off"));
+          RELUCENT_MESSAGE("device.switch-on-and-keep-awake",
+                           "check its cable, switch it on and disable its automatic power-off"));
     case GphotoFault::refused:
       break;
   }
   if (speaksOf(failure, {"store full", "card full", "no space", "memory full"})) return lostByFullCard();
   if (speaksOf(failure, {"battery"})) return lostByEmptyBattery(condition.battery.value_or(0));
   if (speaksOf(failure, {"focus"}))
-    return CameraLost(RELUCENT_MESSAGE("device.camera-found-no-focus-took",
-                                       "the camera found no focus and took no photograph ({})")
+    return CameraLost(RELUCENT_MESSAGE("device.no-focus",
+                                       "the camera could not focus and took no photograph ({})")
                           .with(failure.what()),
-                      RELUCENT_MESSAGE("device.switch-lens-manual-focus", "switch its lens to manual focus"));
+                      RELUCENT_MESSAGE("device.switch-to-manual-focus", "switch its lens to manual focus"));
   return CameraLost(
-      RELUCENT_MESSAGE("device.camera-refused-what-asked", "the camera refused what it was asked for ({})")
+      RELUCENT_MESSAGE("device.request-refused", "the camera refused what it was asked for ({})")
           .with(failure.what()),
-      RELUCENT_MESSAGE("device.close-menus-switch-off", "close its menus, and switch it off and on"));
+      RELUCENT_MESSAGE("device.close-menus-and-restart", "close its menus, and switch it off and on"));
 }
 
 }  // namespace relucent::devices

@@ -12,14 +12,14 @@ using namespace std::chrono_literals;
 std::vector<Message> problems(const GphotoCameraSettings& settings) {
   std::vector<Message> found;
   if (settings.camera.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.not-said-still-camera-meant",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.still-camera-not-named",
                                              "it is not said which still camera is meant"));
   if (settings.photograph && settings.photograph->empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.part-sensor-without-pixels-cannot",
-                                             "a part of the sensor without pixels cannot be photographed"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.sensor-part-empty",
+                                             "the part of the sensor to photograph has no pixels"));
   if (settings.iso && *settings.iso < 1)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.sensitivity-least-iso-1", "a sensitivity is at least ISO 1"));
+        RELUCENT_ENGLISH_MESSAGE("device.iso-not-positive", "a sensitivity is at least ISO 1"));
   return found;
 }
 

@@ -78,7 +78,7 @@ class Setup {
     const auto manual = std::find_if(now.choices.begin(), now.choices.end(), isManual);
     if (manual != now.choices.end() && settings_.set(setting, *manual)) return;
     refuse(RELUCENT_MESSAGE("device.mode-dial-not-manual",
-                            "the camera's mode dial stands on {}, where the camera chooses exposures itself")
+                            "the camera's mode dial is set to {}, where the camera chooses exposures itself")
                .with(now.value),
            RELUCENT_MESSAGE("device.turn-dial-to-m", "turn it to M"));
   }
@@ -127,7 +127,7 @@ class Setup {
       refuse(
           RELUCENT_MESSAGE("device.iso-wanted-not-there", "ISO {} is wanted and the camera does not have it")
               .with(as::label(*iso_)),
-          RELUCENT_MESSAGE("device.it-has", "it has {}").with(fmt::to_string(fmt::join(iso->choices, ", "))));
+          RELUCENT_MESSAGE("device.choose-offered-iso", "choose one of those that it has: {}").with(fmt::to_string(fmt::join(iso->choices, ", "))));
     if (best) settings_.set("iso", *best);
     const std::optional<GphotoSetting> held = settings_.get("iso");
     const std::optional<int> number = held ? wholeNumber(held->value) : std::nullopt;
@@ -138,7 +138,7 @@ class Setup {
              RELUCENT_MESSAGE("device.set-iso-100", "set it to ISO 100 by hand"));
     if (best && held->value != *best)
       traits_.remarks.push_back(
-          RELUCENT_MESSAGE("device.asked-iso-keeps-iso", "was asked for ISO {} and keeps to ISO {}")
+          RELUCENT_MESSAGE("device.iso-refused", "was asked for ISO {} but uses ISO {}")
               .with(*best, held->value));
   }
 
@@ -191,8 +191,8 @@ class Setup {
     if (setup_.speeds.empty())
       refuse(
           RELUCENT_MESSAGE("device.exposure-time-cannot-be-set", "the camera's exposure time cannot be set"),
-          RELUCENT_MESSAGE("device.turn-dial-to-m-or-another-camera",
-                           "turn its mode dial to M; a camera without it cannot be used"));
+          RELUCENT_MESSAGE("device.turn-dial-or-change-camera",
+                           "turn its mode dial to M; a camera without manual exposure cannot be used"));
     traits_.exposures = {setup_.speeds.shortest(), setup_.speeds.longest()};
   }
 

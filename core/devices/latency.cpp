@@ -32,10 +32,10 @@ class LatencyMeasurement {
     measureLevels(latency);
     if (!suffices(settings_.mostFrames))
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.new-picture-not-fully-there",
-                                   "a new picture is not fully there after {} frames")
+                  RELUCENT_MESSAGE("device.picture-not-settled",
+                                   "a new picture has not fully appeared after {} frames")
                       .with(settings_.mostFrames),
-                  RELUCENT_MESSAGE("device.check-camera-view-steady-exposure",
+                  RELUCENT_MESSAGE("device.steady-view-and-expose-briefly",
                                    "check that the camera's view is steady and its exposure short, and "
                                    "switch the projector's smoothing of motion off"),
                   projector_.name());
@@ -75,10 +75,10 @@ class LatencyMeasurement {
     latency.step = whiteLevel_ - blackLevel_;
     if (!(latency.step > leastStep))
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.camera-sees-no-difference-between",
+                  RELUCENT_MESSAGE("device.no-contrast",
                                    "the camera sees no difference between white and black"),
-                  RELUCENT_MESSAGE("device.aim-projection-take-cap-off",
-                                   "aim it at the projection, take its cap off, and expose longer"),
+                  RELUCENT_MESSAGE("device.aim-uncover-and-expose-longer",
+                                   "aim it at the projection, take off its lens cap, and expose longer"),
                   camera_.name());
     latency.flicker = std::sqrt(variance) / whiteLevel_;
   }
@@ -147,16 +147,16 @@ std::vector<Message> problems(const LatencySettings& settings) {
   std::vector<Message> found;
   if (!(settings.frame > 0.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.projector-frame-takes-time", "a projector's frame takes time"));
+        RELUCENT_ENGLISH_MESSAGE("device.frame-time-not-positive", "the duration of a projector's frame must be above 0 seconds"));
   if (settings.mostFrames < 1)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.picture-needs-least-one-frame",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.latency-frames-not-positive",
                                              "a picture needs at least one frame"));
   if (settings.repeats < 1)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.step-must-tried-least-once", "a step must be tried at least once"));
+        RELUCENT_ENGLISH_MESSAGE("device.latency-repeats-not-positive", "a step must be tried at least once"));
   if (!(settings.settled > 0.0 && settings.settled < 0.5))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.share-step-may-missing-between",
+        RELUCENT_ENGLISH_MESSAGE("device.settled-share-out-of-range",
                                  "the share of a step that may be missing is between 0 and a half"));
   return found;
 }

@@ -243,10 +243,10 @@ class LightMeasurement {
     progress_.report(static_cast<double>(number_) / (4.0 * settings_.photographs + 1.0));
     if (lit_.spots.empty())
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.camera-sees-no-difference-between",
+                  RELUCENT_MESSAGE("device.no-contrast",
                                    "the camera sees no difference between white and black"),
-                  RELUCENT_MESSAGE("device.aim-projection-take-cap-off",
-                                   "aim it at the projection, take its cap off, and expose longer"),
+                  RELUCENT_MESSAGE("device.aim-uncover-and-expose-longer",
+                                   "aim it at the projection, take off its lens cap, and expose longer"),
                   camera_.name());
   }
 
@@ -289,13 +289,13 @@ std::vector<Message> problems(const LightCheckSettings& settings) {
   std::vector<Message> found;
   if (!(settings.frame > 0.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.projector-frame-takes-time", "a projector's frame takes time"));
+        RELUCENT_ENGLISH_MESSAGE("device.frame-time-not-positive", "the duration of a projector's frame must be above 0 seconds"));
   if (!(settings.settle >= 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.flat-field-cannot-steady-before",
-                                             "a flat field cannot be steady before it is shown"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.settle-time-negative",
+                                             "the time to let a flat field settle cannot be negative"));
   if (settings.photographs < 8)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.least-8-photographs-tell-whether",
-                                             "at least 8 photographs tell whether light is steady"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.too-few-light-photographs",
+                                             "at least 8 photographs are needed to tell whether the light is steady"));
   return found;
 }
 

@@ -55,9 +55,9 @@ SensorLevels levelsOf(LibRaw& raw, bool isMono) {
 [[noreturn]] void failDamaged(const Message& reason, const std::string& name) {
   throw Error(
       ErrorKind::format,
-      RELUCENT_MESSAGE("device.raw-file-cannot-read", "the raw file cannot be read ({})").with(reason),
+      RELUCENT_MESSAGE("device.raw-file-unreadable", "the raw file cannot be read ({})").with(reason),
       RELUCENT_MESSAGE(
-          "device.copy-again-take-photograph-again",
+          "device.copy-or-retake-photograph",
           "copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files"),
       name);
 }
@@ -106,17 +106,17 @@ RawPhotograph rawPhotograph(const std::vector<std::uint8_t>& bytes, const std::s
   const libraw_data_t& data = raw->imgdata;
   if (data.rawdata.raw_image == nullptr)
     throw Error(ErrorKind::format,
-                RELUCENT_MESSAGE("device.raw-file-not-hold-sensor",
+                RELUCENT_MESSAGE("device.raw-file-without-sensor-values",
                                  "the raw file does not hold the sensor's own values"),
-                RELUCENT_MESSAGE("device.switch-camera-full-size-raw",
+                RELUCENT_MESSAGE("device.switch-to-full-size-raw",
                                  "switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)"),
                 name);
   const std::optional<SensorLayout> layout = layoutOf(*raw);
   if (!layout || raw->is_fuji_rotated() != 0)
     throw Error(ErrorKind::format,
-                RELUCENT_MESSAGE("device.camera-colour-filter-no-bayer",
-                                 "the camera's colour filter is no Bayer filter"),
-                RELUCENT_MESSAGE("device.develop-files-linearly-16-bit",
+                RELUCENT_MESSAGE("device.colour-filter-not-bayer",
+                                 "the camera's colour filter is not a Bayer filter"),
+                RELUCENT_MESSAGE("device.develop-linearly",
                                  "develop the files linearly, as 16-bit TIFF, or use another camera"),
                 name);
 

@@ -15,10 +15,10 @@ std::optional<std::time_t> timeTaken(const std::filesystem::path&) {
 
 RawPhotograph rawPhotograph(const std::vector<std::uint8_t>&, const std::string& name) {
   throw Error(ErrorKind::format,
-              RELUCENT_ENGLISH_MESSAGE("device.build-relucent-not-read-raw",
+              RELUCENT_ENGLISH_MESSAGE("device.built-without-libraw",
                                        "this build of Relucent does not read raw files"),
               RELUCENT_ENGLISH_MESSAGE(
-                  "device.install-libraw-libraw-dev-build",
+                  "device.install-libraw",
                   "install LibRaw (libraw-dev) and build again, or develop them linearly, as 16-bit TIFF"),
               name);
 }

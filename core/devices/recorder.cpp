@@ -46,7 +46,7 @@ class Recorder : public rig::RigWatcher {
     if (fs::exists(folder_ / "recording.json", code)) {
       if (readRecordedDevices(folder_) != devices_)
         throw Error(ErrorKind::input,
-                    RELUCENT_ENGLISH_MESSAGE("device.folder-holds-recording-other-devices",
+                    RELUCENT_ENGLISH_MESSAGE("device.recording-of-other-devices",
                                              "the folder holds a recording of other devices"),
                     RELUCENT_ENGLISH_MESSAGE("device.record-into-new-folder", "record into a new folder"),
                     folder_.string());
@@ -54,7 +54,7 @@ class Recorder : public rig::RigWatcher {
       count_ = readPhotographs(folder_).size();
     } else if (!fs::is_empty(folder_, code)) {
       throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("device.folder-recording-holds-other-things",
+                  RELUCENT_ENGLISH_MESSAGE("device.recording-folder-not-empty",
                                            "the folder for the recording holds other things"),
                   RELUCENT_ENGLISH_MESSAGE("device.record-into-new-folder", "record into a new folder"),
                   folder_.string());

@@ -36,7 +36,7 @@ Size sizeFrom(const Json& json) {
       ErrorKind::format,
       RELUCENT_ENGLISH_MESSAGE("device.recording-damaged", "the recording is damaged ({})")
           .with(cause.what()),
-      RELUCENT_ENGLISH_MESSAGE("device.restore-copy-record-again", "restore it from a copy, or record again"),
+      RELUCENT_ENGLISH_MESSAGE("device.restore-or-record-again", "restore it from a copy, or record again"),
       file.string());
 }
 
@@ -86,16 +86,16 @@ RecordedDevices readRecordedDevices(const fs::path& folder) {
   try {
     const Json json = Json::parse(content);
     if (json.at("format") != formatName)
-      throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("device.no-recording", "this is no recording"),
-                  RELUCENT_ENGLISH_MESSAGE("device.name-folder-record-wrote",
+      throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("device.not-a-recording", "this is not a recording"),
+                  RELUCENT_ENGLISH_MESSAGE("device.name-recorded-folder",
                                            "name the folder that `--record` wrote"),
                   file.string());
     if (const int version = json.at("version"); version > recording::version)
       throw Error(
           ErrorKind::format,
-          RELUCENT_ENGLISH_MESSAGE("device.recording-version", "the recording is of version {}")
+          RELUCENT_ENGLISH_MESSAGE("device.recording-of-newer-version", "the recording is of version {}")
               .with(as::label(version)),
-          RELUCENT_ENGLISH_MESSAGE("device.open-version-relucent-made-later",
+          RELUCENT_ENGLISH_MESSAGE("device.update-relucent",
                                    "open it with the version of Relucent that made it, or a later one"),
           file.string());
     RecordedDevices devices;
@@ -124,9 +124,9 @@ void appendPhotograph(const fs::path& folder, const RecordedPhotograph& photogra
   if (const platform::FileOutcome outcome = platform::appendContent(file, line); outcome.code)
     throw Error(
         ErrorKind::disk,
-        RELUCENT_MESSAGE("device.recording-cannot-written", "the recording cannot be written ({})")
+        RELUCENT_MESSAGE("device.cannot-write-recording", "the recording cannot be written ({})")
             .with(outcome.code.message()),
-        RELUCENT_MESSAGE("device.free-some-space-record-elsewhere", "free some space, or record elsewhere"),
+        RELUCENT_MESSAGE("device.free-space-or-record-elsewhere", "free some space, or record elsewhere"),
         file.string());
 }
 

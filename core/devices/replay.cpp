@@ -71,12 +71,12 @@ class ReplayedCamera : public rig::Camera {
     if (found == nullptr)
       throw Error(
           ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("device.recording-no-photograph-s-other",
+          RELUCENT_ENGLISH_MESSAGE("device.photograph-not-recorded",
                                    "the recording has no photograph of {} {} with {} s: other patterns were "
                                    "shown or other exposures taken")
               .with(request.shot.stage, request.shot.number, as::seconds(request.seconds, as::digits(4))),
           RELUCENT_ENGLISH_MESSAGE(
-              "device.use-settings-recorded-photograph-venue",
+              "device.use-recorded-settings",
               "use the settings that it was recorded with, or photograph the venue again"),
           recording_->folder.string());
     return {image::readRgbExr(recording_->folder / "photographs" / found->file, size()), found->bits,

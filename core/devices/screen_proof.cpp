@@ -177,15 +177,15 @@ ScreenSight sightThrough(rig::Projector& screen, rig::Camera& camera, double exp
 std::vector<Message> problems(const ScreenProofSettings& settings) {
   std::vector<Message> found;
   if (settings.mostLate < 0 || settings.mostLate >= apart)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.pictures-come-0-photographs-late",
-                                             "pictures come 0 to {} photographs late")
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.lateness-out-of-range",
+                                             "pictures can come 0 to {} photographs late")
                         .with(apart - 1));
   if (!(settings.explained > 0.0 && settings.explained < 1.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.share-changes-code-explains-between",
+        RELUCENT_ENGLISH_MESSAGE("device.explained-share-out-of-range",
                                  "the share of the changes that the code explains is between 0 and 1"));
   if (!(settings.leastShare > 0.0 && settings.leastShare <= 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.share-pixels-see-code-between",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.code-share-out-of-range",
                                              "the share of the pixels that see the code is between 0 and 1"));
   return found;
 }
@@ -247,16 +247,16 @@ void requireSeen(const ScreenProof& proof, const rig::Projector& screen, const r
   if (proof.isSeen) return;
   if (!proof.instead.empty())
     throw ScreenNotSeen(ErrorKind::device,
-                        RELUCENT_MESSAGE("device.camera-sees-not", "the camera sees {}, not {}")
+                        RELUCENT_MESSAGE("device.other-screen-seen", "the camera sees {}, not {}")
                             .with(proof.instead, screen.name()),
-                        RELUCENT_MESSAGE("device.choose-aim-camera", "choose {}, or aim the camera at {}")
+                        RELUCENT_MESSAGE("device.choose-or-aim-at-screen", "choose {}, or aim the camera at {}")
                             .with(proof.instead, screen.name()),
                         camera.name());
   throw ScreenNotSeen(
       ErrorKind::device,
-      RELUCENT_MESSAGE("device.camera-not-see-what-shown", "the camera does not see what is shown on {}")
+      RELUCENT_MESSAGE("device.screen-not-seen", "the camera does not see what is shown on {}")
           .with(screen.name()),
-      RELUCENT_MESSAGE("device.check-projector-shows-output-aim",
+      RELUCENT_MESSAGE("device.check-projector-and-aim",
                        "check that the projector is on and shows that output, aim the camera at it, and take "
                        "its cap off; or choose another screen"),
       camera.name());

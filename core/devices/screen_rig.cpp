@@ -80,10 +80,10 @@ class ScreenCheckingCamera : public rig::Camera {
       if (shared_->stayedVisible()) return frame;
     }
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.projector-screen-loses-picture-again",
-                                 "the projector's screen loses its picture again and again"),
-                RELUCENT_MESSAGE("device.check-cable-switch-saving-energy",
-                                 "check its cable, and switch its saving of energy off"),
+                RELUCENT_MESSAGE("device.screen-loses-picture",
+                                 "the projector's screen keeps losing its picture"),
+                RELUCENT_MESSAGE("device.check-cable-and-power-saving",
+                                 "check its cable, and switch off its power saving"),
                 shared_->screen().name());
   }
 

@@ -180,11 +180,11 @@ int photographBits(const SensorFrame& frame) {
 image::Image photographOf(const SensorFrame& frame, const std::string& camera) {
   if (frame.bytes.size() < bytesOf(frame))
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.photograph-pixels-came-bytes",
+                RELUCENT_MESSAGE("device.photograph-truncated",
                                  "a photograph of {} pixels as {} came with {} of {} bytes")
                     .with(as::size(frame.size), nameOf(frame.format), as::bytes(frame.bytes.size()),
                           as::bytes(bytesOf(frame))),
-                RELUCENT_MESSAGE("device.switch-camera-off-choose-another",
+                RELUCENT_MESSAGE("device.restart-or-change-pixel-format",
                                  "switch the camera off and on, or choose another of its pixel formats"),
                 camera);
   if (frame.levels) {

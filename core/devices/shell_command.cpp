@@ -84,19 +84,19 @@ void runShellCommand(const std::string& command, milliseconds timeout, const std
   if (result.end == End::notStarted)
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("device.command-cannot-started", "the command cannot be started ({})")
+        RELUCENT_MESSAGE("device.cannot-start-command", "the command cannot be started ({})")
             .with(result.error.message()),
-        RELUCENT_MESSAGE("device.close-other-programs-try-again", "close other programs and try again"),
+        RELUCENT_MESSAGE("device.close-other-programs", "close other programs and try again"),
         device);
   const std::string lastLine = lastLineOf(result.outputTail);
   if (result.end == End::timedOut)
     throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
-                RELUCENT_MESSAGE("device.check-device-allow-command-more",
+                RELUCENT_MESSAGE("device.allow-command-more-time",
                                  "check the device, or allow the command more time: {}")
                     .with(command),
                 device);
   throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
-              RELUCENT_MESSAGE("device.run-terminal-find-out-why", "run it in a terminal to find out why: {}")
+              RELUCENT_MESSAGE("device.run-command-in-terminal", "run it in a terminal to find out why: {}")
                   .with(command),
               device);
 }

@@ -19,8 +19,8 @@ TemporaryFolder::TemporaryFolder() {
         ErrorKind::disk,
         RELUCENT_MESSAGE("device.cannot-create-temporary-folder", "cannot create a temporary folder ({})")
             .with(std::strerror(errno)),
-        RELUCENT_MESSAGE("device.free-some-space-there-let",
-                         "free some space there, or let TMPDIR name a folder that you may write to"),
+        RELUCENT_MESSAGE("device.free-space-or-set-tmpdir",
+                         "free some space there, or set TMPDIR to a folder that you may write to"),
         name);
   path_ = name;
 }

@@ -34,10 +34,10 @@ class VideoDriver : public CameraDriver {
     disconnect();
     if (!source_->exists())
       throw CameraLost(
-          RELUCENT_MESSAGE("device.no-such-video-device-plugged", "no such video device is plugged in"));
+          RELUCENT_MESSAGE("device.video-device-missing", "no such video device is plugged in"));
     if (!source_->open(size_))
       throw CameraLost(
-          RELUCENT_MESSAGE("device.video-device-cannot-opened-another",
+          RELUCENT_MESSAGE("device.video-device-in-use",
                            "the video device cannot be opened: another program may be using it"));
     switchOff(VideoControl::exposureMode, manual,
               RELUCENT_MESSAGE("device.automatic-exposure-stays",
@@ -58,22 +58,22 @@ class VideoDriver : public CameraDriver {
     const std::optional<VideoFrame> first = source_->grab();
     if (!first)
       throw CameraLost(
-          RELUCENT_MESSAGE("device.video-device-sends-no-pictures", "the video device sends no pictures"));
+          RELUCENT_MESSAGE("device.no-video-pictures", "the video device sends no pictures"));
     traits.size = first->size;
     if (size_ && first->size != *size_)
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.pixels-wanted-video-device-gives",
+                  RELUCENT_MESSAGE("device.video-size-refused",
                                    "{} pixels are wanted and the video device gives {}")
                       .with(as::size(*size_), as::size(first->size)),
-                  RELUCENT_MESSAGE("device.ask-size-v4l2-ctl-list",
+                  RELUCENT_MESSAGE("device.ask-for-listed-size",
                                    "ask for a size that it has: v4l2-ctl --list-formats-ext names them"),
                   name_);
     isStamped_ = hasStamp(*first);
     if (!isStamped_)
       traits.remarks.push_back(RELUCENT_MESSAGE(
-          "device.not-say-when-pictures-captured",
+          "device.no-capture-times",
           "does not say when pictures were captured: some are dropped before each photograph"));
-    traits.remarks.push_back(RELUCENT_MESSAGE("device.delivers-8-bits-dark-places",
+    traits.remarks.push_back(RELUCENT_MESSAGE("device.delivers-8-bits",
                                               "delivers 8 bits: dark places stay uncertain"));
     return traits;
   }
@@ -87,9 +87,9 @@ class VideoDriver : public CameraDriver {
     if (!held) {
       checkPresence();
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("device.video-device-no-exposure-can",
+                  RELUCENT_MESSAGE("device.video-exposure-not-settable",
                                    "the video device has no exposure that can be set"),
-                  RELUCENT_MESSAGE("device.use-camera-manual-exposure", "use a camera with manual exposure"),
+                  RELUCENT_MESSAGE("device.use-manual-exposure-camera", "use a camera with manual exposure"),
                   name_);
     }
     return *held * secondsPerUnit;
@@ -120,7 +120,7 @@ class VideoDriver : public CameraDriver {
 
   void restart() override {
     if (!source_->open(size_))
-      throw CameraLost(RELUCENT_MESSAGE("device.video-device-cannot-opened-again",
+      throw CameraLost(RELUCENT_MESSAGE("device.cannot-reopen-video-device",
                                         "the video device cannot be opened again"));
   }
 
@@ -136,7 +136,7 @@ class VideoDriver : public CameraDriver {
     if (source_->get(control) == off) return;
     throw Error(ErrorKind::device, failure,
                 RELUCENT_MESSAGE(
-                    "device.switch-off-v4l2-ctl-list",
+                    "device.switch-off-with-v4l2-ctl",
                     "switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera"),
                 name_);
   }
@@ -144,7 +144,7 @@ class VideoDriver : public CameraDriver {
   void checkPresence() const {
     if (!source_->exists())
       throw CameraLost(
-          RELUCENT_MESSAGE("device.video-device-been-unplugged", "the video device has been unplugged"));
+          RELUCENT_MESSAGE("device.video-device-unplugged", "the video device has been unplugged"));
   }
 
   bool hasStamp(const VideoFrame& frame) const {

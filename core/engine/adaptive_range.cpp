@@ -65,22 +65,22 @@ std::vector<Message> problems(const AdaptiveRangeSettings& settings) {
   std::vector<Message> found;
   if (!(settings.outOfReach >= 0.0 && settings.outOfReach <= 100.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.share-pixels-out-reach-must",
+        RELUCENT_ENGLISH_MESSAGE("engine.unreachable-share-out-of-range",
                                  "the share of pixels out of reach must lie between 0 and 100 percent"));
   if (!(settings.dimmest > 0.0 && settings.dimmest <= 1.0 && settings.brightest >= 1.0 &&
         settings.brightest <= 100.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.brightness-must-able-stay-0",
-                                 "the brightness must be able to stay as it is: from 0 to 1 to at most 100"));
+        RELUCENT_ENGLISH_MESSAGE("engine.brightness-range-invalid",
+                                 "the range of brightness must include 1 (unchanged) and lie above 0 and at most at 100"));
   if (!(settings.mostLift >= 0.0 && settings.mostLift < 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-must-lie-between",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
   if (!(settings.timeConstant > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.time-constant-must-more-than",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.time-constant-not-positive",
                                              "the time constant must be more than 0 seconds"));
   if (!(settings.cut > 0.0))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.cut-must-change-more-than", "a cut must change more than nothing"));
+        RELUCENT_ENGLISH_MESSAGE("engine.cut-threshold-not-positive", "the change that counts as a cut must be above 0"));
   return found;
 }
 

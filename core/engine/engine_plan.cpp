@@ -16,7 +16,7 @@ void checkFinite(const Stack& values, const char* what) {
     if (!std::isfinite(value))
       throw Error(
           ErrorKind::numerics,
-          RELUCENT_ENGLISH_MESSAGE("engine.holds-values-not-finite", "{} holds values that are not finite")
+          RELUCENT_ENGLISH_MESSAGE("engine.values-not-finite", "{} holds values that are not finite")
               .with(what),
           RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
@@ -35,10 +35,10 @@ std::vector<Message> problems(const EngineSettings& settings) {
   for (const Message& problem : problems(settings.compensator)) found.push_back(problem);
   if (settings.bits != 8 && settings.bits != 10)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.projector-takes-8-10-bits", "a projector takes 8 or 10 bits"));
+        RELUCENT_ENGLISH_MESSAGE("engine.projector-bits-unsupported", "a projector takes 8 or 10 bits"));
   if (settings.patchSide < 8 || settings.patchSide > 256)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.patches-light-transport-must-8",
+        RELUCENT_ENGLISH_MESSAGE("engine.patch-side-out-of-range",
                                  "the patches of the light transport must be 8 to 256 camera pixels wide"));
   return found;
 }
@@ -63,7 +63,7 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
   for (std::size_t row = 0; row < transport.leaves().rows(); ++row)
     if (!std::isfinite(transport.leaves().scale(row)))
       throw Error(ErrorKind::numerics,
-                  RELUCENT_ENGLISH_MESSAGE("engine.light-transport-holds-values-not",
+                  RELUCENT_ENGLISH_MESSAGE("engine.transport-not-finite",
                                            "the light transport holds values that are not finite"),
                   RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 

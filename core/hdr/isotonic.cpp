@@ -63,10 +63,10 @@ ResponseCurve curveFromRamp(const std::vector<double>& x, const std::vector<doub
   double black = pools.front().value, white = pools.back().value;
   if (pools.size() < 2 || !std::isfinite(white - black) || !(white > black))
     throw Error(ErrorKind::numerics,
-                RELUCENT_ENGLISH_MESSAGE("linearization.brightness-not-rise-along-ramp",
+                RELUCENT_ENGLISH_MESSAGE("linearization.ramp-not-rising",
                                          "the brightness does not rise along the ramp"),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "linearization.check-projector-shows-pictures-camera",
+                    "linearization.check-projector-and-camera",
                     "check that the projector shows the pictures and that the camera sees them"));
 
   Samples samples;

@@ -52,11 +52,11 @@ ResponseCurve::ResponseCurve(std::vector<double> x, std::vector<double> y)
   bool usable = x_.size() == y_.size() && x_.size() >= 2 && x_.front() == 0.0 && x_.back() == 1.0;
   if (!usable || !ascends(x_) || !ascends(y_))
     throw Error(ErrorKind::numerics,
-                RELUCENT_ENGLISH_MESSAGE("linearization.samples-not-make-ascending-curve",
+                RELUCENT_ENGLISH_MESSAGE("linearization.curve-not-ascending",
                                          "{} samples do not make an ascending curve")
                     .with(x_.size()),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "linearization.measure-response-again-check-nothing",
+                    "linearization.measure-response-again",
                     "measure the response again; check that nothing moved and no light changed meanwhile"));
   slope_ = monotoneSlopes(x_, y_);
   identity_ = x_ == y_;

@@ -111,28 +111,28 @@ void checkKind(const Imf::InputFile& file, const fs::path& path) {
   if (Imf::isMultiPart(file.version()))
     failFormat(
         path,
-        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-several-parts", "the OpenEXR file has several parts"),
-        RELUCENT_ENGLISH_MESSAGE("image.save-part-you-want-file",
+        RELUCENT_ENGLISH_MESSAGE("image.exr-several-parts", "the OpenEXR file has several parts"),
+        RELUCENT_ENGLISH_MESSAGE("image.save-part-alone",
                                  "save the part that you want as a file of its own"));
   if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
     failFormat(
         path,
-        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-holds-deep-data", "the OpenEXR file holds deep data"),
-        RELUCENT_ENGLISH_MESSAGE("image.flatten-plain-picture-save-again",
+        RELUCENT_ENGLISH_MESSAGE("image.exr-deep-data", "the OpenEXR file holds deep data"),
+        RELUCENT_ENGLISH_MESSAGE("image.flatten",
                                  "flatten it to a plain picture and save it again"));
   if (!file.isComplete())
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-incomplete", "the OpenEXR file is incomplete"),
-               RELUCENT_ENGLISH_MESSAGE("image.copy-again-write-again-program",
+               RELUCENT_ENGLISH_MESSAGE("image.exr-incomplete", "the OpenEXR file is incomplete"),
+               RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
                                         "copy it again, or write it again with its program"));
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
     if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
       failFormat(
           path,
-          RELUCENT_ENGLISH_MESSAGE("image.channel-openexr-file-subsampled-luminance",
+          RELUCENT_ENGLISH_MESSAGE("image.exr-channel-subsampled",
                                    "channel {} of the OpenEXR file is subsampled (luminance and chroma)")
               .with(channel.name()),
-          RELUCENT_ENGLISH_MESSAGE("image.save-again-r-g-b", "save it again as R, G, B at full resolution"));
+          RELUCENT_ENGLISH_MESSAGE("image.save-as-full-resolution-rgb", "save it again as R, G, B at full resolution"));
 }
 
 ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
@@ -145,14 +145,14 @@ ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
   const std::size_t channels = image.channelNames.size();
   if (channels == 0)
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-no-channels", "the OpenEXR file has no channels"),
+               RELUCENT_ENGLISH_MESSAGE("image.exr-without-channels", "the OpenEXR file has no channels"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-another-file", "choose another file"));
   if (size.count() > largestSampleCount / channels)
     failFormat(
         path,
-        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-claims-pixels", "the OpenEXR file claims {} pixels")
+        RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
             .with(as::size(size)),
-        RELUCENT_ENGLISH_MESSAGE("image.check-file-damaged-far-larger",
+        RELUCENT_ENGLISH_MESSAGE("image.check-file",
                                  "check the file: it is damaged, or far larger than any camera's picture"));
   image.pixels = Image(size, static_cast<int>(channels));
   image.dataOrigin = {window.min.x, window.min.y};
@@ -177,10 +177,10 @@ std::vector<half> toHalf(const Image& image, const fs::path& path) {
     samples[i] = half(image.data()[i]);
     if (samples[i].isInfinity() && std::isfinite(image.data()[i]))
       throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("image.value-too-large-half-precision",
+                  RELUCENT_ENGLISH_MESSAGE("image.value-exceeds-half-precision",
                                            "the value {} is too large for half precision (65504)")
                       .with(image.data()[i]),
-                  RELUCENT_ENGLISH_MESSAGE("image.write-picture-float", "write the picture as float"),
+                  RELUCENT_ENGLISH_MESSAGE("image.write-as-float", "write the picture as float"),
                   path.string());
   }
   return samples;
@@ -234,7 +234,7 @@ bool looksLikeExr(std::string_view content) {
 ExrImage readExr(const fs::path& path) {
   const std::string content = readFile(path);
   if (!looksLikeExr(content))
-    failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.not-openexr-file", "this is not an OpenEXR file"),
+    failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.not-exr", "this is not an OpenEXR file"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-exr-file", "choose an .exr file"));
   try {
     detail::MemoryInput stream(content, path.filename().string());
@@ -245,16 +245,16 @@ ExrImage readExr(const fs::path& path) {
     throw;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("image.there-not-enough-memory-read",
+                RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory",
                                          "there is not enough memory to read the picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.close-other-programs-make-picture",
+                RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
                                          "close other programs, or make the picture smaller"),
                 path.string());
   } catch (const std::exception&) {
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-damaged-cut-short",
+               RELUCENT_ENGLISH_MESSAGE("image.exr-damaged",
                                         "the OpenEXR file is damaged or cut short"),
-               RELUCENT_ENGLISH_MESSAGE("image.copy-again-write-again-program",
+               RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
                                         "copy it again, or write it again with its program"));
   }
 }
@@ -285,17 +285,17 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
   const Size size = *exr.displaySize;
   if (expected && size != *expected)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("image.picture-pixels-needed",
+                RELUCENT_ENGLISH_MESSAGE("image.size-differs",
                                          "the picture has {} pixels where {} are needed")
                     .with(as::size(size), as::size(*expected)),
-                RELUCENT_ENGLISH_MESSAGE("image.choose-picture-size", "choose a picture of that size"),
+                RELUCENT_ENGLISH_MESSAGE("image.choose-picture-of-size", "choose a picture of that size"),
                 path.string());
   if (size.count() > largestSampleCount / 3)
     failFormat(
         path,
-        RELUCENT_ENGLISH_MESSAGE("image.openexr-file-claims-pixels", "the OpenEXR file claims {} pixels")
+        RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
             .with(as::size(size)),
-        RELUCENT_ENGLISH_MESSAGE("image.check-file-damaged-far-larger",
+        RELUCENT_ENGLISH_MESSAGE("image.check-file",
                                  "check the file: it is damaged, or far larger than any camera's picture"));
 
   auto placeOf = [&](const char* name) {
@@ -308,9 +308,9 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
     source = {0, 0, 0};
   else if (!rgb)
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.openexr-file-channels", "the OpenEXR file has the channels {}")
+               RELUCENT_ENGLISH_MESSAGE("image.exr-channels-unsupported", "the OpenEXR file has the channels {}")
                    .with(joined(exr.channelNames)),
-               RELUCENT_ENGLISH_MESSAGE("image.save-channels-r-g-b",
+               RELUCENT_ENGLISH_MESSAGE("image.save-as-rgb-or-y",
                                         "save it with the channels R, G and B, or with Y alone"));
 
   // Display coordinates of the data window; only what both windows share is copied.
@@ -339,10 +339,10 @@ void checkFinite(const Image& image, const fs::path& path) {
   const Pixel place = pixelAt(image.size(), first / static_cast<std::size_t>(image.channels()));
   throw Error(
       ErrorKind::input,
-      RELUCENT_ENGLISH_MESSAGE("image.picture-holds-nan-infinite-values",
+      RELUCENT_ENGLISH_MESSAGE("image.values-not-finite",
                                "the picture holds {} NaN and {} infinite values, the first at pixel {}, {}")
           .with(notNumbers, infinities, as::label(place.x), place.y),
-      RELUCENT_ENGLISH_MESSAGE("image.write-again-finite-numbers-only",
+      RELUCENT_ENGLISH_MESSAGE("image.write-finite-values",
                                "write it again with finite numbers only"),
       path.string());
 }

@@ -25,8 +25,8 @@ constexpr std::string_view jpegStart{"\xff\xd8", 2};
 [[noreturn]] void failShort(const fs::path& path) {
   throw Error(
       ErrorKind::format,
-      RELUCENT_ENGLISH_MESSAGE("image.picture-damaged-cut-short", "the picture is damaged or cut short"),
-      RELUCENT_ENGLISH_MESSAGE("image.copy-again-take-again", "copy it again, or take it again"),
+      RELUCENT_ENGLISH_MESSAGE("image.damaged", "the picture is damaged or cut short"),
+      RELUCENT_ENGLISH_MESSAGE("image.copy-or-take-again", "copy it again, or take it again"),
       path.string());
 }
 
@@ -90,9 +90,9 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
     picture = cv::imdecode(bytes, flags);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("image.there-not-enough-memory-read",
+                RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory",
                                          "there is not enough memory to read the picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.close-other-programs-make-picture",
+                RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
                                          "close other programs, or make the picture smaller"),
                 path.string());
   } catch (const cv::Exception&) {
@@ -101,13 +101,13 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
   if (picture.empty() && looksLikePicture(content))
     throw Error(
         ErrorKind::format,
-        RELUCENT_ENGLISH_MESSAGE("image.picture-damaged-cut-short-too",
+        RELUCENT_ENGLISH_MESSAGE("image.damaged-or-too-large",
                                  "the picture is damaged, cut short, or too large"),
-        RELUCENT_ENGLISH_MESSAGE("image.copy-again-save-smaller", "copy it again, or save it smaller"),
+        RELUCENT_ENGLISH_MESSAGE("image.copy-again-or-shrink", "copy it again, or save it smaller"),
         path.string());
   if (picture.empty())
     throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.not-picture", "this is not a picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.choose-png-tiff-jpeg-openexr",
+                RELUCENT_ENGLISH_MESSAGE("image.choose-supported-format",
                                          "choose a PNG, TIFF, JPEG or OpenEXR file"),
                 path.string());
   return picture;
@@ -150,10 +150,10 @@ Image toRgb(const cv::Mat& picture, const fs::path& path) {
   const std::optional<double> scale = fullScale(picture.depth());
   if (!scale || picture.channels() > 4)
     throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("image.picture-channels-bytes-sample",
+                RELUCENT_ENGLISH_MESSAGE("image.sample-format-unsupported",
                                          "the picture has {} channels of {} bytes a sample")
                     .with(picture.channels(), as::bytes(picture.elemSize1())),
-                RELUCENT_ENGLISH_MESSAGE("image.save-grey-rgb-8-16",
+                RELUCENT_ENGLISH_MESSAGE("image.save-as-grey-or-rgb",
                                          "save it as grey or RGB with 8 or 16 bits, or as float"),
                 path.string());
   switch (picture.depth()) {

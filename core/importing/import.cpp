@@ -36,7 +36,7 @@ class Importing {
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("import.no-projector-size",
-                                   "the patterns have {} pixels, which is no projector")
+                                   "the patterns have {} pixels, which is too small for a projector")
               .with(as::size(patterns.size())),
           RELUCENT_ENGLISH_MESSAGE("import.give-larger-patterns", "give patterns of at least {} pixels")
               .with(as::size(leastSide, leastSide)));
@@ -58,10 +58,10 @@ class Importing {
     Progress decoding = progress.part(0.35, RELUCENT_MESSAGE("stage.decoding", "Decoding"));
     decode(decoding);
     Progress sampling = progress.part(
-        0.1, RELUCENT_MESSAGE("stage.estimating-response-colours", "Estimating response and colours"));
+        0.1, RELUCENT_MESSAGE("stage.estimating-response-and-colours", "Estimating response and colours"));
     alternate(sampling);
     Progress spreading =
-        progress.part(0.45, RELUCENT_MESSAGE("stage.fitting-spread-light", "Fitting the spread of light"));
+        progress.part(0.45, RELUCENT_MESSAGE("stage.fitting-light-spread", "Fitting the spread of light"));
     fitFootprints(litPixels_, spreading);
     Progress assembling = progress.part(
         0.07, RELUCENT_MESSAGE("stage.assembling-light-transport", "Assembling the light transport"));
@@ -266,7 +266,7 @@ class Importing {
     if (!responseKnown_)
       result.linearization.findings.push_back(RELUCENT_MESSAGE(
           "import.patterns-black-and-white",
-          "The patterns hold black and white only: the projector's response is taken to be a power of 2.2"));
+          "The patterns hold black and white only: the projector's response is assumed to be a gamma of 2.2"));
     result.linearization.findings.push_back(RELUCENT_MESSAGE(
         "import.camera-taken-as-linear",
         "The camera is taken to be linear, and one photograph counts as one second of exposure"));

@@ -52,14 +52,14 @@ std::vector<Message> problems(const PatternPlanSettings& settings) {
   std::vector<Message> found;
   if (settings.projector.width < 8 || settings.projector.height < 8 || settings.projector.width > 8192 ||
       settings.projector.height > 8192)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.projector-pixels-impossible-each-side",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.projector-size-out-of-range",
                                              "a projector of {} pixels is impossible: each side is 8 to 8192")
                         .with(as::size(settings.projector)));
   if (settings.rampLevels < 2 || settings.rampLevels > 65)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.ramp-2-65-levels", "a ramp has 2 to 65 levels"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.ramp-levels-out-of-range", "a ramp has 2 to 65 levels"));
   if (settings.randomPatterns < 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.there-cannot-fewer-than-no",
-                                             "there cannot be fewer than no random patterns"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.random-patterns-negative",
+                                             "the number of random patterns cannot be negative"));
   return found;
 }
 

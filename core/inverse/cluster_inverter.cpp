@@ -83,10 +83,10 @@ class ClusterInverter {
       return;
     throw Error(ErrorKind::memory,
                 RELUCENT_ENGLISH_MESSAGE(
-                    "inverse.cluster-joins-projector-pixels-camera",
+                    "inverse.cluster-too-large",
                     "a cluster joins {} projector pixels and {} camera pixels, too many to invert")
                     .with(pixels, rows),
-                RELUCENT_ENGLISH_MESSAGE("inverse.hold-clusters-size-cut-more",
+                RELUCENT_ENGLISH_MESSAGE("inverse.cap-clusters-or-cut-more",
                                          "hold clusters to a size, or cut more of each patch"));
   }
 

@@ -19,9 +19,9 @@ constexpr float leastUncancelled = 0.2f;
 [[noreturn]] void failSingular() {
   throw Error(
       ErrorKind::numerics,
-      RELUCENT_ENGLISH_MESSAGE("inverse.cluster-light-transport-cannot-inverted",
+      RELUCENT_ENGLISH_MESSAGE("inverse.cluster-singular",
                                "a cluster of the light transport cannot be inverted"),
-      RELUCENT_ENGLISH_MESSAGE("inverse.choose-larger-ridge-truncated-singular",
+      RELUCENT_ENGLISH_MESSAGE("inverse.raise-ridge-or-truncate",
                                "choose a larger ridge, or the truncated singular value decomposition"));
 }
 

@@ -105,9 +105,9 @@ class WindowBuilder {
       if (cholesky.info() != Eigen::Success)
         throw Error(ErrorKind::numerics,
                     RELUCENT_ENGLISH_MESSAGE(
-                        "inverse.light-transport-around-tile-projector",
+                        "inverse.tile-singular",
                         "the light transport around a tile of projector pixels cannot be inverted"),
-                    RELUCENT_ENGLISH_MESSAGE("inverse.raise-ridge-windows-measure-venue",
+                    RELUCENT_ENGLISH_MESSAGE("inverse.raise-ridge-or-remeasure",
                                              "raise the ridge of the windows or measure the venue again"),
                     fmt::format("window {} of {}", tile, result_.tiles_.count()));
       solveChannel(rows, channel, cholesky, scratch);

@@ -10,12 +10,12 @@ std::vector<Message> problems(const WindowSettings& settings) {
   std::vector<Message> found;
   if (settings.tile != 4 && settings.tile != 8)
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("inverse.side-tile-must-4-8", "the side of a tile must be 4 or 8"));
+        RELUCENT_ENGLISH_MESSAGE("inverse.tile-side-unsupported", "the side of a tile must be 4 or 8"));
   if (settings.rows < 1 || settings.rows > 1024)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.window-must-1-1024-camera",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.window-size-out-of-range",
                                              "a window must have 1 to 1024 camera pixels"));
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-must-lie-above-0",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-out-of-range",
                                              "the ridge must lie above 0 and at most 100"));
   return found;
 }

@@ -98,10 +98,10 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
   if (result.whiteWeights.empty())
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("linearization.no-camera-can-measure-white",
+        RELUCENT_ENGLISH_MESSAGE("linearization.white-not-measurable",
                                  "no camera can measure the white of this projector"),
         RELUCENT_ENGLISH_MESSAGE(
-            "linearization.check-picture-view-not-overexposed",
+            "linearization.check-view-and-exposure",
             "check that its picture is in view and not overexposed: close the aperture or lower the gain"),
         rig.projectors[projector]->name());
   for (std::size_t c = 0; c < 3; ++c) {
@@ -109,11 +109,11 @@ Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std
     if (!result.channelWeights[c].empty()) continue;
     static constexpr std::array<const char*, 3> names{"red", "green", "blue"};
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("linearization.no-camera-sees-light-projector",
+                RELUCENT_ENGLISH_MESSAGE("linearization.colour-not-seen",
                                          "no camera sees the {} light of this projector")
                     .with(names[c]),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "linearization.check-cable-colour-settings-camera",
+                    "linearization.check-cable-and-colours",
                     "check its cable and colour settings, and that a camera looks at its picture"),
                 rig.projectors[projector]->name());
   }

@@ -202,9 +202,9 @@ void findLight(std::vector<Search>& searches, const rig::Shot& white, const std:
         std::max(8.0, 0.002 * static_cast<double>(lit.signal.pixels())))
       throw Error(
           ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("linearization.camera-sees-no-difference-between",
+          RELUCENT_ENGLISH_MESSAGE("linearization.no-contrast",
                                    "the camera sees no difference between a white and a black projection"),
-          RELUCENT_ENGLISH_MESSAGE("linearization.check-projector-shows-pictures-lens",
+          RELUCENT_ENGLISH_MESSAGE("linearization.check-projector-cap-and-aim",
                                    "check that the projector is on and shows the pictures, that the lens cap "
                                    "is off, and that the camera looks at the projection"),
           search.name);
@@ -246,9 +246,9 @@ rig::ExposureRange commonRange(const rig::Rig& rig) {
   }
   if (!(range.shortest > 0.0 && range.shortest <= range.longest))
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("linearization.cameras-no-exposure-time-common",
+                RELUCENT_MESSAGE("linearization.no-common-exposure",
                                  "the cameras have no exposure time in common"),
-                RELUCENT_MESSAGE("linearization.set-them-ranges-exposure-times",
+                RELUCENT_MESSAGE("linearization.choose-overlapping-exposures",
                                  "set them to ranges of exposure times that overlap"));
   return range;
 }

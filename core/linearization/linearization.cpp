@@ -67,19 +67,19 @@ void calibrateCameras(rig::ShotTaker& shots, const LinearizationSettings& settin
 std::vector<Message> problems(const LinearizationSettings& settings) {
   std::vector<Message> found;
   if (settings.levels < 5 || settings.levels > 1025)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.ramp-5-1025-levels-not",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.ramp-levels-out-of-range",
                                              "a ramp has 5 to 1025 levels, not {}")
                         .with(settings.levels));
   if (!(settings.shadowPower >= 0.5 && settings.shadowPower <= 4.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.shadow-power-between-0-5",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.shadow-power-out-of-range",
                                              "the shadow power is between 0.5 and 4, not {}")
                         .with(settings.shadowPower));
   if (settings.noisePairs < 1 || settings.noisePairs > 100)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.camera-noise-takes-1-100",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.noise-pairs-out-of-range",
                                              "the camera's noise takes 1 to 100 pairs of shots, not {}")
                         .with(settings.noisePairs));
   if (!(settings.additivityLimit > 0.0 && settings.additivityLimit < 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.additivity-limit-between-0-1",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.additivity-limit-out-of-range",
                                              "the additivity limit is between 0 and 1, not {}")
                         .with(settings.additivityLimit));
   return found;

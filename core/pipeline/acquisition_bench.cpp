@@ -84,8 +84,8 @@ std::vector<Message> problems(const AcquisitionBenchSettings& settings) {
   }
   if (trialsOf(settings).empty())
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "calibration.no-way-measure-compared-mode",
-        "no way to measure is compared in that mode at that threshold; name neither to see all"));
+        "bench.no-matching-trial",
+        "nothing is measured in that mode at that threshold; leave both out to compare all"));
   return found;
 }
 

@@ -112,7 +112,7 @@ BenchResult benchEngine(engine::BackendChoice backend, Progress& progress) {
   settings.references = false;
   const std::string sizes = sizesOf(settings);
   if (availableMemory() < memoryOfLarge) {
-    result.notes.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.not-timed-takes-gb-memory",
+    result.notes.push_back(RELUCENT_ENGLISH_MESSAGE("bench.skipped-for-memory",
                                                     "{} was not timed: it takes {} GB of memory")
                                .with(sizes, as::number(memoryOfLarge / 1e9, as::decimals(0))));
     return result;
@@ -172,9 +172,9 @@ BenchResult bench(const std::string& name, Progress& progress) {
     for (const Case& candidate : cases) known += (known.empty() ? "" : ", ") + candidate.name;
     throw Error(
         ErrorKind::usage,
-        RELUCENT_ENGLISH_MESSAGE("calibration.there-no-benchmark-named", "there is no benchmark named \"{}\"")
+        RELUCENT_ENGLISH_MESSAGE("bench.unknown", "there is no benchmark named \"{}\"")
             .with(name),
-        RELUCENT_ENGLISH_MESSAGE("calibration.choose-one-of", "choose one of: {}").with(known));
+        RELUCENT_ENGLISH_MESSAGE("bench.choose-one", "choose one of: {}").with(known));
   }
 
   for (Case* benchmark : wanted) {

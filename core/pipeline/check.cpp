@@ -33,7 +33,7 @@ RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& ca
 
   RigCheck check;
   Progress proving = progress.part(
-      0.2, RELUCENT_MESSAGE("stage.looking-projector-picture", "Looking for the projector's picture"));
+      0.2, RELUCENT_MESSAGE("stage.finding-projector-picture", "Looking for the projector's picture"));
   const devices::ScreenExposure exposureOf = [&](rig::Projector& screen) {
     return devices::testExposure(screen, camera, settings.latency, devices::sleepFor, proving);
   };

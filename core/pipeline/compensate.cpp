@@ -100,7 +100,7 @@ image::Image reasonNumbers(const std::vector<compensation::Uncorrectable>& map, 
 CompensateResult compensate(const fs::path& path, const CompensateSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
 
@@ -126,9 +126,9 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   compensation::Prediction prediction = compensation::predict(venue, target, compensation);
   if (prediction.reachable == 0.0)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.no-part-picture-can-shown",
+                RELUCENT_ENGLISH_MESSAGE("compensation.nothing-reachable",
                                          "no part of the picture can be shown in this venue"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.make-content-darker-place-projector",
+                RELUCENT_ENGLISH_MESSAGE("compensation.darken-or-move-content",
                                          "make the content darker, or place it where the projector reaches"),
                 settings.image.string());
   result.clipped = prediction.clipped;

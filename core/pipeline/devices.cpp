@@ -16,8 +16,8 @@ devices::CameraAddress addressFrom(const std::string& text) {
   const std::optional<devices::CameraAddress> address = devices::cameraRegistry().addressFrom(text);
   if (!address)
     throw Error(ErrorKind::usage,
-                RELUCENT_ENGLISH_MESSAGE("calibration.no-camera", "'{}' is no camera").with(text),
-                RELUCENT_ENGLISH_MESSAGE("calibration.write", "write {}")
+                RELUCENT_ENGLISH_MESSAGE("device.not-a-camera", "'{}' is not a camera").with(text),
+                RELUCENT_ENGLISH_MESSAGE("device.write-camera-address", "write {}")
                     .with(devices::cameraRegistry().addressForms()));
   return *address;
 }
@@ -67,15 +67,15 @@ struct Opener {
   OpenedRig operator()(const ScreenRigSettings& settings) const {
     if (!screens)
       throw Error(ErrorKind::usage,
-                  RELUCENT_ENGLISH_MESSAGE("calibration.calibration-projector-screen-desktop",
+                  RELUCENT_ENGLISH_MESSAGE("calibration.projector-is-screen",
                                            "this calibration's projector is a screen of the desktop"),
-                  RELUCENT_ENGLISH_MESSAGE("calibration.open-relucent-windows",
+                  RELUCENT_ENGLISH_MESSAGE("calibration.open-with-windows",
                                            "open it with `relucent`, which has windows"),
                   settings.display.connector);
     if (settings.cameraAddress.empty())
       throw Error(
           ErrorKind::input, RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
-          RELUCENT_ENGLISH_MESSAGE("calibration.choose-one-step-camera", "choose one at the step Camera"));
+          RELUCENT_ENGLISH_MESSAGE("calibration.choose-camera", "choose one in the Camera step"));
     OpenedRig result;
     auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
     devices::ScreenRig screen = screenRig(screens(settings), std::move(camera),
@@ -91,7 +91,7 @@ struct Opener {
 
   OpenedRig operator()(const ImportedRigSettings& settings) const {
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.calibration-imported-photographs-no-devices",
+                RELUCENT_ENGLISH_MESSAGE("calibration.imported-without-devices",
                                          "this calibration was imported from photographs and has no devices"),
                 RELUCENT_ENGLISH_MESSAGE("calibration.import-again-into-new-folder",
                                          "import again, into a new folder: relucent-cli import"),
@@ -115,9 +115,9 @@ rig::Rig& RigSource::open(const RigSettings& settings, const transport::Transpor
   rig::Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
   if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.devices-other-sizes-than-calibrated",
+                RELUCENT_ENGLISH_MESSAGE("calibration.device-sizes-differ",
                                          "the devices have other sizes than those that were calibrated"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.set-projector-camera-they-calibrate",
+                RELUCENT_ENGLISH_MESSAGE("calibration.restore-sizes-or-recalibrate",
                                          "set projector and camera as they were, or calibrate again"),
                 calibration.string());
   return rig;

@@ -45,19 +45,19 @@ std::vector<Message> problems(const DifferenceSettings& settings) {
   std::vector<Message> found;
   if (settings.first.empty() || settings.second.empty())
     found.emplace_back(
-        RELUCENT_ENGLISH_MESSAGE("calibration.two-pictures-needed", "two pictures are needed"));
+        RELUCENT_ENGLISH_MESSAGE("difference.two-pictures-needed", "two pictures are needed"));
   if (settings.out.empty())
     found.emplace_back(
-        RELUCENT_ENGLISH_MESSAGE("calibration.no-file-result-given", "no file for the result is given"));
+        RELUCENT_ENGLISH_MESSAGE("settings.no-output-file", "no file for the result is given"));
   if (settings.gain && !(*settings.gain > 0.0 && std::isfinite(*settings.gain)))
-    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("calibration.gain-must-above-0", "the gain must be above 0"));
+    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("difference.gain-not-positive", "the gain must be above 0"));
   return found;
 }
 
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   const PictureFormat format = pictureFormatOf(settings.out);
   image::Image first = readLinear(settings.first);
@@ -66,10 +66,10 @@ DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress&
   progress.report(0.6);
   if (first.size() != second.size())
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.pictures-pixels-cannot-compared",
+                RELUCENT_ENGLISH_MESSAGE("difference.sizes-differ",
                                          "pictures of {} and {} pixels cannot be compared")
                     .with(as::size(first.width(), first.height()), as::size(second.width(), second.height())),
-                RELUCENT_ENGLISH_MESSAGE("calibration.choose-two-pictures-one-camera",
+                RELUCENT_ENGLISH_MESSAGE("difference.choose-pictures-of-one-camera",
                                          "choose two pictures of one camera"));
 
   DifferenceResult result;

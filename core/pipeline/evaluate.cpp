@@ -58,10 +58,10 @@ TransportScore scoreOf(const transport::TransportMatrix& transport, const venue:
 OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache, Progress& progress) {
   if (!std::holds_alternative<venue::VenueSettings>(measured.rig))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.only-simulated-venue-true-light",
+                RELUCENT_ENGLISH_MESSAGE("calibration.venue-not-simulated",
                                          "only a simulated venue's true light transport is known"),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "calibration.calibrate-one-venue-look-prediction",
+                    "calibration.simulate-or-compensate",
                     "calibrate one with --venue, or look at the prediction: relucent-cli compensate"));
   return openRig(measured.rig, cache, progress);
 }
@@ -201,7 +201,7 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
                         Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);

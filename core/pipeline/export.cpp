@@ -41,7 +41,7 @@ void writeMaps(const fs::path& folder, const MeasuredCalibration& measured, Writ
 WrittenFiles exportCalibration(const fs::path& path, const ExportSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.name-least-one-thing-export",
+                RELUCENT_ENGLISH_MESSAGE("calibration.name-something-to-export",
                                          "name at least one thing to export"));
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);

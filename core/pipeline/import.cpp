@@ -45,16 +45,16 @@ std::vector<fs::path> picturesIn(const fs::path& folder, const char* what, bool 
   if (code)
     throw Error(
         ErrorKind::disk,
-        RELUCENT_ENGLISH_MESSAGE("calibration.folder-cannot-read", "the folder of the {} cannot be read ({})")
+        RELUCENT_ENGLISH_MESSAGE("import.folder-unreadable", "the folder of the {} cannot be read ({})")
             .with(what, code.message()),
-        RELUCENT_ENGLISH_MESSAGE("calibration.check-name", "check its name"), folder.string());
+        RELUCENT_ENGLISH_MESSAGE("import.check-folder-name", "check its name"), folder.string());
   if (pictures.empty())
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.folder-holds-no-pictures",
+        RELUCENT_ENGLISH_MESSAGE("import.folder-without-pictures",
                                  "the folder of the {} holds no pictures")
             .with(what),
-        RELUCENT_ENGLISH_MESSAGE("calibration.name-folder-png-tiff-jpeg",
+        RELUCENT_ENGLISH_MESSAGE("import.name-picture-folder",
                                  "name the folder with the PNG, TIFF, JPEG, EXR or raw files themselves"),
         folder.string());
   std::sort(pictures.begin(), pictures.end());
@@ -106,11 +106,11 @@ importing::PictureSequence readSequence(const std::vector<fs::path>& paths, bool
     if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
     if (image.size() != sequence.size())
       throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("calibration.picture-pixels-but",
+                  RELUCENT_ENGLISH_MESSAGE("import.picture-size-differs",
                                            "the picture has {} pixels, but {} has {}")
                       .with(as::size(image.width(), image.height()), paths.front().filename().string(),
                             as::size(sequence.size())),
-                  RELUCENT_ENGLISH_MESSAGE("calibration.take-out-pictures-not-belong",
+                  RELUCENT_ENGLISH_MESSAGE("import.take-out-foreign-pictures",
                                            "take out pictures that do not belong there"),
                   paths[k].string());
     sequence.set(static_cast<int>(k), image);
@@ -126,9 +126,9 @@ void checkFolderIsFree(const fs::path& folder) {
   if (!fs::exists(folder, code)) return;
   if (!fs::is_directory(folder, code) || fs::directory_iterator(folder, code) != fs::directory_iterator())
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.there-something-name-already",
+                RELUCENT_ENGLISH_MESSAGE("disk.name-taken",
                                          "there is something of this name already"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder-calibration",
+                RELUCENT_ENGLISH_MESSAGE("calibration.choose-empty-folder",
                                          "choose a new or an empty folder for the calibration"),
                 folder.string());
 }
@@ -235,7 +235,7 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
                             Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   checkFolderIsFree(path);
   Stopwatch watch;

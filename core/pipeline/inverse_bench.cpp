@@ -22,7 +22,7 @@ double secondsOf(const Work& work) {
 void timeInversions(const compensation::MeasuredVenue& venue, VenueInversion& result, Progress& progress) {
   const compensation::CompensatorSettings standard;
   result.windowSeconds = secondsOf([&] {
-    Progress part = progress.part(0.4, RELUCENT_MESSAGE("stage.windows", "Windows"));
+    Progress part = progress.part(0.4, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
     result.ridge = chooseRidge(venue, inverse::WindowSettings{}, part).ridge;
   });
   clustering::Clustering capped;
@@ -37,7 +37,7 @@ void timeInversions(const compensation::MeasuredVenue& venue, VenueInversion& re
     });
     result.cappedSeconds = secondsOf([&] {
       Progress part =
-          progress.part(0.1, RELUCENT_MESSAGE("stage.clusters-held-size", "Clusters held to a size"));
+          progress.part(0.1, RELUCENT_MESSAGE("stage.capped-clusters", "Clusters held to a size"));
       capped = clustering::clustered(*graph, standard.clustering, part);
     });
     result.capped = capped.statistics;

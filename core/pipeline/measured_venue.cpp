@@ -22,8 +22,8 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
   if (!linearization || !acquisition)
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.calibration-not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.finish-first-relucent-cli-resume",
+        RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first",
                                  "finish it first: relucent-cli resume {}")
             .with(folder.path().string()),
         folder.path().string());

@@ -34,7 +34,7 @@ fs::path unusedFolder(const fs::path& parent) {
 calibration::CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   return createCalibration(path, settings);
 }
@@ -101,9 +101,9 @@ void setShotsAside(const calibration::CalibrationFolder& folder, calibration::St
     fs::rename(shot, aside / shot.filename(), code);
     if (code)
       throw Error(ErrorKind::disk,
-                  RELUCENT_MESSAGE("calibration.photograph-cannot-moved", "a photograph cannot be moved ({})")
+                  RELUCENT_MESSAGE("calibration.cannot-move-photograph", "a photograph cannot be moved ({})")
                       .with(code.message()),
-                  RELUCENT_MESSAGE("calibration.check-folder-may-written-try",
+                  RELUCENT_MESSAGE("calibration.allow-writing-then-retry",
                                    "check that the folder may be written to, then try again"),
                   shot.string());
   }

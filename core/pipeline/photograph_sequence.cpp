@@ -96,16 +96,16 @@ CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::
   else if (names.empty())
     problem.advice = RELUCENT_ENGLISH_MESSAGE(
         "import.take-out-first-or-last",
-        "take out the photographs that show no pattern, mostly the first or the last");
+        "take out the photographs that show no pattern, usually the first or the last");
   else
     problem.advice = RELUCENT_ENGLISH_MESSAGE("import.take-out-photographs",
                                               "take out the photographs that show no pattern");
   if (names.empty()) return problem;
   const std::string suspected = fmt::to_string(fmt::join(names, ", "));
   problem.what = isMissing
-                     ? RELUCENT_ENGLISH_MESSAGE("import.missing-after", "{}, by the camera's clock after {}")
+                     ? RELUCENT_ENGLISH_MESSAGE("import.missing-after", "{}, judging by the camera's clock after {}")
                            .with(problem.what, suspected)
-                     : RELUCENT_ENGLISH_MESSAGE("import.too-many-are", "{}, by the camera's clock {}")
+                     : RELUCENT_ENGLISH_MESSAGE("import.too-many-suspected", "{}, judging by the camera's clock these: {}")
                            .with(problem.what, suspected);
   return problem;
 }

@@ -33,9 +33,9 @@ PictureFormat pictureFormatOf(const fs::path& path) {
   if (std::optional<PictureFormat> format = valueNamed<PictureFormat>(extension)) return *format;
   throw Error(
       ErrorKind::input,
-      RELUCENT_ENGLISH_MESSAGE("calibration.pictures-not-written", "pictures are not written as \"{}\"")
+      RELUCENT_ENGLISH_MESSAGE("image.output-format-unsupported", "pictures are not written as \"{}\"")
           .with(extension),
-      RELUCENT_ENGLISH_MESSAGE("calibration.choose-name-ends-exr-linear",
+      RELUCENT_ENGLISH_MESSAGE("image.choose-exr-or-png",
                                "choose a name that ends in .exr (linear values) or .png (to look at)"),
       path.string());
 }

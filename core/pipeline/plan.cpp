@@ -57,9 +57,9 @@ void checkHoldsNoPlan(const fs::path& out) {
       (!fs::is_directory(out, code) || fs::directory_iterator(out, code) != fs::directory_iterator()))
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.there-something-name-already",
+        RELUCENT_ENGLISH_MESSAGE("disk.name-taken",
                                  "there is something of this name already"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.choose-new-empty-folder", "choose a new or an empty folder"),
+        RELUCENT_ENGLISH_MESSAGE("disk.choose-empty-folder", "choose a new or an empty folder"),
         out.string());
 }
 
@@ -69,7 +69,7 @@ WrittenFiles exportPlan(const importing::PatternPlanSettings& settings, const fs
                         Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   checkHoldsNoPlan(out);
   createFolder(out);

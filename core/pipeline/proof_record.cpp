@@ -68,10 +68,10 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     return record;
   } catch (const calibration::Json::exception& cause) {
     throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("calibration.record-verification-photograph-cannot-read",
+                RELUCENT_ENGLISH_MESSAGE("proof.record-unreadable",
                                          "the record of the verification photograph cannot be read ({})")
                     .with(cause.what()),
-                RELUCENT_ENGLISH_MESSAGE("calibration.take-photograph-again", "take the photograph again"),
+                RELUCENT_ENGLISH_MESSAGE("proof.take-photograph-again", "take the photograph again"),
                 (folder / fileName).string());
   }
 }

@@ -22,7 +22,7 @@ struct Opened {
 Opened opened(const fs::path& path, const RelightSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.name-file-write", "name the file to write"));
+                RELUCENT_ENGLISH_MESSAGE("settings.name-output-file", "name the file to write"));
   pictureFormatOf(settings.out);
   Opened result;
   if (!settings.image.empty()) result.content = image::readLinearContent(settings.image);

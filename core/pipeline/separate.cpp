@@ -37,7 +37,7 @@ void writePair(const fs::path& folder, std::size_t camera, const image::Image& d
 std::vector<Message> problems(const SeparateSettings& settings) {
   std::vector<Message> found = problems(settings.direct);
   if (settings.out.empty())
-    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
                                                 "no folder for the results is given"));
   return found;
 }
@@ -45,7 +45,7 @@ std::vector<Message> problems(const SeparateSettings& settings) {
 SeparateResult separate(const fs::path& path, const SeparateSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   std::optional<image::Image> content;
   if (!settings.image.empty()) content = image::readLinearContent(settings.image);
@@ -59,7 +59,7 @@ SeparateResult separate(const fs::path& path, const SeparateSettings& settings, 
   ProjectorStack pattern(3 * projectors.count(), 1.0f);
   if (content) pattern = ProjectorStack(patternFrom(*content, projectors));
   for (float& value : pattern) value = std::clamp(value, 0.0f, 1.0f);
-  Progress separating = progress.part(0.2, RELUCENT_MESSAGE("stage.separating-direct-indirect-light",
+  Progress separating = progress.part(0.2, RELUCENT_MESSAGE("stage.separating-direct-and-indirect-light",
                                                             "Separating direct and indirect light"));
   CameraStack direct = compensation::directPart(venue.transport, settings.direct, separating).apply(pattern);
   CameraStack indirect = venue.transport.apply(pattern);

@@ -28,10 +28,10 @@ void checkSize(Problems& problems, DeviceKind device, Size size) {
   constexpr int most = 8192;
   if (size.width < least || size.height < least || size.width > most || size.height > most)
     problems.push_back(device == DeviceKind::projector
-                           ? RELUCENT_MESSAGE("device.impossible-projector",
+                           ? RELUCENT_MESSAGE("device.projector-size-out-of-range",
                                               "a projector of {} pixels is impossible: each side is {} to {}")
                                  .with(as::size(size), least, most)
-                           : RELUCENT_MESSAGE("device.impossible-camera",
+                           : RELUCENT_MESSAGE("device.camera-size-out-of-range",
                                               "a camera of {} pixels is impossible: each side is {} to {}")
                                  .with(as::size(size), least, most));
 }
@@ -56,29 +56,29 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
     if (!command.empty() && command.find(placeholder) == std::string::npos)
       problems.push_back(
           device == DeviceKind::projector
-              ? RELUCENT_MESSAGE("device.projector-command-lacks", "the projector's command does not say {}")
+              ? RELUCENT_MESSAGE("device.projector-command-lacks", "the projector's command does not contain {}")
                     .with(placeholder)
-              : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not say {}")
+              : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not contain {}")
                     .with(placeholder));
 }
 
 void checkAddress(Problems& problems, const std::string& camera) {
   if (!devices::cameraRegistry().addressFrom(camera))
-    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-write", "'{}' is no camera: write {}")
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
                            .with(camera, devices::cameraRegistry().addressForms()));
 }
 
 template <typename Settings>
 void checkTimes(Problems& problems, const Settings& settings) {
   if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
-    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.projector-latency-between-0-10",
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.latency-out-of-range",
                                                 "a projector's latency is between 0 and 10 seconds"));
   if (!(settings.frameRate >= 0.0 && settings.frameRate <= 1000.0))
-    problems.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.projector-shows-up-1000-pictures",
-                                                "a projector shows up to 1000 pictures a second"));
+    problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.frame-rate-out-of-range",
+                                                "a projector's frame rate is between 0 and 1000 pictures a second"));
   if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
     problems.push_back(
-        RELUCENT_MESSAGE("device.shortest-exposure-must-above-zero",
+        RELUCENT_MESSAGE("device.exposure-range-invalid",
                          "the shortest exposure must be above zero and no longer than the longest"));
 }
 
@@ -110,8 +110,8 @@ Problems problemsOf(const ScreenRigSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-screen-chosen", "no screen is chosen"));
   if (!settings.cameraAddress.empty()) checkAddress(found, settings.cameraAddress);  // may be chosen later
   if (!(settings.frameRate > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.screen-shows-some-pictures-second",
-                                             "a screen shows some pictures a second"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.screen-frame-rate-not-positive",
+                                             "a screen's frame rate must be above 0"));
   checkTimes(found, settings);
   return found;
 }
@@ -163,9 +163,9 @@ Problems problems(const ImportPicturesSettings& settings) {
   Problems found;
   if (settings.patterns.empty())
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-patterns-given", "no folder of patterns is given"));
+        RELUCENT_ENGLISH_MESSAGE("import.no-pattern-folder", "no folder of patterns is given"));
   if (settings.photographs.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-photographs-given",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.no-photograph-folder",
                                              "no folder of photographs is given"));
   append(found, problems(settings.import));
   return found;
@@ -174,9 +174,9 @@ Problems problems(const ImportPicturesSettings& settings) {
 Problems problems(const CompensateSettings& settings) {
   Problems found;
   if (settings.image.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-image-given", "no image is given"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-image", "no image is given"));
   if (settings.out.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
                                              "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
@@ -185,9 +185,9 @@ Problems problems(const CompensateSettings& settings) {
 Problems problems(const ProveSettings& settings) {
   Problems found;
   if (settings.image.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-image-given", "no image is given"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-image", "no image is given"));
   if (settings.out.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-folder-results-given",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
                                              "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
@@ -204,12 +204,12 @@ Problems problems(const ExportSettings& settings) {
   if (!settings.transport.empty() || !settings.leaves.empty() || !settings.inverse.empty() ||
       !settings.maps.empty())
     return {};
-  return {RELUCENT_ENGLISH_MESSAGE("calibration.nothing-to-export", "nothing to export is named")};
+  return {RELUCENT_ENGLISH_MESSAGE("calibration.nothing-to-export", "nothing was chosen to export")};
 }
 
 Problems problems(const RelightSettings& settings) {
   if (!settings.out.empty()) return {};
-  return {RELUCENT_ENGLISH_MESSAGE("calibration.no-file-result-given", "no file for the result is given")};
+  return {RELUCENT_ENGLISH_MESSAGE("settings.no-output-file", "no file for the result is given")};
 }
 
 }  // namespace relucent::pipeline

@@ -64,10 +64,10 @@ using Sorted = nlohmann::json;
 
 [[noreturn]] void failForeign(const std::exception& cause) {
   throw Error(ErrorKind::format,
-              RELUCENT_ENGLISH_MESSAGE("calibration.manifest-settings-cannot-read",
+              RELUCENT_ENGLISH_MESSAGE("calibration.settings-unreadable",
                                        "the manifest's settings cannot be read ({})")
                   .with(cause.what()),
-              RELUCENT_ENGLISH_MESSAGE("calibration.restore-calibration-relucent-copy-calibrate",
+              RELUCENT_ENGLISH_MESSAGE("calibration.restore-manifest-or-recalibrate",
                                        "restore calibration.relucent from a copy, or calibrate again"));
 }
 

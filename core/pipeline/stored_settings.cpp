@@ -58,16 +58,16 @@ void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSetti
 void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
   if (folder.latest(calibration::Stage::linearization))
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.response-devices-been-measured-already",
+                RELUCENT_ENGLISH_MESSAGE("calibration.response-already-measured",
                                          "the response of these devices has been measured already"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.begin-new-venue-other-devices",
+                RELUCENT_ENGLISH_MESSAGE("calibration.begin-venue-for-devices",
                                          "begin a new venue for other devices"),
                 folder.path().string());
   CalibrateSettings settings = settingsOf(folder);
   settings.rig = rig;
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-try-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry",
                                          "change that setting and try again"));
   if (calibration::Json asked = folder.settings(); asked.contains(movedScreen)) {
     asked.erase(movedScreen);
@@ -82,13 +82,13 @@ void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSetting
   if (before == nullptr)
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.projector-calibration-not-screen-desktop",
+        RELUCENT_ENGLISH_MESSAGE("calibration.projector-not-screen",
                                  "the projector of this calibration is not a screen of the desktop"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.begin-new-venue-screen", "begin a new venue for a screen"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.begin-venue-for-screen", "begin a new venue for a screen"),
         folder.path().string());
   if (before->projector != screen.projector)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.screen-pixels-measured-projector",
+                RELUCENT_ENGLISH_MESSAGE("calibration.screen-size-differs",
                                          "this screen has {} pixels and the measured projector {}")
                     .with(as::size(screen.projector), as::size(before->projector)),
                 RELUCENT_ENGLISH_MESSAGE("calibration.choose-screen-same-resolution",

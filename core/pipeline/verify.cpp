@@ -33,7 +33,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
                       Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("calibration.change-setting-start-again",
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
                                          "change that setting and start again"));
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
@@ -43,8 +43,8 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
   if (!linearized || !acquired)
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.calibration-not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.finish-first-relucent-cli-resume",
+        RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first",
                                  "finish it first: relucent-cli resume {}")
             .with(path.string()),
         path.string());

@@ -29,18 +29,18 @@ void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
   const image::Image& image = frame.signal;
   if (image.size() != size)
     throw Error(ErrorKind::input,
-                RELUCENT_MESSAGE("device.photograph-pixels-announced",
+                RELUCENT_MESSAGE("device.photograph-size-unexpected",
                                  "the photograph has {} pixels where {} were announced")
                     .with(as::size(image.width(), image.height()), as::size(size)),
                 RELUCENT_ENGLISH_MESSAGE(
-                    "device.set-camera-size-start-again",
+                    "device.set-announced-size",
                     "set the camera to that size, or start again with the size that it delivers"),
                 camera);
   if (image.channels() != 3)
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("device.photograph-channels", "the photograph has {} channels")
+                RELUCENT_ENGLISH_MESSAGE("device.photograph-not-rgb", "the photograph has {} channels")
                     .with(image.channels()),
-                RELUCENT_ENGLISH_MESSAGE("device.set-camera-colour-pictures-red",
+                RELUCENT_ENGLISH_MESSAGE("device.set-camera-to-colour",
                                          "set the camera to colour pictures (red, green, blue)"),
                 camera);
   auto notFinite = std::find_if(image.data().begin(), image.data().end(),
@@ -49,9 +49,9 @@ void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
     Pixel place = pixelAt(size, static_cast<std::size_t>(notFinite - image.data().begin()) / 3);
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("device.photograph-holds-pixel", "the photograph holds {} at pixel {}, {}")
+        RELUCENT_ENGLISH_MESSAGE("device.photograph-not-finite", "the photograph holds {} at pixel {}, {}")
             .with(*notFinite, as::label(place.x), place.y),
-        RELUCENT_ENGLISH_MESSAGE("device.check-program-writes-every-value",
+        RELUCENT_ENGLISH_MESSAGE("device.check-writing-program",
                                  "check the program that writes it: every value must be a finite number"),
         camera);
   }

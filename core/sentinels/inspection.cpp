@@ -40,7 +40,7 @@ Sum sumOf(const Stack& values, const CameraStack& variance, const photography::R
 
 Alarm alarm(AlarmKind kind, Message what, Message advice) {
   return {kind, std::move(what),
-          RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe"),
+          RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the previous check is safe"),
           std::move(advice)};
 }
 
@@ -54,7 +54,7 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
     return alarm(
         AlarmKind::projectorAsleep,
         RELUCENT_MESSAGE("alarm.projector-shows-nothing",
-                         "the projector shows nothing, the room's own light is still seen"),
+                         "the projector shows nothing, though the room's own light is still seen"),
         RELUCENT_MESSAGE("alarm.wake-projector",
                          "wake the projector, switch off its and the screen's power saving, then retry"));
   return alarm(
@@ -85,7 +85,7 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
                    ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
                    : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
                RELUCENT_MESSAGE("alarm.restore-room-light",
-                                "switch it back, keep doors and curtains closed, then retry"));
+                                "restore the light of the room, keep doors and curtains closed, then retry"));
 }
 
 /// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
@@ -144,7 +144,7 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
     if (local)
       return alarm(
           AlarmKind::localChange,
-          RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different than before")
+          RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different from before")
               .with(as::share(static_cast<double>(views.changed) / static_cast<double>(size.count()),
                               as::decimals(1)),
                     as::label(camera + 1)),

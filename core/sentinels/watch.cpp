@@ -46,7 +46,7 @@ Alarm flickerAlarm(double apart, const Message& safe) {
 constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-transport",
                                                       "every photograph before the light transport is safe");
 constexpr auto safeBeforeCheck =
-    RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the check before is safe");
+    RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the previous check is safe");
 
 /// The mean of two estimates of the same, weighted by their variances.
 void join(hdr::BlackLevel& into, const hdr::BlackLevel& other) {

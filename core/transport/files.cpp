@@ -65,12 +65,12 @@ Rasters readSizes(const NpzReader& reader, const std::string& name) {
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
     constexpr std::int64_t largest = 1 << 16;
     if (values[i] < 1 || values[i + 1] < 1 || values[i] > largest || values[i + 1] > largest)
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.names-device-impossible-size",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.device-size-impossible",
                                            "names a device of an impossible size"));
     sizes.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1])});
   }
   if (sizes.empty() || values.size() % 2 != 0)
-    reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.names-no-devices", "names no devices"));
+    reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.no-devices", "names no devices"));
   return Rasters(std::move(sizes));
 }
 
@@ -106,7 +106,7 @@ class TransportFile {
 
   static BlockSparse read(const NpzReader& reader) {
     if (reader.text("format") != "bsr")
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.holds-matrix-another-form-than",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.not-bsr",
                                            "holds a matrix in another form than BSR"));
     BlockSparse blocks;
     readShape(reader, blocks);
@@ -126,7 +126,7 @@ class TransportFile {
                                            "has a shape that is not of 3x3 blocks"));
     blocks.columns_ = static_cast<std::size_t>(shape[1] / 3);
     if (reader.header("indptr").count() != static_cast<std::uint64_t>(shape[0] / 3) + 1)
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-rows-indptr-than",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.indptr-count-differs",
                                            "has another number of rows in 'indptr' than in 'shape'"));
   }
 
@@ -136,7 +136,7 @@ class TransportFile {
     bool ordered = start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
                    std::is_sorted(start.begin(), start.end());
     if (!ordered)
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.rows-indptr-not-fit-entries",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.indptr-invalid",
                                            "has rows in 'indptr' that do not fit its entries"));
     blocks.rowStart_.assign(start.begin(), start.end());
 
@@ -144,7 +144,7 @@ class TransportFile {
     bool wide = header.type == "<i8";
     if (!wide && header.type != "<i4")
       reader.fail(
-          RELUCENT_ENGLISH_MESSAGE("transport.indices-no-integers", "has indices that are no integers"));
+          RELUCENT_ENGLISH_MESSAGE("transport.indices-not-integers", "has indices that are not integers"));
     RowCursor cursor;
     reader.read("indices", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       if (begin == 0) blocks.column_.reserve(count);
@@ -160,7 +160,7 @@ class TransportFile {
         std::size_t row = cursor.rowOf(begin + i, [&](std::size_t r) { return blocks.rowStart_[r]; });
         if (begin + i > blocks.rowStart_[row] && column <= static_cast<std::int64_t>(blocks.column_.back()))
           reader.fail(RELUCENT_ENGLISH_MESSAGE(
-              "transport.indices-not-ascend-sum-duplicates",
+              "transport.indices-not-ascending",
               "has indices that do not ascend (sum_duplicates() and sort_indices() in SciPy mend that)"));
         blocks.column_.push_back(static_cast<std::uint32_t>(column));
       }
@@ -171,12 +171,12 @@ class TransportFile {
     if (reader.has("scale")) {
       blocks.scale_ = reader.floats("scale");
       if (blocks.scale_.size() != blocks.rows())
-        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-rows-cale-than",
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-count-differs",
                                              "has another number of rows in 'scale' than in 'shape'"));
       for (float scale : blocks.scale_)
         if (!(scale >= 0.0f) || !std::isfinite(scale))
-          reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-no-finite-number",
-                                               "has a scale that is no finite number"));
+          reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-not-finite",
+                                               "has a scale that is not a finite number"));
       return;
     }
     blocks.scale_.assign(blocks.rows(), 0.0f);
@@ -198,7 +198,7 @@ class TransportFile {
         largest = std::max(largest, std::abs(steps[k]));
       }
       if (!(largest < largestCode + 0.5f))
-        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-data-not-fit-their",
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-exceed-scale",
                                              "has values in 'data' that do not fit their row's scale"));
       // To the nearest, in a form that compilers have instructions for.
       for (std::size_t k = 0; k < steps.size(); ++k)
@@ -215,10 +215,10 @@ class TransportFile {
                         const Take& take) {
     NpyHeader header = reader.header("data");
     if (header.type != "<f4" && header.type != "<f8")
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-no-floating-point-numbers",
-                                           "has values that are no floating point numbers"));
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-not-float",
+                                           "has values that are not floating-point numbers"));
     if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.another-number-3x3-blocks-data",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.block-count-differs",
                                            "has another number of 3x3 blocks in 'data' than in 'indices'"));
     bool wide = header.type == "<f8";
     reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
@@ -247,8 +247,8 @@ class TransportFile {
     float nothing = 0.0f;
     for (float value : values) nothing += 0.0f * value;  // NaN where one is not finite
     if (nothing != 0.0f)
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.value-data-no-finite-number",
-                                           "has a value in 'data' that is no finite number"));
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-not-finite",
+                                           "has a value in 'data' that is not a finite number"));
     return values;
   }
 };
@@ -264,9 +264,9 @@ auto withinMemory(const std::filesystem::path& path, const Load& load) {
   } catch (const std::length_error&) {
   }
   throw Error(ErrorKind::memory,
-              RELUCENT_ENGLISH_MESSAGE("transport.file-needs-more-memory-than",
+              RELUCENT_ENGLISH_MESSAGE("transport.not-enough-memory",
                                        "the file needs more memory than there is"),
-              RELUCENT_MESSAGE("device.close-other-programs-try-again", "close other programs and try again"),
+              RELUCENT_MESSAGE("device.close-other-programs", "close other programs and try again"),
               path.string());
 }
 
@@ -296,7 +296,7 @@ TransportMatrix loadTransport(const std::filesystem::path& path) {
     Rasters cameras = readSizes(reader, "cameras"), projectors = readSizes(reader, "projectors");
     BlockSparse leaves = TransportFile::read(reader);
     if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shape-not-fit-cameras-projectors",
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shape-not-of-devices",
                                            "has a shape that does not fit its cameras and projectors"));
     return TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves));
   });

@@ -58,7 +58,7 @@ NpzReader::NpzReader(const std::filesystem::path& path) : path_(path), archive_(
     throw Error(ErrorKind::disk,
                 RELUCENT_ENGLISH_MESSAGE("transport.cannot-read-file", "cannot read the file"),
                 RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), path.string());
-  fail(RELUCENT_ENGLISH_MESSAGE("transport.not-numpy-archive-only-part",
+  fail(RELUCENT_ENGLISH_MESSAGE("transport.not-numpy-archive",
                                 "is not a NumPy archive, or only a part of one"));
 }
 
@@ -68,7 +68,7 @@ NpzReader::~NpzReader() {
 
 void NpzReader::fail(const Message& what) const {
   throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("transport.wrong-file", "the file {}").with(what),
-              RELUCENT_ENGLISH_MESSAGE("transport.save-again-take-another-copy",
+              RELUCENT_ENGLISH_MESSAGE("transport.save-or-copy-again",
                                        "save it again or take another copy"),
               path_.string());
 }
@@ -81,11 +81,11 @@ NpyHeader NpzReader::headerOf(Member& member, const std::string& name) const {
   auto dictionary =
       readNpyDictionary([&](char* out, std::uint64_t bytes) { return member.read(out, bytes); });
   if (!dictionary)
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-cannot-read", "has an array '{}' that cannot be read")
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-unreadable", "has an array '{}' that cannot be read")
              .with(name));
   auto header = parseNpyDictionary(*dictionary);
   if (!header)
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-kind-not-expected",
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-kind-unexpected",
                                   "has an array '{}' of a kind that is not expected")
              .with(name));
   return *header;
@@ -143,7 +143,7 @@ std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {
   NpyHeader kind = header(name);
   bool wide = kind.type == "<i8";
   if (!wide && kind.type != "<i4")
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-type-instead-integers",
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-integers",
                                   "has an array '{}' of type {} instead of integers")
              .with(name, kind.type));
   std::vector<std::int64_t> values;
@@ -163,7 +163,7 @@ std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {
 std::vector<float> NpzReader::floats(const std::string& name) const {
   NpyHeader kind = header(name);
   if (kind.type != "<f4")
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-type-instead-f4",
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-float",
                                   "has an array '{}' of type {} instead of <f4")
              .with(name, kind.type));
   std::vector<float> values;
@@ -177,7 +177,7 @@ std::vector<float> NpzReader::floats(const std::string& name) const {
 std::string NpzReader::text(const std::string& name) const {
   NpyHeader kind = header(name);
   if (!kind.type.starts_with("|S") || kind.count() != 1)
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-no-text", "has an array '{}' that is no text").with(name));
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-text", "has an array '{}' that is not text").with(name));
   std::string text;
   read(name, [&](std::uint64_t, std::uint64_t, const char* items) { text.assign(items, kind.itemBytes()); });
   return text;

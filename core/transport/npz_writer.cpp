@@ -125,7 +125,7 @@ void NpzWriter::save(const std::filesystem::path& path) {
   writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
     auto failed = [&](const char* reason) {
       return Error(ErrorKind::disk, RELUCENT_MESSAGE("disk.cannot-write", "cannot write ({})").with(reason),
-                   RELUCENT_ENGLISH_MESSAGE("transport.check-disk-room-you-may",
+                   RELUCENT_ENGLISH_MESSAGE("disk.check-space-and-permission",
                                             "check that the disk has room and that you may write there"),
                    path.string());
     };

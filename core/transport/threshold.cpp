@@ -66,14 +66,14 @@ void requireValid(const ThresholdSettings& settings) {
 std::vector<Message> problems(const ThresholdSettings& settings) {
   std::vector<Message> found;
   if (!(settings.absolute >= 0.0f))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.threshold-must-not-negative",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.threshold-negative",
                                              "the threshold must not be negative"));
   if (!(settings.shareOfRowMax >= 0.0f && settings.shareOfRowMax <= 1.0f))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("transport.share-row-strongest-connection-must",
+        RELUCENT_ENGLISH_MESSAGE("transport.row-share-out-of-range",
                                  "the share of a row's strongest connection must lie between 0 and 1"));
   if (!(settings.energyKept >= 0.0 && settings.energyKept <= 1.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.share-energy-keep-must-lie",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.kept-energy-out-of-range",
                                              "the share of the energy to keep must lie between 0 and 1"));
   return found;
 }

@@ -35,7 +35,7 @@ Element* newBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, s
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), count);
   if (!buffer)
     throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("venue.not-enough-memory-simulated-venue",
+                RELUCENT_ENGLISH_MESSAGE("venue.not-enough-memory",
                                          "not enough memory for the simulated venue"),
                 RELUCENT_ENGLISH_MESSAGE("venue.close-other-programs", "close other programs"));
   return static_cast<Element*>(buffer);

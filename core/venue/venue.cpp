@@ -26,14 +26,14 @@ void checkSize(const char* device, Size size, std::vector<Message>& found) {
   auto impossible = [](int side) { return side < smallestSide || side > largestSide; };
   if (impossible(size.width) || impossible(size.height))
     found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("venue.simulated-pixels-not-possible-each",
+        RELUCENT_ENGLISH_MESSAGE("venue.device-size-out-of-range",
                                  "a simulated {} of {} pixels is not possible: each side must be {} to {}")
             .with(device, as::size(size), smallestSide, largestSide));
 }
 
 void checkRange(const char* name, double value, double low, double high, std::vector<Message>& found) {
   if (!(value >= low && value <= high))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.not-between", "{} is {}, not between {} and {}")
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.setting-out-of-range", "{} is {}, not between {} and {}")
                         .with(name, value, low, high));
 }
 
@@ -77,7 +77,7 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
   if (!found.empty())
     throw Error(
         ErrorKind::input, found.front(),
-        RELUCENT_ENGLISH_MESSAGE("venue.change-setting-try-again", "change the setting, then try again"),
+        RELUCENT_ENGLISH_MESSAGE("venue.change-setting", "change the setting, then try again"),
         "simulated venue");
   Scene scene = buildScene(settings);
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
@@ -94,7 +94,7 @@ std::vector<Message> problems(const VenueSettings& settings) {
   if (std::none_of(venues().begin(), venues().end(), named)) {
     std::string names;
     for (const VenueDescription& venue : venues()) names += (names.empty() ? "" : ", ") + venue.name;
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.there-no-simulated-venue-there",
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.unknown",
                                              "there is no simulated venue \"{}\"; there are {}")
                         .with(settings.name, names));
   }

@@ -110,9 +110,9 @@ QImage readContent(const QString& file) {
   if (image.isNull())
     throw Error(
         ErrorKind::format,
-        RELUCENT_ENGLISH_MESSAGE("content.not-picture-can-read", "not a picture that can be read ({})")
+        RELUCENT_ENGLISH_MESSAGE("content.picture-unreadable", "not a picture that can be read ({})")
             .with(reader.errorString().toStdString()),
-        RELUCENT_ENGLISH_MESSAGE("content.choose-png-jpeg-tiff-exr",
+        RELUCENT_ENGLISH_MESSAGE("content.choose-supported-picture",
                                  "choose a PNG, JPEG, TIFF or EXR picture"),
         file.toStdString());
   return encodedFrom(image);

@@ -19,17 +19,17 @@ double checkedRate(double rate) {
   if (rate > 0.0 && rate <= 240.0) return rate;
   throw Error(
       ErrorKind::input,
-      RELUCENT_ENGLISH_MESSAGE("content.pictures-second-cannot-played",
+      RELUCENT_ENGLISH_MESSAGE("content.frame-rate-out-of-range",
                                "{} pictures a second cannot be played")
           .with(rate),
-      RELUCENT_ENGLISH_MESSAGE("content.choose-rate-above-0-most", "choose a rate above 0 and at most 240"));
+      RELUCENT_ENGLISH_MESSAGE("content.choose-rate-in-range", "choose a rate above 0 and at most 240"));
 }
 
 const QStringList& checkedFiles(const QStringList& files) {
   if (!files.isEmpty()) return files;
   throw Error(ErrorKind::input,
-              RELUCENT_ENGLISH_MESSAGE("content.sequence-no-pictures", "the sequence has no pictures"),
-              RELUCENT_ENGLISH_MESSAGE("content.choose-folder-png-jpeg-tiff",
+              RELUCENT_ENGLISH_MESSAGE("content.sequence-empty", "the sequence has no pictures"),
+              RELUCENT_ENGLISH_MESSAGE("content.choose-picture-folder",
                                        "choose a folder with PNG, JPEG, TIFF or EXR files"));
 }
 
@@ -65,8 +65,8 @@ QStringList picturesIn(const QString& folder) {
       {"*.png", "*.jpg", "*.jpeg", "*.tif", "*.tiff", "*.exr", "*.bmp", "*.webp"}, QDir::Files);
   if (names.isEmpty())
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("content.no-pictures-folder", "no pictures in this folder"),
-                RELUCENT_ENGLISH_MESSAGE("content.choose-folder-png-jpeg-tiff",
+                RELUCENT_ENGLISH_MESSAGE("content.no-pictures", "no pictures in this folder"),
+                RELUCENT_ENGLISH_MESSAGE("content.choose-picture-folder",
                                          "choose a folder with PNG, JPEG, TIFF or EXR files"),
                 folder.toStdString());
   QCollator byNumber(QLocale(QLocale::English));

@@ -17,9 +17,9 @@ class LiveScreen::Grabber {
   Grabber(What what, QString which) : which_(std::move(which)) {
     if (!desktop_.isConnected())
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("content.live-picture-screen-needs-x",
+                  RELUCENT_MESSAGE("content.no-x-server",
                                    "the live picture of a screen needs an X server, and none answers"),
-                  RELUCENT_MESSAGE("content.log-desktop-x-xorg-log",
+                  RELUCENT_MESSAGE("content.log-in-to-xorg",
                                    "log in to a desktop on X (\"Xorg\" at the log-in), or play files"));
     what == What::screen ? findScreen() : findWindow();
   }
@@ -34,7 +34,7 @@ class LiveScreen::Grabber {
       if (!screen.place.isEmpty()) names.append(screen.name);
     }
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("content.there-no-screen", "there is no screen '{}'")
+                RELUCENT_ENGLISH_MESSAGE("content.unknown-screen", "there is no screen '{}'")
                     .with(which_.toStdString()),
                 RELUCENT_ENGLISH_MESSAGE("content.choose-one", "choose one of {}")
                     .with(names.join(", ").toStdString()));
@@ -52,11 +52,11 @@ class LiveScreen::Grabber {
       titles.append(title);
     }
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("content.there-no-window", "there is no window '{}'")
+                RELUCENT_ENGLISH_MESSAGE("content.unknown-window", "there is no window '{}'")
                     .with(which_.toStdString()),
                 titles.isEmpty()
                     ? RELUCENT_ENGLISH_MESSAGE("content.open-first", "open it first")
-                    : RELUCENT_ENGLISH_MESSAGE("content.open-first-there", "open it first; there are: {}")
+                    : RELUCENT_ENGLISH_MESSAGE("content.open-first-or-choose", "open it first; there are: {}")
                           .with(titles.join(", ").toStdString()));
   }
 

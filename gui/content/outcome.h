@@ -28,8 +28,8 @@ auto startedInBackground(Work work) {
     } catch (const std::bad_alloc&) {
       return Error(
           ErrorKind::memory,
-          RELUCENT_ENGLISH_MESSAGE("content.not-enough-memory-open", "not enough memory to open this"),
-          RELUCENT_ENGLISH_MESSAGE("content.close-other-programs-play-smaller",
+          RELUCENT_ENGLISH_MESSAGE("content.not-enough-memory", "not enough memory to open this"),
+          RELUCENT_ENGLISH_MESSAGE("content.free-memory-or-shrink-pictures",
                                    "close other programs or play smaller pictures"));
     }
   });

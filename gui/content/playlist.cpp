@@ -27,7 +27,7 @@ std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canv
   QStringList known;
   for (TestChart chart : allTestCharts) known.append(testChartName(chart));
   throw Error(ErrorKind::input,
-              RELUCENT_ENGLISH_MESSAGE("content.there-no-test-chart", "there is no test chart '{}'")
+              RELUCENT_ENGLISH_MESSAGE("content.unknown-test-chart", "there is no test chart '{}'")
                   .with(name.toStdString()),
               RELUCENT_ENGLISH_MESSAGE("content.choose-one", "choose one of {}")
                   .with(known.join(", ").toStdString()));

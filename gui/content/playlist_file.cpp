@@ -22,7 +22,7 @@ bool isFile(const QString& path) {
 
 [[noreturn]] void refuse(const QString& file, const Message& what) {
   throw Error(ErrorKind::format, what,
-              RELUCENT_ENGLISH_MESSAGE("content.open-program-wrote-make-new",
+              RELUCENT_ENGLISH_MESSAGE("content.open-with-its-program",
                                        "open it with the program that wrote it, or make a new playlist"),
               file.toStdString());
 }
@@ -42,7 +42,7 @@ std::vector<Message> problems(const PlaylistSettings& settings) {
           RELUCENT_ENGLISH_MESSAGE("content.item-without-file", "an item of the playlist names no file"));
     if (!(item.seconds > 0.0 && item.seconds <= 86400.0))
       found.push_back(RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
-                                               "{}: a picture stands more than 0 seconds and at most a day")
+                                               "{}: a picture is shown for more than 0 seconds and at most a day")
                           .with(item.path.toStdString()));
     if (!(item.picturesPerSecond > 0.0 && item.picturesPerSecond <= 240.0))
       found.push_back(RELUCENT_ENGLISH_MESSAGE("content.film-too-fast",
@@ -58,8 +58,8 @@ PlaylistSettings readPlaylist(const QString& file) {
   QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(text), &error);
   if (!document.isObject() || !document.object()["items"].isArray())
     refuse(file, error.error == QJsonParseError::NoError
-                     ? RELUCENT_ENGLISH_MESSAGE("content.no-playlist", "this is no playlist")
-                     : RELUCENT_ENGLISH_MESSAGE("content.no-playlist-because", "this is no playlist ({})")
+                     ? RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist", "this is not a playlist")
+                     : RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist-because", "this is not a playlist ({})")
                            .with(error.errorString().toStdString()));
   QJsonObject object = document.object();
   if (int written = object["version"].toInt(version); written > version)

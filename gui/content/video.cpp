@@ -35,9 +35,9 @@ Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
   if (!playback_->frames.waitForFirst(patience))
     throw Error(
         ErrorKind::format,
-        RELUCENT_ENGLISH_MESSAGE("content.no-film-can-played", "no film that can be played ({})")
+        RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
             .with(playback_->frames.failure().toStdString()),
-        RELUCENT_ENGLISH_MESSAGE("content.convert-h-264-mp4-file", "convert it to H.264 in an MP4 file"),
+        RELUCENT_ENGLISH_MESSAGE("content.convert-to-mp4", "convert it to H.264 in an MP4 file"),
         file.toStdString());
   playback_->follower.with([this](VideoFollower& follower) { length_ = follower.length(); });
   show(playback_->frames.newest());  // what cannot be shown is refused now

@@ -18,9 +18,9 @@ class Mapped {
   explicit Mapped(const QVideoFrame& frame) : frame_(frame) {
     if (!frame_.map(QVideoFrame::ReadOnly))
       throw Error(ErrorKind::format,
-                  RELUCENT_ENGLISH_MESSAGE("content.frame-video-cannot-reached",
-                                           "a frame of the video cannot be reached"),
-                  RELUCENT_ENGLISH_MESSAGE("content.set-qt-media-backend-ffmpeg",
+                  RELUCENT_ENGLISH_MESSAGE("content.video-frame-inaccessible",
+                                           "a frame of the video cannot be accessed"),
+                  RELUCENT_ENGLISH_MESSAGE("content.use-ffmpeg-backend",
                                            "set QT_MEDIA_BACKEND=ffmpeg and start again"));
   }
   ~Mapped() { frame_.unmap(); }
@@ -79,10 +79,10 @@ QImage upright(const QImage& picture, const QVideoFrame& frame) {
 
 [[noreturn]] void refuseRange(const char* what) {
   throw Error(ErrorKind::input,
-              RELUCENT_ENGLISH_MESSAGE("content.video-projectors-cannot-show",
+              RELUCENT_ENGLISH_MESSAGE("content.video-range-unsupported",
                                        "the video is {}, which projectors cannot show")
                   .with(what),
-              RELUCENT_ENGLISH_MESSAGE("content.convert-bt-709-standard-dynamic",
+              RELUCENT_ENGLISH_MESSAGE("content.convert-to-bt-709",
                                        "convert it to BT.709 of standard dynamic range"));
 }
 
@@ -128,10 +128,10 @@ QImage pictureOf(const QVideoFrame& frame, bool jpeg) {
     if (known == QImage::Format_Invalid)
       throw Error(
           ErrorKind::format,
-          RELUCENT_ENGLISH_MESSAGE("content.video-samples-unknown-kind",
+          RELUCENT_ENGLISH_MESSAGE("content.video-samples-unknown",
                                    "the video's samples are of an unknown kind ({})")
               .with(Format::pixelFormatToString(format.pixelFormat()).toStdString()),
-          RELUCENT_ENGLISH_MESSAGE("content.convert-h-264-4-2", "convert it to H.264 with 4:2:0 chroma"));
+          RELUCENT_ENGLISH_MESSAGE("content.convert-to-h-264", "convert it to H.264 with 4:2:0 chroma"));
     image::VideoSamples::Plane plane = mapped.plane(0);
     QImage there(static_cast<const uchar*>(plane.data), size.width(), size.height(),
                  static_cast<qsizetype>(plane.bytesPerLine), known);

@@ -26,8 +26,8 @@ int opened() {
   require(ends[0] < 0, "only one at a time");
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw Error(ErrorKind::device,
-                RELUCENT_ENGLISH_MESSAGE("program.system-gives-no-socket-hear",
-                                         "the system gives no socket to hear of its end"),
+                RELUCENT_ENGLISH_MESSAGE("program.no-termination-socket",
+                                         "the system provides no socket for its termination signals"),
                 RELUCENT_ENGLISH_MESSAGE("venue.close-other-programs", "close other programs"));
   return ends[1];
 }

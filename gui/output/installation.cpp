@@ -50,9 +50,9 @@ QString desktopWord(const QString& word) {
   for (QChar c : word) {
     if (c.unicode() < 0x20)
       throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("show.autostart-entry-cannot-name-files",
+                  RELUCENT_ENGLISH_MESSAGE("show.autostart-name-invalid",
                                            "an autostart entry cannot name files with control characters"),
-                  RELUCENT_ENGLISH_MESSAGE("show.rename-install-service-instead",
+                  RELUCENT_ENGLISH_MESSAGE("show.rename-or-install-service",
                                            "rename it, or install the service instead"),
                   word.toStdString());
     if (c == '\\')
@@ -77,7 +77,7 @@ void link(const QString& target, const QString& name) {
   if (!error) fs::rename(temporary, name.toStdString(), error);
   if (error)
     throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("show.service-cannot-switched", "the service cannot be switched on ({})")
+                RELUCENT_MESSAGE("show.cannot-enable-service", "the service cannot be switched on ({})")
                     .with(error.message()),
                 RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
                 name.toStdString());
@@ -88,7 +88,7 @@ bool removed(const QString& name) {
   bool there = fs::remove(name.toStdString(), error);
   if (error)
     throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("show.cannot-removed", "it cannot be removed ({})").with(error.message()),
+                RELUCENT_MESSAGE("show.cannot-remove-entry", "it cannot be removed ({})").with(error.message()),
                 RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
                 name.toStdString());
   return there;

@@ -29,8 +29,8 @@ ShowLog::ShowLog(const QString& folder) {
   } catch (const spdlog::spdlog_ex& error) {
     throw Error(
         ErrorKind::disk,
-        RELUCENT_MESSAGE("show.log-cannot-written", "the log cannot be written ({})").with(error.what()),
-        RELUCENT_MESSAGE("show.choose-another-folder-log", "choose another folder with --log"), file);
+        RELUCENT_MESSAGE("show.cannot-write-log", "the log cannot be written ({})").with(error.what()),
+        RELUCENT_MESSAGE("show.choose-another-log-folder", "choose another folder with --log"), file);
   }
   logger_->set_pattern("%Y-%m-%dT%H:%M:%S%z %l %v");
   // A log that stops at a power cut should hold what led to it.

@@ -32,9 +32,9 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
   if (!named.isEmpty() && static_cast<std::size_t>(named.size()) != projectors.size())
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("show.displays-named-projectors", "{} displays are named for {} projectors")
+        RELUCENT_ENGLISH_MESSAGE("show.display-count-differs", "{} displays are named for {} projectors")
             .with(named.size(), projectors.size()),
-        RELUCENT_ENGLISH_MESSAGE("show.name-one-each-there", "name one for each; there are: {}")
+        RELUCENT_ENGLISH_MESSAGE("show.name-display-per-projector", "name one for each; there are: {}")
             .with(describedDisplays().toStdString()));
 
   QList<QScreen*> screens = QGuiApplication::screens();
@@ -59,15 +59,15 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
           ErrorKind::input,
           projectors.size() == 1
               ? RELUCENT_ENGLISH_MESSAGE(
-                    "show.no-display-beside-operator-pixels",
+                    "show.no-display-of-size",
                     "no display beside the operator's has the {} pixels of the projector")
                     .with(as::size(projector.width(), projector.height()))
-              : RELUCENT_ENGLISH_MESSAGE("show.each-projectors-needs-display-own",
+              : RELUCENT_ENGLISH_MESSAGE("show.too-few-displays",
                                          "each of the {} projectors needs a display of its own beside the "
                                          "operator's, and there is none of {} pixels for projector {}")
                     .with(projectors.size(), as::size(projector.width(), projector.height()),
                           as::label(i + 1)),
-          RELUCENT_ENGLISH_MESSAGE("show.plug-set-size-name-screen",
+          RELUCENT_ENGLISH_MESSAGE("show.connect-screen",
                                    "plug it in, set it to that size, or name it with --screen; there are: {}")
               .with(describedDisplays().toStdString()));
     displays.push_back(identityOf(**found));

@@ -242,19 +242,18 @@ void WindowProjector::waitFor(Done done) {
     if (lasts(wrong, !shared_->wrongSize.isEmpty(), longestChange))
       throw Error(
           ErrorKind::device,
-          RELUCENT_MESSAGE("show.projector-screen-pixels-now-calibrated",
+          RELUCENT_MESSAGE("show.screen-size-changed",
                            "the projector's screen has {} pixels now and {} were calibrated")
               .with(as::size(shared_->wrongSize.width(), shared_->wrongSize.height()), as::size(size_)),
-          RELUCENT_MESSAGE("show.set-resolution-back-desktop-settings",
+          RELUCENT_MESSAGE("show.restore-resolution",
                            "set its resolution back in the desktop's settings, then try again"),
           name_);
     if (lasts(asleep, shared_->asleep, longestSleep * waking_.count()))
       throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("show.projector-screen-asleep-not-wake",
+                  RELUCENT_MESSAGE("show.screen-asleep",
                                    "the projector's screen is asleep and does not wake"),
-                  RELUCENT_MESSAGE("show.switch-saving-energy-screen-saver",
-                                   "switch its saving of energy and the screen saver off in the desktop's "
-                                   "settings, then try again"),
+                  RELUCENT_MESSAGE("show.switch-off-power-saving",
+                                   "switch off its power saving and the screen saver in the desktop's settings, then try again"),
                   name_);
     shared_->told.wait(&shared_->guard, patience);
   }

@@ -14,8 +14,8 @@ std::unique_ptr<rig::Camera> openCommand(const std::string& command, const Camer
   const std::vector<Message> found = problems(settings);
   if (!found.empty())
     throw Error(ErrorKind::usage, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("device.write-so-command-photograph-exposure",
-                                         "write it so: command:./photograph {exposure} {output}"));
+                RELUCENT_ENGLISH_MESSAGE("device.follow-command-example",
+                                         "write it like this: command:./photograph {exposure} {output}"));
   return std::make_unique<CommandCamera>(std::move(settings));
 }
 

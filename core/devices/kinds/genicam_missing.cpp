@@ -9,9 +9,9 @@ namespace {
 std::unique_ptr<rig::Camera> openGenicam(const std::string& place, const CameraWishes&) {
   throw Error(
       ErrorKind::device,
-      RELUCENT_MESSAGE("device.build-relucent-not-know-genicam",
+      RELUCENT_MESSAGE("device.built-without-genicam",
                        "this build of Relucent does not know GenICam cameras"),
-      RELUCENT_MESSAGE("device.install-aravis-libaravis-dev-build",
+      RELUCENT_MESSAGE("device.install-aravis",
                        "install Aravis (libaravis-dev) and build again, or use another kind of camera"),
       place);
 }

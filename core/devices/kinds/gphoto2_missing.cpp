@@ -9,10 +9,10 @@ namespace {
 std::unique_ptr<rig::Camera> openGphoto(const std::string& place, const CameraWishes&) {
   throw Error(
       ErrorKind::device,
-      RELUCENT_MESSAGE("device.build-relucent-not-know-dslr",
+      RELUCENT_MESSAGE("device.built-without-gphoto",
                        "this build of Relucent does not know DSLR and mirrorless cameras"),
       RELUCENT_MESSAGE(
-          "device.install-libgphoto2-libraw-libgphoto2-dev",
+          "device.install-libgphoto2",
           "install libgphoto2 and LibRaw (libgphoto2-dev, libraw-dev) and build again, or use a command"),
       place);
 }

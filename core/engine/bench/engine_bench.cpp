@@ -208,7 +208,7 @@ std::vector<Message> problems(const EngineBenchSettings& settings) {
   std::vector<Message> found;
   for (Size size : {settings.projector, settings.camera, settings.content})
     if (size.width < least || size.height < least)
-      found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.too-small-timed", "{} is too small to be timed")
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.size-too-small-to-time", "{} is too small to be timed")
                           .with(as::size(size)));
   return found;
 }
@@ -236,7 +236,7 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   Progress preparing = progress.part(0.5, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
   const compensation::MeasuredVenue venue = venueOf(settings);
   preparing.report(0.3);
-  Progress computing = preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Windows"));
+  Progress computing = preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
   const inverse::WindowInverse inverse =
       inverse::computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;

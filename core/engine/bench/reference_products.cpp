@@ -87,7 +87,7 @@ void benchReferences(const EngineVenue& engine, bool oneThread, const std::funct
   timeBoth(transportPlane(engine, 0), ReferenceProduct::both, "step");
   if (sciPyMissing)
     result.notes.emplace_back(RELUCENT_ENGLISH_MESSAGE(
-        "engine.scipy-not-timed-no-python3", "SciPy was not timed: no python3 of this machine has it"));
+        "engine.scipy-missing", "SciPy was not timed: no python3 of this machine has it"));
 }
 
 }  // namespace relucent::engine

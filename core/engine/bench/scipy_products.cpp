@@ -37,9 +37,9 @@ class Folder {
  private:
   [[noreturn]] static void fail() {
     throw Error(ErrorKind::disk,
-                RELUCENT_ENGLISH_MESSAGE("engine.operator-could-not-written-scipy",
+                RELUCENT_ENGLISH_MESSAGE("engine.cannot-write-operator",
                                          "an operator could not be written for SciPy"),
-                RELUCENT_ENGLISH_MESSAGE("engine.make-room-among-temporary-files",
+                RELUCENT_ENGLISH_MESSAGE("engine.free-temporary-space",
                                          "make room among the temporary files, or time without references"));
   }
   std::filesystem::path path_;

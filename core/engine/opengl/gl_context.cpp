@@ -30,7 +30,7 @@ GlContext::GlContext(Device wanted) {
   if (!platform::HeadlessGl::isInstalled())
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("engine.there-no-libegl-no-libopengl",
+        RELUCENT_MESSAGE("engine.no-libegl-or-libopengl",
                          "there is no libEGL or no libOpenGL, which open graphics cards without a display"),
         advice);
   std::string found;
@@ -40,9 +40,9 @@ GlContext::GlContext(Device wanted) {
     throw Error(
         ErrorKind::device,
         wanted == Device::graphics
-            ? RELUCENT_MESSAGE("engine.there-no-graphics-card-opengl",
+            ? RELUCENT_MESSAGE("engine.no-graphics-card",
                                "there is no graphics card with OpenGL 4.3 and compute shaders")
-            : RELUCENT_MESSAGE("engine.there-no-opengl-4-3", "there is no OpenGL 4.3 with compute shaders"),
+            : RELUCENT_MESSAGE("engine.no-opengl", "there is no OpenGL 4.3 with compute shaders"),
         advice, found.empty() ? "" : "found only" + found);
 }
 

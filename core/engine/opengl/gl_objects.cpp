@@ -32,8 +32,8 @@ std::string logOf(GLuint shader, bool program) {
 
 [[noreturn]] void refuse(const std::string& log) {
   throw Error(ErrorKind::device,
-              RELUCENT_ENGLISH_MESSAGE("engine.graphics-driver-not-compile-engine",
-                                       "the graphics driver does not compile the engine's programs"),
+              RELUCENT_ENGLISH_MESSAGE("engine.shaders-not-compiled",
+                                       "the graphics driver cannot compile the engine's programs"),
               advice, log);
 }
 
@@ -51,8 +51,8 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
     : bytes_(std::max<std::size_t>((bytes + 15) / 16 * 16, 16)) {
   if (!inParts && bytes_ > largest())
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("engine.graphics-card-reaches-mb-once",
-                                 "the graphics card reaches {} MB at once where {} MB are needed")
+                RELUCENT_MESSAGE("engine.graphics-buffer-too-large",
+                                 "the graphics card can hold {} MB in one piece, but {} MB are needed")
                     .with(as::megabytes(largest()), as::megabytes(bytes_)),
                 advice);
   while (glGetError() != GL_NO_ERROR) {
@@ -64,7 +64,7 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
     glDeleteBuffers(1, &name_);
     throw Error(
         ErrorKind::device,
-        RELUCENT_MESSAGE("engine.graphics-card-no-mb-memory", "the graphics card has no {} MB of memory left")
+        RELUCENT_MESSAGE("engine.graphics-memory-exhausted", "the graphics card has no {} MB of memory left")
             .with(as::megabytes(bytes_)),
         advice);
   }

@@ -167,7 +167,7 @@ OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContex
   GlContext::Current current(*context_);
   if (!current)
     throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("engine.graphics-card-cannot-used", "the graphics card cannot be used"),
+                RELUCENT_MESSAGE("engine.graphics-card-unusable", "the graphics card cannot be used"),
                 RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"),
                 context_->renderer());
   objects_ = std::make_unique<Objects>(engine);

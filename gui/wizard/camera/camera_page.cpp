@@ -227,7 +227,7 @@ void CameraPage::start() {
     rig::Rig& rig = work.devices->open(opening);
     if (work.devices->hasScreen()) {
       Progress checking = progress.part(
-          0.3, RELUCENT_MESSAGE("stage.checking-projector-camera", "Checking projector and camera"));
+          0.3, RELUCENT_MESSAGE("stage.checking-projector-and-camera", "Checking projector and camera"));
       pipeline::RigCheck check = work.devices->check(checking);
       QMutexLocker lock(&shared->guard);
       shared->check = std::move(check);

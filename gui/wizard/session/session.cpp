@@ -57,7 +57,7 @@ rig::Rig& SessionDevices::open(Progress& progress) {
 
 void SessionDevices::prove(Progress& progress) {
   Progress proving = progress.part(
-      0.7, RELUCENT_MESSAGE("stage.looking-projector-picture", "Looking for the projector's picture"));
+      0.7, RELUCENT_MESSAGE("stage.finding-projector-picture", "Looking for the projector's picture"));
   rig::Projector& projector = *opened_->rig.projectors.front();
   rig::Camera& camera = *opened_->rig.cameras.front();
   devices::LatencySettings settling;

@@ -192,11 +192,11 @@ class TestFaultyDevices : public QObject {
         "the photograph has 24x17 pixels as RGB12 where 24x18 as RGB12 were agreed");
     row("stale frame", Fault::staleOnly, "no photograph came within 2");
     row("unplugged", Fault::unplugged, "the camera has been gone for 30 s: the cable was pulled");
-    row("cut exposure", Fault::cutExposure, "the camera was asked to expose 0.125 s and keeps to 0.05 s");
+    row("cut exposure", Fault::cutExposure, "the camera was asked to expose 0.125 s but exposes 0.05 s");
     row("dead battery", Fault::flatBattery, "battery seems to be empty (8 % when it was last asked)");
     row("full card", Fault::fullCard, "its memory card is full; change or empty the memory card");
     row("vanishing screen", Fault::vanishingScreen,
-        "HDMI-1: the projector's screen loses its picture again and again");
+        "HDMI-1: the projector's screen keeps losing its picture");
   }
   /// What was measured before stays in the journal, and running it again with sound devices goes on from
   /// there.
@@ -237,7 +237,7 @@ class TestFaultyDevices : public QObject {
     QCOMPARE(rig.camera().exposures().longest, 0.1);
     QCOMPARE(rig.camera().traits().remarks.size(), std::size_t{1});
     QVERIFY(mentions(english(rig.camera().traits().remarks.front()),
-                     "claims exposures up to 4 s but keeps to 0.1 s"));
+                     "claims exposures up to 4 s but reaches only 0.1 s"));
     const auto expected = measurements_->run(modest, log);
     QVERIFY2(expected.measured, expected.said.c_str());
     QVERIFY(!isSame(expected, measurements_->sound(CameraKind::network)));

@@ -107,12 +107,12 @@ class TestCalibrationFolder : public QObject {
     QTest::addColumn<QByteArray>("says");
     auto format = static_cast<int>(ErrorKind::format);
     QTest::newRow("no manifest") << QByteArray() << static_cast<int>(ErrorKind::input)
-                                 << QByteArray("no calibration");
+                                 << QByteArray("not a calibration");
     QTest::newRow("text") << QByteArray("hello") << format << QByteArray("damaged");
     QTest::newRow("zeros") << QByteArray(64, '\0') << format << QByteArray("damaged");
     QTest::newRow("list") << QByteArray("[1]") << format << QByteArray("damaged");
     QTest::newRow("foreign") << QByteArray(R"({"format":"photo album"})") << format
-                             << QByteArray("no calibration");
+                             << QByteArray("not a calibration");
     QTest::newRow("newer") << QByteArray(R"({"format":"relucent calibration","version":2})") << format
                            << QByteArray("newer");
     QTest::newRow("no version") << QByteArray(R"({"format":"relucent calibration"})") << format

@@ -246,7 +246,7 @@ class TestArguments : public QObject {
         << QByteArray("calibrate d --projector-command a --camera-command b --projector 8x8 --drift 0.1")
         << QByteArray("--drift is for simulated venues only");
     QTest::newRow("unknown kind of camera") << QByteArray("calibrate d --camera usb:7")
-                                            << QByteArray("'usb:7' is no camera: write genicam:SERIAL");
+                                            << QByteArray("'usb:7' is not a camera: write genicam:SERIAL");
     QTest::newRow("camera alone") << QByteArray("calibrate d --camera genicam:7")
                                   << QByteArray("needs --projector-command and --projector");
     QTest::newRow("two cameras")

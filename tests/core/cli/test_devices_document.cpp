@@ -20,7 +20,7 @@ CameraList twoCameras() {
   good.traits.format = {SensorLayout::bayerRG, 12};
   good.traits.exposures = {0.0001, 2.0};
   good.traits.triggered = true;
-  good.traits.remarks = {Message::plain("claims exposures up to 10 s but keeps to 2 s")};
+  good.traits.remarks = {Message::plain("claims exposures up to 10 s but reaches only 2 s")};
   devices.cameras = {good,
                      {"v4l2:/dev/video0", Message::plain("Webcam"), false,
                       Message::plain("it is in use; close the other program")}};
@@ -41,7 +41,7 @@ class TestDevicesDocument : public QObject {
                 R"({"kind":"v4l2","available":false,"sentence":"not built in"}],)"
                 R"("cameras":[{"address":"genicam:7","model":"Maker Model","usable":true,"size":[1024,768],)"
                 R"("format":"BayerRG12","bits":12,"exposures":[0.0001,2.0],"gain":0.0,)"
-                R"("software_trigger":true,"remarks":["claims exposures up to 10 s but keeps to 2 s"]},)"
+                R"("software_trigger":true,"remarks":["claims exposures up to 10 s but reaches only 2 s"]},)"
                 R"({"address":"v4l2:/dev/video0","model":"Webcam","usable":false,)"
                 R"("problem":"it is in use; close the other program"}]})"));
   }
@@ -50,7 +50,7 @@ class TestDevicesDocument : public QObject {
     const std::string text = textOf(twoCameras());
     for (const char* part :
          {"genicam:7  Maker Model\n", "1024x768 pixels of 12 bits (BayerRG12)", "0.0001 s to 2 s",
-          "keeps to 2 s", "cannot be used: it is in use; close", "v4l2     no not built in"})
+          "reaches only 2 s", "cannot be used: it is in use; close", "v4l2     no not built in"})
       QVERIFY2(text.find(part) != std::string::npos, part);
   }
 

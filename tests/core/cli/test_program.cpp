@@ -63,7 +63,7 @@ class TestProgram : public QObject {
                        "--projector-command", "true",
                        "--camera-command",    "shoot {exposure} {output}",
                        "--projector",         "64x48"}
-        << 1 << QByteArray("does not say {image}");
+        << 1 << QByteArray("does not contain {image}");
   }
   void statusAndSentence() {
     QFETCH(QStringList, arguments);

@@ -210,10 +210,10 @@ class TestTarget : public QObject {
     QTest::newRow("larger than the view") << List{-5, -5, 60, -5, 60, 40, -5, 40} << "upper left corner";
     QTest::newRow("one outside") << List{2, 2, 30, 2, 30, 99, 2, 20} << "lower right corner";
     QTest::newRow("beside the view") << List{100, 2, 130, 2, 130, 20, 100, 20} << "upper left corner";
-    QTest::newRow("on a line") << List{2, 2, 10, 10, 20, 20, 30, 30} << "no convex";
-    QTest::newRow("a point") << List{5, 5, 5, 5, 5, 5, 5, 5} << "no convex";
-    QTest::newRow("crossed") << List{2, 2, 30, 20, 30, 2, 2, 20} << "no convex";
-    QTest::newRow("dented") << List{2, 2, 30, 2, 10, 6, 2, 20} << "no convex";
+    QTest::newRow("on a line") << List{2, 2, 10, 10, 20, 20, 30, 30} << "convex";
+    QTest::newRow("a point") << List{5, 5, 5, 5, 5, 5, 5, 5} << "convex";
+    QTest::newRow("crossed") << List{2, 2, 30, 20, 30, 2, 2, 20} << "convex";
+    QTest::newRow("dented") << List{2, 2, 30, 2, 10, 6, 2, 20} << "convex";
     QTest::newRow("the other way round") << List{2, 2, 2, 20, 30, 20, 30, 2} << "counter-clockwise";
     double nan = std::nan(""), infinite = HUGE_VAL;
     QTest::newRow("no number") << List{nan, 2, 30, 2, 30, 20, 2, 20} << "finite";

@@ -128,7 +128,7 @@ class TestCameraRegistry : public QObject {
           cameraRegistry().open({"command", "shoot"}, {});
         },
         ErrorKind::usage);
-    QVERIFY(mentions(command, "the camera's command does not say {exposure}"));
+    QVERIFY(mentions(command, "the camera's command does not contain {exposure}"));
   }
 
   void aCommandIsOpenedWithTheWishes() {

@@ -12,8 +12,8 @@ class TestCheckVerdict : public QObject {
   Q_OBJECT
 
  private slots:
-  /// Scripts and reports read them: they stay as they are.
-  void sentencesStayAsTheyAre_data() {
+  /// As people read them. Programs read the ids.
+  void sentences_data() {
     QTest::addColumn<CheckVerdict>("verdict");
     QTest::addColumn<QString>("text");
     auto row = [](const char* name, const CheckVerdict& verdict, const char* text) {
@@ -25,25 +25,25 @@ class TestCheckVerdict : public QObject {
         "The picture appears mirrored. If it is not meant to (rear projection, a mirror), switch that off in "
         "the projector's menu.");
     row("late", {.finding = Finding::picturesLate, .count = 1},
-        "Pictures come late, by 1 photograph: the latency has to be measured and waited for.");
+        "Pictures arrive 1 photograph late: measure the latency, so that it is waited for.");
     row("later", {.finding = Finding::picturesLate, .count = 2},
-        "Pictures come late, by 2 photographs: the latency has to be measured and waited for.");
+        "Pictures arrive 2 photographs late: measure the latency, so that it is waited for.");
     row("the other", {.finding = Finding::otherScreenSeen, .screen = "HDMI-1", .instead = "HDMI-2"},
         "The camera sees HDMI-2 and not HDMI-1.");
     row("none", {.finding = Finding::screenNotSeen, .screen = "HDMI-1"}, "The camera does not see HDMI-1.");
     row("a frame", {.finding = Finding::pictureOut, .count = 1, .seconds = 2.0 / 60.0},
-        "A picture is out 1 frame after it is sent: 33 ms are waited for.");
+        "A picture appears 1 frame after it is sent: 33 ms are waited for.");
     row("frames", {.finding = Finding::pictureOut, .count = 3, .seconds = 4.0 / 60.0},
-        "A picture is out 3 frames after it is sent: 67 ms are waited for.");
+        "A picture appears 3 frames after it is sent: 67 ms are waited for.");
     row("white", {.finding = Finding::whiteChanges, .share = 0.081, .frame = 1.0 / 60.0},
         "White changes by 8.1 % from photograph to photograph: expose whole frames of the projector, "
         "multiples of 16.67 ms, and switch its dynamic brightness off.");
     row("unsteady", {.finding = Finding::lightUnsteady, .share = 0.052},
         "The light changes by 5.2 % between exposures of whole frames: let the lamp warm up, and switch "
-        "dynamic brightness and lamps in the room off.");
+        "off dynamic brightness and the lamps in the room.");
     row("nothing brief", {Finding::noBriefExposure},
         "The camera cannot expose for a part of a frame, or sees too little then: flicker within a frame "
-        "cannot be told.");
+        "cannot be detected.");
     row("lamp", {.finding = Finding::lampFlickers, .share = 0.4, .seconds = 0.00208, .frame = 1.0 / 60.0},
         "The lamp flickers within a frame, by 40 % in 2.1 ms: expose whole frames, multiples of 16.67 ms.");
     row("colour wheel",
@@ -59,7 +59,7 @@ class TestCheckVerdict : public QObject {
     row("even", {Finding::lightEven},
         "The light is even: no flicker, colour wheel, bands or dithering is seen.");
   }
-  void sentencesStayAsTheyAre() {
+  void sentences() {
     QFETCH(CheckVerdict, verdict);
     QFETCH(QString, text);
     QCOMPARE(QString::fromStdString(english(messageOf(verdict))), text);

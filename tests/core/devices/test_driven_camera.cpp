@@ -273,17 +273,17 @@ class TestDrivenCamera : public QObject {
     QCOMPARE(venue.camera->exposures().longest, 0.05);
     QCOMPARE(venue.camera->traits().remarks.size(), std::size_t{2});
     QVERIFY(mentions(english(venue.camera->traits().remarks[0]),
-                     "claims exposures up to 5 s but keeps to 0.05 s"));
+                     "claims exposures up to 5 s but reaches only 0.05 s"));
     // Whoever asks for more all the same is told.
     const std::string sentence = sentenceOf([&] { venue.photograph(1.0); }, ErrorKind::device);
-    QVERIFY(mentions(sentence, "was asked to expose 1 s and keeps to 0.05 s"));
+    QVERIFY(mentions(sentence, "was asked to expose 1 s but exposes 0.05 s"));
     QCOMPARE(venue.photograph(0.05), 2);
   }
 
   void aCameraWithoutManualExposureIsRefused() {
     Venue venue;
     venue.script->kept = {0.04, 0.04};
-    QVERIFY(mentions(sentenceOf([&] { venue.open(); }, ErrorKind::device), "keeps to 0.04 s whatever"));
+    QVERIFY(mentions(sentenceOf([&] { venue.open(); }, ErrorKind::device), "exposes 0.04 s whatever"));
     venue.script->traits.exposures = {0.0, 0.0};
     QVERIFY(mentions(sentenceOf([&] { venue.open(); }, ErrorKind::device), "claims exposures of 0 to 0 s"));
   }

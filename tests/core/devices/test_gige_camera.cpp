@@ -168,14 +168,13 @@ class TestGigeCamera : public QObject {
     QCOMPARE(venue.camera->exposures().longest, 0.05);
     QCOMPARE(venue.camera->traits().remarks.size(), std::size_t{1});
     QVERIFY(mentions(english(venue.camera->traits().remarks[0]),
-                     "claims exposures up to 10 s but keeps to 0.05 s"));
+                     "claims exposures up to 10 s but reaches only 0.05 s"));
     const std::string sentence = sentenceOf(
         [&] {
           venue.camera->capture({{"test", 1}, 0, 0.5});
         },
         ErrorKind::device);
-    QVERIFY(
-        mentions(sentence, "genicam:127.0.0.1: the camera was asked to expose 0.5 s and keeps to 0.05 s"));
+    QVERIFY(mentions(sentence, "genicam:127.0.0.1: the camera was asked to expose 0.5 s but exposes 0.05 s"));
   }
 
   void whatTheCameraCannotIsRefused_data() {
@@ -187,7 +186,7 @@ class TestGigeCamera : public QObject {
     QTest::newRow("size") << "Mono8" << Size{5000, 24} << 0.0
                           << "5000x24 pixels are wanted and the camera has 2048x2048";
     QTest::newRow("gain") << "Mono8" << photograph << 99.0
-                          << "a gain of 99 is wanted; the camera can do 0 to 10";
+                          << "a gain of 99 is wanted; choose a gain from 0 to 10";
   }
   void whatTheCameraCannotIsRefused() {
     QFETCH(QString, format);

@@ -171,15 +171,16 @@ class TestGphotoCamera : public QObject {
     QTest::addColumn<QString>("part");
     QTest::newRow("dial")
         << "dial"
-        << "mode dial stands on AV, where the camera chooses exposures itself; turn it to M";
+        << "mode dial is set to AV, where the camera chooses exposures itself; turn it to M";
     QTest::newRow("no raw") << "no raw"
                             << "does not deliver raw files; switch its picture quality to RAW";
     QTest::newRow("raw refused") << "raw refused"
                                  << "does not deliver raw files";
     QTest::newRow("automatic ISO") << "automatic ISO"
                                    << "(automatic ISO); set it to ISO 100 by hand";
-    QTest::newRow("other ISO") << "other ISO"
-                               << "ISO 125 is wanted and the camera does not have it; it has Auto, 50";
+    QTest::newRow("other ISO")
+        << "other ISO"
+        << "ISO 125 is wanted and the camera does not have it; choose one of those that it has: Auto, 50";
     QTest::newRow("no shutter") << "no shutter"
                                 << "exposure time cannot be set; turn its mode dial to M";
     QTest::newRow("fixed shutter") << "fixed shutter"
@@ -193,13 +194,13 @@ class TestGphotoCamera : public QObject {
                                       "gphoto2:usb:001,005 or gphoto2:usb:001,006";
     QTest::newRow("another")
         << "another"
-        << "no camera of this name is plugged in, but Nikon D750; name that one: gphoto2:Nikon";
+        << "no camera of this name is plugged in, but Nikon D750 is; name that one: gphoto2:Nikon";
     QTest::newRow("none") << "none"
                           << "unplugged or switched off, or has fallen asleep; check its cable";
     QTest::newRow("desktop")
         << "desktop"
-        << "another program holds the camera, mostly the desktop, which mounts it like a memory "
-           "stick; let the desktop go of it with `gio mount -s gphoto2`";
+        << "another program is using the camera, usually the desktop, which mounts it like a memory "
+           "stick; make the desktop release it with `gio mount -s gphoto2`";
     QTest::newRow("asleep") << "asleep"
                             << "may be asleep; press its shutter button half way";
     QTest::newRow("full") << "full"
@@ -321,7 +322,7 @@ class TestGphotoCamera : public QObject {
     row("only a JPEG", Answer::jpeg, "and no raw file");
     row("damaged", Answer::damaged, "the raw file cannot be read (cut short) (take it again)");
     row("no focus", Answer::noFocus,
-        "found no focus and took no photograph (Out of Focus); switch its lens to manual");
+        "could not focus and took no photograph (Out of Focus); switch its lens to manual");
     row("refused", Answer::refused, "refused what it was asked for (General Error)");
   }
   void whatIsNotMendedIsTold() {

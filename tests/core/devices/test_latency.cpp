@@ -113,10 +113,10 @@ class TestLatency : public QObject {
     stage.delay = delay;
     stage.noise = noise;
     const Latency latency = measured(stage, exposure);
-    // A picture is out after `delay` to `delay` + 1 frames, as it happens to be sent late or early in one.
+    // A picture appears after `delay` to `delay` + 1 frames, as it happens to be sent late or early in one.
     QVERIFY(latency.frames == delay || latency.frames == delay + 1);
     QVERIFY(mentions(english(messageOf(latency.verdicts.front())),
-                     "A picture is out " + std::to_string(latency.frames) + " frame"));
+                     "A picture appears " + std::to_string(latency.frames) + " frame"));
 
     // Whoever waits so long sees nothing older, whenever it begins.
     auto patient = delayed(std::make_unique<StageProjector>(stage), latency.seconds, stage.wait());

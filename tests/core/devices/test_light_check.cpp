@@ -168,7 +168,7 @@ class TestLightCheck : public QObject {
     Progress silent;
     const LightCheck check = checked(faults, silent);
     QCOMPARE(check.brief, 0.0);
-    QVERIFY(mentions(english(messageOf(check.verdicts.back())), "cannot be told"));
+    QVERIFY(mentions(english(messageOf(check.verdicts.back())), "cannot be detected"));
   }
 
   void whatSeesNothingIsTold() {

@@ -172,7 +172,7 @@ class TestRecording : public QObject {
     QTest::newRow("later version") << QByteArray(R"({"format":"relucent recording","version":2})")
                                    << ErrorKind::format << "the recording is of version 2";
     QTest::newRow("foreign") << QByteArray(R"({"format":"tape","version":1})") << ErrorKind::format
-                             << "this is no recording";
+                             << "this is not a recording";
     QTest::newRow("text") << QByteArray("hello") << ErrorKind::format << "the recording is damaged";
     QTest::newRow("empty") << QByteArray("") << ErrorKind::format << "the recording is damaged";
     QTest::newRow("no devices") << QByteArray(R"({"format":"relucent recording","version":1})")

@@ -103,7 +103,7 @@ class TestScreenRig : public QObject {
     ScreenRig screen = rigOf(script);
     screen.rig.projectors[0]->show(Image({2, 2}, 3, 0.5f));
     QVERIFY(mentions(sentenceOf([&] { screen.rig.cameras[0]->capture({}); }, ErrorKind::device),
-                     "HDMI-1: the projector's screen loses its picture again and again"));
+                     "HDMI-1: the projector's screen keeps losing its picture"));
   }
 
   void theLatencyIsWaitedForAndMayChange() {

@@ -165,7 +165,7 @@ class TestVideoDriver : public QObject {
           webcam.camera->capture({{"test", 1}, 0, 0.1});
         },
         ErrorKind::device);
-    QVERIFY(mentions(sentence, "was asked to expose 0.1 s and keeps to 0.0123 s"));
+    QVERIFY(mentions(sentence, "was asked to expose 0.1 s but exposes 0.0123 s"));
   }
 
   void onlyPicturesBegunAfterwardsCount_data() {

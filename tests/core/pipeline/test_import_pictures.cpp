@@ -182,11 +182,13 @@ class TestImportPictures : public QObject {
     fs::rename(studio.photographs() / "IMG_0110.DNG", studio.photographs() / "IMG_0110.DNG.txt");
     fs::remove(studio.photographs() / "IMG_0110.JPG");
     const QString missing = studio.failure();
-    QVERIFY2(missing.contains("1 is missing, by the camera's clock after IMG_0109.DNG"), qPrintable(missing));
+    QVERIFY2(missing.contains("1 is missing, judging by the camera's clock after IMG_0109.DNG"),
+             qPrintable(missing));
     fs::rename(studio.photographs() / "IMG_0110.DNG.txt", studio.photographs() / "IMG_0110.DNG");
     fs::copy(studio.photographs() / "IMG_0120.DNG", studio.photographs() / "IMG_0120b.DNG");
     const QString extra = studio.failure();
-    QVERIFY2(extra.contains("1 is too many, by the camera's clock IMG_0120b.DNG"), qPrintable(extra));
+    QVERIFY2(extra.contains("1 is too many, judging by the camera's clock these: IMG_0120b.DNG"),
+             qPrintable(extra));
     QVERIFY(!fs::exists(studio.calibration()));
   }
 

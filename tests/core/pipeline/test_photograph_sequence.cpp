@@ -76,10 +76,10 @@ class TestPhotographSequence : public QObject {
     QTest::newRow("one too many") << "A B C" << 2 << "there are 2 patterns but 3 photographs: 1 is too many";
     QTest::newRow("a gap")
         << "A0 B3 C6 D12 E15 F18" << 7
-        << "there are 7 patterns but 6 photographs: 1 is missing, by the camera's clock after C";
+        << "there are 7 patterns but 6 photographs: 1 is missing, judging by the camera's clock after C";
     QTest::newRow("two gaps")
         << "A0 B3 C9 D12 E15 F21 G24" << 9
-        << "there are 9 patterns but 7 photographs: 2 are missing, by the camera's clock after B, E";
+        << "there are 9 patterns but 7 photographs: 2 are missing, judging by the camera's clock after B, E";
     QTest::newRow("no gap") << "A0 B3 C6 D9 E12" << 6
                             << "there are 6 patterns but 5 photographs: 1 is missing";
     // An interval of 3.3 s looks like 3 or 4, once in a while.
@@ -87,7 +87,7 @@ class TestPhotographSequence : public QObject {
                                     << "there are 7 patterns but 6 photographs: 1 is missing";
     QTest::newRow("one too soon")
         << "A0 B5 C10 D11 E15 F20" << 5
-        << "there are 5 patterns but 6 photographs: 1 is too many, by the camera's clock D";
+        << "there are 5 patterns but 6 photographs: 1 is too many, judging by the camera's clock these: D";
     QTest::newRow("too fast to tell")
         << "A0 B1 C2 D4 E5" << 6 << "there are 6 patterns but 5 photographs: 1 is missing";
     QTest::newRow("no rhythm") << "A0 B2 C4 D6 E8 F90 G180 H270 I360 J450" << 11

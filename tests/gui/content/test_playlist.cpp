@@ -155,9 +155,9 @@ class TestPlaylist : public QObject {
   void wrongFilesAreRefused_data() {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("part");
-    QTest::newRow("no JSON") << QByteArray("#EXTM3U") << "no playlist";
-    QTest::newRow("cut short") << QByteArray("{\"items\": [{\"path\"") << "no playlist";
-    QTest::newRow("another document") << QByteArray("{\"a\": 1}") << "no playlist";
+    QTest::newRow("no JSON") << QByteArray("#EXTM3U") << "not a playlist";
+    QTest::newRow("cut short") << QByteArray("{\"items\": [{\"path\"") << "not a playlist";
+    QTest::newRow("another document") << QByteArray("{\"a\": 1}") << "not a playlist";
     QTest::newRow("newer") << QByteArray("{\"version\": 7, \"items\": []}") << "newer version";
     QTest::newRow("empty") << QByteArray("{\"version\": 1, \"items\": []}") << "empty";
     QTest::newRow("no path") << QByteArray("{\"items\": [{}]}") << "names no file";

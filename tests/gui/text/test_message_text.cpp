@@ -39,7 +39,7 @@ Message sees(const char* one, const char* other) {
 }
 
 Message changes(double share) {
-  return RELUCENT_ENGLISH_MESSAGE("test.changes", "{} % of the view of camera {} look different than before")
+  return RELUCENT_ENGLISH_MESSAGE("test.changes", "{} % of the view of camera {} look different from before")
       .with(as::share(share, as::decimals(1)), as::label(2));
 }
 
@@ -69,7 +69,7 @@ class TestMessageText : public QObject {
     auto row = [](const char* name, const Message& message, const char* german) {
       QTest::newRow(name) << message << withNarrow(german);
     };
-    row("share", changes(0.045), "4,5_% of the view of camera 2 look different than before");
+    row("share", changes(0.045), "4,5_% of the view of camera 2 look different from before");
     row("bytes",
         RELUCENT_ENGLISH_MESSAGE("test.bytes", "a file has {} bytes instead of {}")
             .with(as::bytes(1234567), as::bytes(23456)),
@@ -88,8 +88,8 @@ class TestMessageText : public QObject {
         RELUCENT_ENGLISH_MESSAGE("test.range", "exposures of {} to {} s")
             .with(as::seconds(2.5e-5, as::digits(4)), as::seconds(1.25, as::digits(4))),
         "exposures of 2,5 × 10⁻⁵ to 1,25_s");
-    row("gain", RELUCENT_ENGLISH_MESSAGE("test.gain", "the camera can do {} to {}").with(0.0, 23.5),
-        "the camera can do 0 to 23,5");
+    row("gain", RELUCENT_ENGLISH_MESSAGE("test.gain", "choose a gain from {} to {}").with(0.0, 23.5),
+        "choose a gain from 0 to 23,5");
     row("milliseconds",
         RELUCENT_ENGLISH_MESSAGE("test.frame", "multiples of {} ms")
             .with(as::milliseconds(0.02, as::decimals(2))),
@@ -100,7 +100,7 @@ class TestMessageText : public QObject {
         "reaches 1_024_MB at once where 2_500_MB are needed");
     row("a sentence within",
         RELUCENT_ENGLISH_MESSAGE("test.attempts", "{} attempts failed: {}").with(3, changes(0.025)),
-        "3 attempts failed: 2,5_% of the view of camera 2 look different than before");
+        "3 attempts failed: 2,5_% of the view of camera 2 look different from before");
     row("size", RELUCENT_ENGLISH_MESSAGE("test.size", "it has {} pixels").with(as::size(1920, 1080)),
         "it has 1920x1080 pixels");
     row("label", RELUCENT_ENGLISH_MESSAGE("test.label", "pattern {}").with(as::label(1234)), "pattern 1234");
@@ -123,7 +123,7 @@ class TestMessageText : public QObject {
     };
     row("plain pattern", RELUCENT_ENGLISH_MESSAGE("test.busy", "the camera stays busy"),
         "THE CAMERA STAYS BUSY");
-    row("numbers", changes(0.045), "4.5_% OF THE VIEW OF CAMERA 2 LOOK DIFFERENT THAN BEFORE");
+    row("numbers", changes(0.045), "4.5_% OF THE VIEW OF CAMERA 2 LOOK DIFFERENT FROM BEFORE");
     row("another order", sees("HDMI-1", "DP-2"), "NOT DP-2 BUT HDMI-1");
     row("the system's words",
         RELUCENT_ENGLISH_MESSAGE("test.write", "cannot write ({})").with("No space left on device"),

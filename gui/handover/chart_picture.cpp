@@ -33,6 +33,7 @@ QImage chartPicture(QXmlStreamReader& xml, double dots) {
   QImage image(size.expandedTo({1, 1}).boundedTo({8192, 8192}), QImage::Format_RGB32);
   image.fill(Qt::white);
   QPainter painter(&image);
+  painter.setFont(QFont("Inter", 10));  // in points: views/chart_drawing.cpp says why
   chart.render(&painter);
   return image;
 }

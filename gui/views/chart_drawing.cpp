@@ -5,6 +5,7 @@
 #include <QSvgRenderer>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "relucent/charts/svg.h"
 #include "text/local_digits.h"
@@ -24,11 +25,14 @@ QString styleOf(const char* name, const QColor& stroke) {
 
 std::string styleSheet() {
   const Colours& c = colours();
-  QString family = typeOf(type::axis).families().join("','");
-  QString css = QString("text{font-family:'%1'}").arg(family);
-  for (const char* name : {"number", "title"})
-    css += QString(".%1{font-size:%2px;fill:%3}").arg(name).arg(type::axis).arg(c.secondary.name());
-  css += QString(".legend{font-size:%1px;fill:%2}").arg(type::note).arg(c.text.name());
+  QString css, family = typeOf(type::axis).families().join("','");
+  for (auto [name, pixels, colour] :
+       {std::tuple("number", type::axis, &c.secondary), std::tuple("title", type::axis, &c.secondary),
+        std::tuple("legend", type::note, &c.text)})
+    css += QString(".%1{font-family:'%2';font-size:%3px;fill:%4}")
+               .arg(name, family)
+               .arg(pixels)
+               .arg(colour->name());
   css += QString(".grid{stroke:%1}.axis{stroke:%2}").arg(c.line.name(), c.border.name());
   css += QString(".mark{stroke:%1;stroke-dasharray:4 2}").arg(c.amber.name());
   for (auto [name, colour] : {std::pair("red", &c.red), std::pair("green", &c.green),
@@ -52,6 +56,10 @@ QRectF drawChart(QPainter& painter, const QRectF& area, const charts::Chart& cha
   charts::Drawing drawing{{area.width(), area.height()}, styleSheet(), localTickText};
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
+  // Qt SVG divides by the painter's font size in points, which is -1 where the size was given in pixels.
+  QFont inPoints = painter.font();
+  inPoints.setPointSize(10);
+  painter.setFont(inPoints);
   QSvgRenderer(QByteArray::fromStdString(charts::svgOf(chart, drawing))).render(&painter, area);
   painter.restore();
   charts::PlotArea plot = charts::plotOf(chart, drawing);

@@ -86,6 +86,24 @@ class TestReportPdf : public QObject {
     QVERIFY_EXCEPTION_THROWN(writeReportPdf(html(), "/nowhere/report.pdf"), Error);
   }
 
+  /// The program's font has its size in pixels.
+  void initTestCase() {
+    QFont inPixels;
+    inPixels.setPixelSize(13);
+    QGuiApplication::setFont(inPixels);
+  }
+
+  void textOnPaperHasItsSize() {
+    QXmlStreamReader xml(
+        QString("<svg viewBox='0 0 200 20'><text class='number' x='2' y='14'>HHHHHHHHHHHHHHHH</text></svg>"));
+    xml.readNextStartElement();
+    QImage drawn = chartPicture(xml, 1.0);
+    int ink = 0;
+    for (int y = 0; y < drawn.height(); ++y)
+      for (int x = 0; x < drawn.width(); ++x) ink += qGray(drawn.pixel(x, y)) < 128 ? 1 : 0;
+    QVERIFY2(ink > 16 * 10, QByteArray::number(ink));  // two stems and a bar of each letter
+  }
+
   void everyChartOfTheReportLeavesInk() {
     QRegularExpression drawing("<svg.*?</svg>", QRegularExpression::DotMatchesEverythingOption);
     int charts = 0;

@@ -54,7 +54,8 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
   if (std::abs(drift) > driftLimit)
     findings.push_back(
         RELUCENT_MESSAGE("acquisition.light-drifted",
-                         "The light changed by {} % between the first and the last photograph; this was compensated for, but let the projector warm up before the next time")
+                         "The light changed by {} % between the first and the last photograph; this was "
+                         "compensated for, but let the projector warm up before the next time")
             .with(as::share(drift, as::decimals(1))));
   if (unusable > unusableLimit)
     findings.push_back(
@@ -66,7 +67,8 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
     findings.push_back(
         RELUCENT_MESSAGE(
             "acquisition.pixels-flagged",
-            "{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation")
+            "{} % of the camera pixels do not see what was predicted for the test patterns: check that "
+            "nothing moved or flickered; these pixels are left out of the compensation")
             .with(as::share(flagged, as::decimals(1))));
   for (const auto& [shot, what] : supervision.accepted)
     findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "accepted before pattern {}: {}")

@@ -150,13 +150,17 @@ Judgement judge(const Reverification& found, double errorThen) {
   if (found.changedShare > mostlyChanged)
     return {Verdict::startAgain,
             RELUCENT_ENGLISH_MESSAGE("verify.moved",
-                                     "Start again: {} % of the camera's pixels do not see what was predicted, as when the camera, the projector or its zoom has moved; put them back and verify once more, or measure everything again.")
+                                     "Start again: {} % of the camera's pixels do not see what was "
+                                     "predicted, as when the camera, the projector or its zoom has moved; "
+                                     "put them back and verify once more, or measure everything again.")
                 .with(as::share(found.changedShare, as::decimals(0)))};
   if (std::abs(found.ambient) > ambientLimit) return {Verdict::remeasure, roomChange(found.ambient)};
   if (found.changedShare > changedLimit)
     return {Verdict::remeasure,
             RELUCENT_ENGLISH_MESSAGE("verify.view-changed",
-                                     "Re-measure: {} % of the camera's pixels do not see what was predicted; the map of changes shows where something was moved. Put it back and verify once more, or measure the light transport again.")
+                                     "Re-measure: {} % of the camera's pixels do not see what was predicted; "
+                                     "the map of changes shows where something was moved. Put it back and "
+                                     "verify once more, or measure the light transport again.")
                 .with(as::share(found.changedShare, as::decimals(1)))};
   if (std::abs(found.lamp - 1.0) > lampLimit)
     return {Verdict::remeasure,

@@ -63,12 +63,12 @@ platform::FolderLock locked(const fs::path& folder, CalibrationFolder::Access ac
   return {folder, access};
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block)
-    throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("calibration.in-use",
-                                         "another program is working on this calibration"),
-                RELUCENT_ENGLISH_MESSAGE("calibration.wait-or-close-other-program",
-                                         "wait until it has finished, or close it, then try again"),
-                folder.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("calibration.in-use", "another program is working on this calibration"),
+        RELUCENT_ENGLISH_MESSAGE("calibration.wait-or-close-other-program",
+                                 "wait until it has finished, or close it, then try again"),
+        folder.string());
   throw Error(
       ErrorKind::disk,
       RELUCENT_MESSAGE("calibration.cannot-open-folder", "cannot open the folder ({})")
@@ -97,15 +97,15 @@ Error damaged(const fs::path& manifest, const Message& what) {
 Json readManifest(const fs::path& file) {
   Json manifest = Json::parse(readFile(file), nullptr, false);
   if (manifest.is_discarded() || !manifest.is_object())
-    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
-                                         "the calibration's manifest is damaged"));
+    throw damaged(file,
+                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
   if (manifest.value("format", Json()) != formatName)
-    throw damaged(
-        file, RELUCENT_MESSAGE("calibration.not-a-calibration", "this is not a calibration of Relucent"));
+    throw damaged(file,
+                  RELUCENT_MESSAGE("calibration.not-a-calibration", "this is not a calibration of Relucent"));
   Json written = manifest.value("version", Json());
   if (!written.is_number_integer())
-    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
-                                         "the calibration's manifest is damaged"));
+    throw damaged(file,
+                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
   if (written.get<int>() > CalibrationFolder::version)
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("calibration.of-newer-version",
@@ -129,8 +129,8 @@ Json readManifest(const fs::path& file) {
                  return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
                });
   if (!whole)
-    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
-                                         "the calibration's manifest is damaged"));
+    throw damaged(file,
+                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
   return manifest;
 }
 
@@ -169,12 +169,11 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
   createFolder(path);
   platform::FolderLock lock = locked(path, Access::write);
   if (fs::exists(path / manifestName, code))
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.already-exists", "there is a calibration already"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.resume-or-choose-another-name",
-                                 "go on with it by `resume`, or choose another name"),
-        path.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.already-exists", "there is a calibration already"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.resume-or-choose-another-name",
+                                         "go on with it by `resume`, or choose another name"),
+                path.string());
   if (holdsAnything(path))
     throw Error(
         ErrorKind::input,
@@ -197,12 +196,11 @@ CalibrationFolder CalibrationFolder::open(const fs::path& given, Access access) 
   if (path.empty()) path = ".";
   std::error_code code;
   if (!fs::is_directory(path, code))
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("calibration.not-found", "there is no such calibration"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.check-name-or-calibrate",
-                                 "check the name, or make one by `calibrate`"),
-        path.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.not-found", "there is no such calibration"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.check-name-or-calibrate",
+                                         "check the name, or make one by `calibrate`"),
+                path.string());
   if (!fs::exists(path / manifestName, code))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.manifest-missing",
@@ -331,9 +329,9 @@ fs::path fileOf(const StageResult& result, const std::string& name) {
   std::error_code code;
   std::uint64_t bytes = fs::file_size(path, code);
   if (file == result.files.end() || code)
-    throw damaged(path, RELUCENT_MESSAGE("calibration.result-file-missing",
-                                         "a file of the calibration's {} is missing")
-                            .with(nameOf(result.stage)));
+    throw damaged(
+        path, RELUCENT_MESSAGE("calibration.result-file-missing", "a file of the calibration's {} is missing")
+                  .with(nameOf(result.stage)));
   if (bytes != file->bytes)
     throw damaged(path, RELUCENT_MESSAGE("calibration.result-file-size-wrong",
                                          "a file of the calibration's {} has {} bytes instead of {}")

@@ -22,7 +22,7 @@ struct Curve {
   Marker marker = Marker::none;
   std::vector<Point> line{};    // drawn through
   std::vector<Point> points{};  // marked
-  bool filled = false;        // down to the axis
+  bool filled = false;          // down to the axis
 };
 
 /// A bar of a histogram, standing on the axis.

@@ -19,9 +19,9 @@
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
-#include "relucent/report/report.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/verify.h"
+#include "relucent/report/report.h"
 
 namespace relucent::cli {
 

@@ -11,36 +11,38 @@ std::string absolutePath(const std::string& folder) {
   return std::filesystem::absolute(folder).string();
 }
 
-}  // namespace
+/// Options of `calibrate` that name devices, and what they set. Kept until the command line has been read.
+struct DeviceOptions {
+  venue::VenueSettings venue;
+  pipeline::CommandRigSettings commands;
+  pipeline::ReplayRigSettings replay;
+  Size projector{256, 192};
+  Size camera{160, 120};
+  std::uint64_t seed = 1;
 
-std::function<Command()> addCalibrateOptions(CLI::App* sub) {
-  struct Places {
-    venue::VenueSettings venue;
-    pipeline::CommandRigSettings commands;
-    pipeline::ReplayRigSettings replay;
-    Size projector{256, 192};
-    Size camera{160, 120};
-    std::uint64_t seed = 1;
-  };
-  auto command = std::make_shared<Calibrate>();
-  auto places = std::make_shared<Places>();
-  pipeline::CalibrateSettings& settings = command->settings;
+  CLI::Option *venueName, *projectorSize, *cameraAddress, *cameraSize;
+  CLI::Option *projectorCommand, *cameraCommand, *frameRate, *record, *replayFolder;
+  CLI::Option_group* simulated;
+};
 
-  addFolder(sub, command->calibration, "Folder of the calibration; created");
-  CLI::Option* venue = sub->add_option("--venue", places->venue.name, "A simulated venue, see `venues`")
-                           ->type_name("NAME")
-                           ->capture_default_str();
-  CLI::Option* projector =
-      addSize(sub, "--projector", places->projector, "Size of the projector")->default_str("256x192");
-  CLI::Option* camera = sub->add_option_function<std::string>(
-      "--camera", [places](const std::string& text) { readCamera(text, places->commands, places->camera); },
+void addDevices(CLI::App* sub, DeviceOptions& devices) {
+  devices.venueName = sub->add_option("--venue", devices.venue.name, "A simulated venue, see `venues`")
+                          ->type_name("NAME")
+                          ->capture_default_str();
+  devices.projectorSize =
+      addSize(sub, "--projector", devices.projector, "Size of the projector")->default_str("256x192");
+  devices.cameraAddress = sub->add_option_function<std::string>(
+      "--camera", [&devices](const std::string& text) { readCamera(text, devices.commands, devices.camera); },
       "A real camera by its address, see `devices`; or the size of the camera");
-  camera->type_name("KIND:PLACE|WxH")->default_str("160x120");
-  CLI::Option* cameraSize =
-      addSize(sub, "--camera-size", places->camera, "Size of the photographs, if --camera is an address");
-  sub->add_option("--seed", places->seed, "Seed of all random numbers: the same seed gives the same bits")
+  devices.cameraAddress->type_name("KIND:PLACE|WxH")->default_str("160x120");
+  devices.cameraSize =
+      addSize(sub, "--camera-size", devices.camera, "Size of the photographs, if --camera is an address");
+  sub->add_option("--seed", devices.seed, "Seed of all random numbers: the same seed gives the same bits")
       ->type_name("N")
       ->capture_default_str();
+}
+
+void addMeasurement(CLI::App* sub, pipeline::CalibrateSettings& settings) {
   // Before all that changes single settings: a mode sets all of them.
   addNamed<acquisition::AcquisitionMode>(
       sub, "--acquisition",
@@ -62,107 +64,132 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   sub->add_option("--levels", settings.linearization.levels, "Levels measured per projector colour")
       ->type_name("N")
       ->capture_default_str();
-  addCache(sub, command->cache);
+}
 
+CLI::Option* addFolderOption(CLI::App* group, const char* name, std::string& folder, const char* what) {
+  return group
+      ->add_option_function<std::string>(
+          name, [&folder](const std::string& given) { folder = absolutePath(given); }, what)
+      ->type_name("DIR");
+}
+
+void addExternalPrograms(CLI::App* sub, DeviceOptions& devices) {
   CLI::Option_group* real = sub->add_option_group("External programs", "Any projector and camera by script");
-  CLI::Option* show =
-      real->add_option("--projector-command", places->commands.projectorCommand,
+  devices.projectorCommand =
+      real->add_option("--projector-command", devices.commands.projectorCommand,
                        "Command that shows the file {image} and returns when the picture is lit");
-  CLI::Option* photograph =
-      real->add_option("--camera-command", places->commands.cameraCommand,
+  devices.cameraCommand =
+      real->add_option("--camera-command", devices.commands.cameraCommand,
                        "Command that photographs {exposure} seconds into the file {output}");
-  show->type_name("CMD");
-  photograph->type_name("CMD");
-  real->add_option("--shortest", places->commands.shortestExposure, "Shortest exposure of the camera")
+  for (CLI::Option* command : {devices.projectorCommand, devices.cameraCommand}) command->type_name("CMD");
+  real->add_option("--shortest", devices.commands.shortestExposure, "Shortest exposure of the camera")
       ->type_name("SECONDS")
       ->capture_default_str();
-  real->add_option("--longest", places->commands.longestExposure, "Longest exposure of the camera")
+  real->add_option("--longest", devices.commands.longestExposure, "Longest exposure of the camera")
       ->type_name("SECONDS")
       ->capture_default_str();
-
-  real->add_option("--latency", places->commands.latency,
+  real->add_option("--latency", devices.commands.latency,
                    "Time until a picture is displayed, as measured by `check`")
       ->type_name("SECONDS")
       ->capture_default_str();
-  CLI::Option* frameRate =
-      real->add_option("--frame-rate", places->commands.frameRate,
-                       "Frame rate of the projector: exposures become multiples of a frame")
-          ->type_name("HZ");
-  CLI::Option* record =
-      real->add_option_function<std::string>(
-              "--record",
-              [places](const std::string& folder) { places->commands.record = absolutePath(folder); },
-              "Folder for a recording of all patterns and photographs, for --replay")
-          ->type_name("DIR");
-  CLI::Option* replay =
-      real->add_option_function<std::string>(
-              "--replay",
-              [places](const std::string& folder) { places->replay.folder = absolutePath(folder); },
-              "A recording to use instead of projector and camera")
-          ->type_name("DIR");
+  devices.frameRate = real->add_option("--frame-rate", devices.commands.frameRate,
+                                       "Frame rate of the projector: exposures become multiples of a frame")
+                          ->type_name("HZ");
+  devices.record = addFolderOption(real, "--record", devices.commands.record,
+                                   "Folder for a recording of all patterns and photographs, for --replay");
+  devices.replayFolder = addFolderOption(real, "--replay", devices.replay.folder,
+                                         "A recording to use instead of projector and camera");
+}
 
-  venue::DeviceModelSettings& devices = places->venue.devices;
-  CLI::Option_group* simulated = sub->add_option_group("Simulated devices", "Simulated imperfections");
+void addSimulatedDevices(CLI::App* sub, DeviceOptions& devices) {
+  venue::DeviceModelSettings& model = devices.venue.devices;
+  CLI::Option_group* simulated = devices.simulated =
+      sub->add_option_group("Simulated devices", "Simulated imperfections");
   auto simulate = [&](const char* name, auto& value, const char* what) {
     simulated->add_option(name, value, what)->capture_default_str();
   };
-  simulate("--paths", places->venue.pathsPerPixel, "Light paths traced for each camera pixel");
-  simulate("--projector-bits", devices.projectorBits, "Bits of the projector's drive values");
-  simulate("--camera-bits", devices.cameraBits, "Bits of the camera");
-  simulate("--contrast", devices.contrast, "White of the projector divided by its black");
-  simulate("--ambient", devices.ambient, "Room light, as a share of the mean flood image");
-  simulate("--drift", devices.drift, "Relative change of the lamp over 1000 photographs");
-  simulate("--flicker", devices.flicker, "Relative standard deviation of the lamp between photographs");
-  simulate("--camera-gamma", devices.cameraGamma, "Response of the camera; 1 is linear");
-  simulated->add_flag("--white-segment", devices.whiteSegment, "White is brighter than red + green + blue");
+  simulate("--paths", devices.venue.pathsPerPixel, "Light paths traced for each camera pixel");
+  simulate("--projector-bits", model.projectorBits, "Bits of the projector's drive values");
+  simulate("--camera-bits", model.cameraBits, "Bits of the camera");
+  simulate("--contrast", model.contrast, "White of the projector divided by its black");
+  simulate("--ambient", model.ambient, "Room light, as a share of the mean flood image");
+  simulate("--drift", model.drift, "Relative change of the lamp over 1000 photographs");
+  simulate("--flicker", model.flicker, "Relative standard deviation of the lamp between photographs");
+  simulate("--camera-gamma", model.cameraGamma, "Response of the camera; 1 is linear");
+  simulated->add_flag("--white-segment", model.whiteSegment, "White is brighter than red + green + blue");
+}
 
-  auto refuseSimulation = [=] {
-    for (const CLI::Option* option : simulated->get_options())
-      if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
-    if (venue->count() > 0) throw WrongUsage("give --venue or external programs, not both");
-  };
-  auto refuseBesideReplay = [=] {
-    for (const CLI::Option* other : {show, photograph, camera, projector, record, frameRate})
-      if (other->count() > 0)
-        throw WrongUsage(other->get_name() +
-                         " cannot be used with --replay: the recording contains its devices");
-    refuseSimulation();
-  };
-  auto external = [=] {
-    const bool addressed = !places->commands.cameraAddress.empty();
-    if (cameraSize->count() > 0 && !addressed)
-      throw WrongUsage("--camera-size is for cameras with an address; write --camera WxH");
-    if (addressed && photograph->count() > 0)
-      throw WrongUsage("give a camera's address or --camera-command, not both");
-    if (addressed && (show->count() == 0 || projector->count() == 0))
-      throw WrongUsage("a real camera also needs --projector-command and --projector");
-    if (show->count() + photograph->count() == 0) {
-      for (const CLI::Option* other : {record, frameRate})
-        if (other->count() > 0) throw WrongUsage(other->get_name() + " is for real devices");
-      return false;
-    }
-    if (show->count() == 0 || (photograph->count() == 0 && !addressed) || projector->count() == 0)
-      throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
-    refuseSimulation();
-    return true;
-  };
-  return [command, places, external, refuseBesideReplay, camera, cameraSize, replay] {
-    if (replay->count() > 0) {
-      refuseBesideReplay();
-      command->settings.rig = places->replay;
-    } else if (external()) {
-      places->commands.projector = places->projector;
-      const bool addressed = !places->commands.cameraAddress.empty();
-      if ((addressed ? cameraSize : camera)->count() > 0) places->commands.camera = places->camera;
-      command->settings.rig = places->commands;
-    } else {
-      places->venue.projector = places->projector;
-      places->venue.camera = places->camera;
-      places->venue.seed = places->seed;
-      command->settings.rig = places->venue;
-    }
-    command->settings.linearization.seed = places->seed;
-    command->settings.acquisition.seed = places->seed;
+void refuseSimulation(const DeviceOptions& devices) {
+  for (const CLI::Option* option : devices.simulated->get_options())
+    if (option->count() > 0) throw WrongUsage(option->get_name() + " is for simulated venues only");
+  if (devices.venueName->count() > 0) throw WrongUsage("give --venue or external programs, not both");
+}
+
+void refuseBesideReplay(const DeviceOptions& devices) {
+  for (const CLI::Option* other : {devices.projectorCommand, devices.cameraCommand, devices.cameraAddress,
+                                   devices.projectorSize, devices.record, devices.frameRate})
+    if (other->count() > 0)
+      throw WrongUsage(other->get_name() +
+                       " cannot be used with --replay: the recording contains its devices");
+  refuseSimulation(devices);
+}
+
+/// Whether real devices are named. Throws: WrongUsage if they are named by halves.
+bool areExternal(const DeviceOptions& devices) {
+  const bool addressed = !devices.commands.cameraAddress.empty();
+  const bool shows = devices.projectorCommand->count() > 0, photographs = devices.cameraCommand->count() > 0;
+  const bool isSized = devices.projectorSize->count() > 0;
+  if (devices.cameraSize->count() > 0 && !addressed)
+    throw WrongUsage("--camera-size is for cameras with an address; write --camera WxH");
+  if (addressed && photographs) throw WrongUsage("give a camera's address or --camera-command, not both");
+  if (addressed && (!shows || !isSized))
+    throw WrongUsage("a real camera also needs --projector-command and --projector");
+  if (!shows && !photographs) {
+    for (const CLI::Option* other : {devices.record, devices.frameRate})
+      if (other->count() > 0) throw WrongUsage(other->get_name() + " is for real devices");
+    return false;
+  }
+  if (!shows || (!photographs && !addressed) || !isSized)
+    throw WrongUsage("external programs need --projector-command, --camera-command and --projector");
+  refuseSimulation(devices);
+  return true;
+}
+
+pipeline::RigSettings rigOf(const DeviceOptions& devices) {
+  if (devices.replayFolder->count() > 0) {
+    refuseBesideReplay(devices);
+    return devices.replay;
+  }
+  if (areExternal(devices)) {
+    pipeline::CommandRigSettings commands = devices.commands;
+    commands.projector = devices.projector;
+    const bool addressed = !commands.cameraAddress.empty();
+    if ((addressed ? devices.cameraSize : devices.cameraAddress)->count() > 0)
+      commands.camera = devices.camera;
+    return commands;
+  }
+  venue::VenueSettings venue = devices.venue;
+  venue.projector = devices.projector;
+  venue.camera = devices.camera;
+  venue.seed = devices.seed;
+  return venue;
+}
+
+}  // namespace
+
+std::function<Command()> addCalibrateOptions(CLI::App* sub) {
+  auto command = std::make_shared<Calibrate>();
+  auto devices = std::make_shared<DeviceOptions>();
+  addFolder(sub, command->calibration, "Folder of the calibration; created");
+  addDevices(sub, *devices);
+  addMeasurement(sub, command->settings);
+  addCache(sub, command->cache);
+  addExternalPrograms(sub, *devices);
+  addSimulatedDevices(sub, *devices);
+  return [command, devices] {
+    command->settings.rig = rigOf(*devices);
+    command->settings.linearization.seed = devices->seed;
+    command->settings.acquisition.seed = devices->seed;
     return Command(*command);
   };
 }

@@ -159,8 +159,9 @@ std::vector<Message> problems(const DenseBoxSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-tolerance-not-positive",
                                              "the dense solver's tolerance must be above 0"));
   if (settings.mostIterations < 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.dense-iterations-negative",
-                                             "the number of the dense solver's iterations cannot be negative"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("compensation.dense-iterations-negative",
+                                 "the number of the dense solver's iterations cannot be negative"));
   return found;
 }
 

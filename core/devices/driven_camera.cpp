@@ -46,7 +46,8 @@ bool near(double a, double b) {
 std::vector<Message> problems(const DrivenCameraSettings& settings) {
   std::vector<Message> found;
   if (settings.timeout.count() <= 0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-timeout-not-positive", "the time allowed for a photograph must be above 0 seconds"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-timeout-not-positive",
+                                             "the time allowed for a photograph must be above 0 seconds"));
   if (settings.attempts < 1)
     found.push_back(RELUCENT_ENGLISH_MESSAGE("device.photograph-attempts-not-positive",
                                              "a photograph needs at least one attempt"));
@@ -55,8 +56,8 @@ std::vector<Message> problems(const DrivenCameraSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("device.reconnect-times-negative",
                                              "times to look for a lost camera must not be negative"));
   if (settings.skipAfterChange < 0)
-    found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.skipped-frames-negative", "the number of frames to skip cannot be negative"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.skipped-frames-negative",
+                                             "the number of frames to skip cannot be negative"));
   return found;
 }
 
@@ -120,7 +121,8 @@ void DrivenCamera::probe(CameraTraits& traits) {
                 name());
   if (!near(longest, wanted))
     traits.remarks.push_back(
-        RELUCENT_MESSAGE("device.longest-exposure-overstated", "claims exposures up to {} s but reaches only {} s")
+        RELUCENT_MESSAGE("device.longest-exposure-overstated",
+                         "claims exposures up to {} s but reaches only {} s")
             .with(as::seconds(wanted, as::digits(4)), as::seconds(longest, as::digits(4))));
   if (!near(shortest, claimed.shortest))
     traits.remarks.push_back(
@@ -156,9 +158,9 @@ void DrivenCamera::reconnect() {
       throw Error(ErrorKind::device,
                   RELUCENT_MESSAGE("device.camera-not-back", "the camera has been gone for {} s: {}")
                       .with(as::seconds(inSeconds(away), as::decimals(0)), reason),
-                  thenGoOn(advice.empty()
-                               ? RELUCENT_MESSAGE("device.check-cable-and-power", "check its cable and its power")
-                               : advice),
+                  thenGoOn(advice.empty() ? RELUCENT_MESSAGE("device.check-cable-and-power",
+                                                             "check its cable and its power")
+                                          : advice),
                   name());
     driver_->wait(settings_.reconnectPause);
   }
@@ -167,13 +169,13 @@ void DrivenCamera::reconnect() {
 double DrivenCamera::expose(double seconds) {
   const double held = driver_->setExposure(seconds);
   if (!(held > 0.0) || held > tolerableRatio * seconds || seconds > tolerableRatio * held)
-    throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.exposure-refused",
-                                 "the camera was asked to expose {} s but exposes {} s")
-                    .with(as::seconds(seconds, as::digits(4)), as::seconds(held, as::digits(4))),
-                RELUCENT_MESSAGE("device.lift-exposure-limits",
-                                 "switch its automatic exposure and its frame rate limit off"),
-                name());
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("device.exposure-refused", "the camera was asked to expose {} s but exposes {} s")
+            .with(as::seconds(seconds, as::digits(4)), as::seconds(held, as::digits(4))),
+        RELUCENT_MESSAGE("device.lift-exposure-limits",
+                         "switch its automatic exposure and its frame rate limit off"),
+        name());
   if (held != held_) toSkip_ = settings_.skipAfterChange;
   held_ = held;
   return held;

@@ -79,12 +79,12 @@ class ScreenCheckingCamera : public rig::Camera {
       rig::RawFrame frame = camera_->capture(request);
       if (shared_->stayedVisible()) return frame;
     }
-    throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("device.screen-loses-picture",
-                                 "the projector's screen keeps losing its picture"),
-                RELUCENT_MESSAGE("device.check-cable-and-power-saving",
-                                 "check its cable, and switch off its power saving"),
-                shared_->screen().name());
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("device.screen-loses-picture", "the projector's screen keeps losing its picture"),
+        RELUCENT_MESSAGE("device.check-cable-and-power-saving",
+                         "check its cable, and switch off its power saving"),
+        shared_->screen().name());
   }
 
  private:

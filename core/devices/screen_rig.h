@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "relucent/devices/latency.h"
+#include "relucent/devices/check/latency.h"
 #include "relucent/rig/rig.h"
 
 namespace relucent::devices {

@@ -69,9 +69,9 @@ std::vector<Message> problems(const AdaptiveRangeSettings& settings) {
                                  "the share of pixels out of reach must lie between 0 and 100 percent"));
   if (!(settings.dimmest > 0.0 && settings.dimmest <= 1.0 && settings.brightest >= 1.0 &&
         settings.brightest <= 100.0))
-    found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.brightness-range-invalid",
-                                 "the range of brightness must include 1 (unchanged) and lie above 0 and at most at 100"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "engine.brightness-range-invalid",
+        "the range of brightness must include 1 (unchanged) and lie above 0 and at most at 100"));
   if (!(settings.mostLift >= 0.0 && settings.mostLift < 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
@@ -79,8 +79,8 @@ std::vector<Message> problems(const AdaptiveRangeSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.time-constant-not-positive",
                                              "the time constant must be more than 0 seconds"));
   if (!(settings.cut > 0.0))
-    found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("engine.cut-threshold-not-positive", "the change that counts as a cut must be above 0"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.cut-threshold-not-positive",
+                                             "the change that counts as a cut must be above 0"));
   return found;
 }
 

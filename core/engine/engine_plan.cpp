@@ -14,11 +14,10 @@ namespace {
 void checkFinite(const Stack& values, const char* what) {
   for (float value : values)
     if (!std::isfinite(value))
-      throw Error(
-          ErrorKind::numerics,
-          RELUCENT_ENGLISH_MESSAGE("engine.values-not-finite", "{} holds values that are not finite")
-              .with(what),
-          RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
+      throw Error(ErrorKind::numerics,
+                  RELUCENT_ENGLISH_MESSAGE("engine.values-not-finite", "{} holds values that are not finite")
+                      .with(what),
+                  RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
 
 compensation::Placement placementOf(const EngineVenue& engine, Size content,

@@ -109,20 +109,15 @@ std::map<std::string, ExrAttribute> attributesOf(const Imf::Header& header) {
 void checkKind(const Imf::InputFile& file, const fs::path& path) {
   const Imf::Header& header = file.header();
   if (Imf::isMultiPart(file.version()))
-    failFormat(
-        path,
-        RELUCENT_ENGLISH_MESSAGE("image.exr-several-parts", "the OpenEXR file has several parts"),
-        RELUCENT_ENGLISH_MESSAGE("image.save-part-alone",
-                                 "save the part that you want as a file of its own"));
-  if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
-    failFormat(
-        path,
-        RELUCENT_ENGLISH_MESSAGE("image.exr-deep-data", "the OpenEXR file holds deep data"),
-        RELUCENT_ENGLISH_MESSAGE("image.flatten",
-                                 "flatten it to a plain picture and save it again"));
-  if (!file.isComplete())
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.exr-incomplete", "the OpenEXR file is incomplete"),
+               RELUCENT_ENGLISH_MESSAGE("image.exr-several-parts", "the OpenEXR file has several parts"),
+               RELUCENT_ENGLISH_MESSAGE("image.save-part-alone",
+                                        "save the part that you want as a file of its own"));
+  if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
+    failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.exr-deep-data", "the OpenEXR file holds deep data"),
+               RELUCENT_ENGLISH_MESSAGE("image.flatten", "flatten it to a plain picture and save it again"));
+  if (!file.isComplete())
+    failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.exr-incomplete", "the OpenEXR file is incomplete"),
                RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
                                         "copy it again, or write it again with its program"));
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
@@ -132,7 +127,8 @@ void checkKind(const Imf::InputFile& file, const fs::path& path) {
           RELUCENT_ENGLISH_MESSAGE("image.exr-channel-subsampled",
                                    "channel {} of the OpenEXR file is subsampled (luminance and chroma)")
               .with(channel.name()),
-          RELUCENT_ENGLISH_MESSAGE("image.save-as-full-resolution-rgb", "save it again as R, G, B at full resolution"));
+          RELUCENT_ENGLISH_MESSAGE("image.save-as-full-resolution-rgb",
+                                   "save it again as R, G, B at full resolution"));
 }
 
 ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
@@ -244,16 +240,15 @@ ExrImage readExr(const fs::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory",
-                                         "there is not enough memory to read the picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
-                                         "close other programs, or make the picture smaller"),
-                path.string());
+    throw Error(
+        ErrorKind::memory,
+        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
+        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
+                                 "close other programs, or make the picture smaller"),
+        path.string());
   } catch (const std::exception&) {
     failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.exr-damaged",
-                                        "the OpenEXR file is damaged or cut short"),
+               RELUCENT_ENGLISH_MESSAGE("image.exr-damaged", "the OpenEXR file is damaged or cut short"),
                RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
                                         "copy it again, or write it again with its program"));
   }
@@ -284,12 +279,12 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
   const ExrImage exr = readExr(path);
   const Size size = *exr.displaySize;
   if (expected && size != *expected)
-    throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("image.size-differs",
-                                         "the picture has {} pixels where {} are needed")
-                    .with(as::size(size), as::size(*expected)),
-                RELUCENT_ENGLISH_MESSAGE("image.choose-picture-of-size", "choose a picture of that size"),
-                path.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("image.size-differs", "the picture has {} pixels where {} are needed")
+            .with(as::size(size), as::size(*expected)),
+        RELUCENT_ENGLISH_MESSAGE("image.choose-picture-of-size", "choose a picture of that size"),
+        path.string());
   if (size.count() > largestSampleCount / 3)
     failFormat(
         path,
@@ -307,11 +302,12 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
   if (!rgb && exr.channelNames == std::vector<std::string>{"Y"})
     source = {0, 0, 0};
   else if (!rgb)
-    failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.exr-channels-unsupported", "the OpenEXR file has the channels {}")
-                   .with(joined(exr.channelNames)),
-               RELUCENT_ENGLISH_MESSAGE("image.save-as-rgb-or-y",
-                                        "save it with the channels R, G and B, or with Y alone"));
+    failFormat(
+        path,
+        RELUCENT_ENGLISH_MESSAGE("image.exr-channels-unsupported", "the OpenEXR file has the channels {}")
+            .with(joined(exr.channelNames)),
+        RELUCENT_ENGLISH_MESSAGE("image.save-as-rgb-or-y",
+                                 "save it with the channels R, G and B, or with Y alone"));
 
   // Display coordinates of the data window; only what both windows share is copied.
   const std::int64_t left = std::int64_t{exr.dataOrigin.x} - exr.displayOrigin.x;
@@ -342,8 +338,7 @@ void checkFinite(const Image& image, const fs::path& path) {
       RELUCENT_ENGLISH_MESSAGE("image.values-not-finite",
                                "the picture holds {} NaN and {} infinite values, the first at pixel {}, {}")
           .with(notNumbers, infinities, as::label(place.x), place.y),
-      RELUCENT_ENGLISH_MESSAGE("image.write-finite-values",
-                               "write it again with finite numbers only"),
+      RELUCENT_ENGLISH_MESSAGE("image.write-finite-values", "write it again with finite numbers only"),
       path.string());
 }
 

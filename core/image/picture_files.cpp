@@ -24,10 +24,8 @@ constexpr std::string_view jpegStart{"\xff\xd8", 2};
 
 [[noreturn]] void failShort(const fs::path& path) {
   throw Error(
-      ErrorKind::format,
-      RELUCENT_ENGLISH_MESSAGE("image.damaged", "the picture is damaged or cut short"),
-      RELUCENT_ENGLISH_MESSAGE("image.copy-or-take-again", "copy it again, or take it again"),
-      path.string());
+      ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.damaged", "the picture is damaged or cut short"),
+      RELUCENT_ENGLISH_MESSAGE("image.copy-or-take-again", "copy it again, or take it again"), path.string());
 }
 
 std::uint32_t bigEndian32(std::string_view bytes) {
@@ -89,27 +87,26 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
     picture = cv::imdecode(bytes, flags);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory",
-                                         "there is not enough memory to read the picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
-                                         "close other programs, or make the picture smaller"),
-                path.string());
+    throw Error(
+        ErrorKind::memory,
+        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
+        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
+                                 "close other programs, or make the picture smaller"),
+        path.string());
   } catch (const cv::Exception&) {
     // Sizes beyond OpenCV's limits end here; told below like everything that cannot be decoded.
   }
   if (picture.empty() && looksLikePicture(content))
-    throw Error(
-        ErrorKind::format,
-        RELUCENT_ENGLISH_MESSAGE("image.damaged-or-too-large",
-                                 "the picture is damaged, cut short, or too large"),
-        RELUCENT_ENGLISH_MESSAGE("image.copy-again-or-shrink", "copy it again, or save it smaller"),
-        path.string());
-  if (picture.empty())
-    throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.not-picture", "this is not a picture"),
-                RELUCENT_ENGLISH_MESSAGE("image.choose-supported-format",
-                                         "choose a PNG, TIFF, JPEG or OpenEXR file"),
+    throw Error(ErrorKind::format,
+                RELUCENT_ENGLISH_MESSAGE("image.damaged-or-too-large",
+                                         "the picture is damaged, cut short, or too large"),
+                RELUCENT_ENGLISH_MESSAGE("image.copy-again-or-shrink", "copy it again, or save it smaller"),
                 path.string());
+  if (picture.empty())
+    throw Error(
+        ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.not-picture", "this is not a picture"),
+        RELUCENT_ENGLISH_MESSAGE("image.choose-supported-format", "choose a PNG, TIFF, JPEG or OpenEXR file"),
+        path.string());
   return picture;
 }
 

@@ -264,9 +264,10 @@ class Importing {
                                           "The photographs are grey: what each of the projector's colours "
                                           "contributes is known in brightness only"));
     if (!responseKnown_)
-      result.linearization.findings.push_back(RELUCENT_MESSAGE(
-          "import.patterns-black-and-white",
-          "The patterns hold black and white only: the projector's response is assumed to be a gamma of 2.2"));
+      result.linearization.findings.push_back(
+          RELUCENT_MESSAGE("import.patterns-black-and-white",
+                           "The patterns hold black and white only: the projector's response is assumed to "
+                           "be a gamma of 2.2"));
     result.linearization.findings.push_back(RELUCENT_MESSAGE(
         "import.camera-taken-as-linear",
         "The camera is taken to be linear, and one photograph counts as one second of exposure"));

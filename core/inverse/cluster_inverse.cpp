@@ -12,8 +12,8 @@ namespace relucent::inverse {
 std::vector<Message> problems(const ClusterInverseSettings& settings) {
   std::vector<Message> found;
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-out-of-range",
-                                             "the ridge must lie above 0 and at most 100"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("inverse.ridge-out-of-range", "the ridge must lie above 0 and at most 100"));
   if (!(settings.truncation >= 0.0 && settings.truncation < 1.0))
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("inverse.truncation-out-of-range",

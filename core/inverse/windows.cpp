@@ -15,8 +15,8 @@ std::vector<Message> problems(const WindowSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.window-size-out-of-range",
                                              "a window must have 1 to 1024 camera pixels"));
   if (!(settings.ridge > 0.0 && settings.ridge <= 100.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("inverse.ridge-out-of-range",
-                                             "the ridge must lie above 0 and at most 100"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("inverse.ridge-out-of-range", "the ridge must lie above 0 and at most 100"));
   return found;
 }
 

@@ -245,11 +245,11 @@ rig::ExposureRange commonRange(const rig::Rig& rig) {
     range.longest = std::min(range.longest, camera->exposures().longest);
   }
   if (!(range.shortest > 0.0 && range.shortest <= range.longest))
-    throw Error(ErrorKind::device,
-                RELUCENT_MESSAGE("linearization.no-common-exposure",
-                                 "the cameras have no exposure time in common"),
-                RELUCENT_MESSAGE("linearization.choose-overlapping-exposures",
-                                 "set them to ranges of exposure times that overlap"));
+    throw Error(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("linearization.no-common-exposure", "the cameras have no exposure time in common"),
+        RELUCENT_MESSAGE("linearization.choose-overlapping-exposures",
+                         "set them to ranges of exposure times that overlap"));
   return range;
 }
 

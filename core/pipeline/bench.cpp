@@ -112,9 +112,9 @@ BenchResult benchEngine(engine::BackendChoice backend, Progress& progress) {
   settings.references = false;
   const std::string sizes = sizesOf(settings);
   if (availableMemory() < memoryOfLarge) {
-    result.notes.push_back(RELUCENT_ENGLISH_MESSAGE("bench.skipped-for-memory",
-                                                    "{} was not timed: it takes {} GB of memory")
-                               .with(sizes, as::number(memoryOfLarge / 1e9, as::decimals(0))));
+    result.notes.push_back(
+        RELUCENT_ENGLISH_MESSAGE("bench.skipped-for-memory", "{} was not timed: it takes {} GB of memory")
+            .with(sizes, as::number(memoryOfLarge / 1e9, as::decimals(0))));
     return result;
   }
   Progress large = progress.part(0.6, Message::plain(sizes));
@@ -170,11 +170,9 @@ BenchResult bench(const std::string& name, Progress& progress) {
   if (wanted.empty()) {
     std::string known;
     for (const Case& candidate : cases) known += (known.empty() ? "" : ", ") + candidate.name;
-    throw Error(
-        ErrorKind::usage,
-        RELUCENT_ENGLISH_MESSAGE("bench.unknown", "there is no benchmark named \"{}\"")
-            .with(name),
-        RELUCENT_ENGLISH_MESSAGE("bench.choose-one", "choose one of: {}").with(known));
+    throw Error(ErrorKind::usage,
+                RELUCENT_ENGLISH_MESSAGE("bench.unknown", "there is no benchmark named \"{}\"").with(name),
+                RELUCENT_ENGLISH_MESSAGE("bench.choose-one", "choose one of: {}").with(known));
   }
 
   for (Case* benchmark : wanted) {

@@ -2,7 +2,7 @@
 #include "relucent/pipeline/check.h"
 
 #include "relucent/base/message.h"
-#include "relucent/devices/test_exposure.h"
+#include "relucent/devices/check/test_exposure.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/devices.h"
 

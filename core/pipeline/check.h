@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "relucent/base/progress.h"
-#include "relucent/devices/latency.h"
-#include "relucent/devices/light_check.h"
-#include "relucent/devices/screen_proof.h"
+#include "relucent/devices/check/latency.h"
+#include "relucent/devices/check/light_check.h"
+#include "relucent/devices/check/screen_proof.h"
 #include "relucent/pipeline/rig_settings.h"
 
 namespace relucent::pipeline {
@@ -28,9 +28,9 @@ struct RigCheck {
 std::vector<devices::CheckVerdict> verdictsOf(const RigCheck& check);
 
 /// Opens the first projector and camera, and finds with an exposure at which white is well exposed: whether
-/// the camera sees that projector (devices/screen_proof.h), how long a picture takes from one to the other
-/// (devices/latency.h), and how steady the light is (devices/light_check.h).
-/// Throws: Error{device} if the camera sees another output or none; as openRig() and measureLatency().
+/// the camera sees that projector (devices/check/screen_proof.h), how long a picture takes from one to the
+/// other (devices/check/latency.h), and how steady the light is (devices/check/light_check.h). Throws:
+/// Error{device} if the camera sees another output or none; as openRig() and measureLatency().
 RigCheck checkRig(const CheckSettings& settings, const std::filesystem::path& cache, Progress& progress);
 
 }  // namespace relucent::pipeline

@@ -99,9 +99,9 @@ image::Image reasonNumbers(const std::vector<compensation::Uncorrectable>& map, 
 
 CompensateResult compensate(const fs::path& path, const CompensateSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
 
   calibration::CalibrationFolder folder =

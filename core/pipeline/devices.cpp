@@ -3,10 +3,10 @@
 
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_registry.h"
-#include "relucent/devices/command_camera.h"
-#include "relucent/devices/command_projector.h"
-#include "relucent/devices/latency.h"
-#include "relucent/devices/recording.h"
+#include "relucent/devices/check/latency.h"
+#include "relucent/devices/command/command_camera.h"
+#include "relucent/devices/command/command_projector.h"
+#include "relucent/devices/recording/recording.h"
 #include "relucent/devices/whole_frames.h"
 
 namespace relucent::pipeline {
@@ -73,9 +73,9 @@ struct Opener {
                                            "open it with `relucent`, which has windows"),
                   settings.display.connector);
     if (settings.cameraAddress.empty())
-      throw Error(
-          ErrorKind::input, RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
-          RELUCENT_ENGLISH_MESSAGE("calibration.choose-camera", "choose one in the Camera step"));
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
+                  RELUCENT_ENGLISH_MESSAGE("calibration.choose-camera", "choose one in the Camera step"));
     OpenedRig result;
     auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
     devices::ScreenRig screen = screenRig(screens(settings), std::move(camera),

@@ -44,8 +44,7 @@ image::Image centredOnGrey(const image::Image& difference, double gain) {
 std::vector<Message> problems(const DifferenceSettings& settings) {
   std::vector<Message> found;
   if (settings.first.empty() || settings.second.empty())
-    found.emplace_back(
-        RELUCENT_ENGLISH_MESSAGE("difference.two-pictures-needed", "two pictures are needed"));
+    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("difference.two-pictures-needed", "two pictures are needed"));
   if (settings.out.empty())
     found.emplace_back(
         RELUCENT_ENGLISH_MESSAGE("settings.no-output-file", "no file for the result is given"));
@@ -56,21 +55,21 @@ std::vector<Message> problems(const DifferenceSettings& settings) {
 
 DifferenceResult pictureDifference(const DifferenceSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   const PictureFormat format = pictureFormatOf(settings.out);
   image::Image first = readLinear(settings.first);
   progress.report(0.3);
   image::Image second = readLinear(settings.second);
   progress.report(0.6);
   if (first.size() != second.size())
-    throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("difference.sizes-differ",
-                                         "pictures of {} and {} pixels cannot be compared")
-                    .with(as::size(first.width(), first.height()), as::size(second.width(), second.height())),
-                RELUCENT_ENGLISH_MESSAGE("difference.choose-pictures-of-one-camera",
-                                         "choose two pictures of one camera"));
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("difference.sizes-differ", "pictures of {} and {} pixels cannot be compared")
+            .with(as::size(first.width(), first.height()), as::size(second.width(), second.height())),
+        RELUCENT_ENGLISH_MESSAGE("difference.choose-pictures-of-one-camera",
+                                 "choose two pictures of one camera"));
 
   DifferenceResult result;
   image::Image difference = first;

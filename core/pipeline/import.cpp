@@ -10,7 +10,7 @@
 #include "relucent/base/stopwatch.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_fingerprint.h"
-#include "relucent/devices/raw_photograph.h"
+#include "relucent/devices/raw/raw_photograph.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
@@ -51,8 +51,7 @@ std::vector<fs::path> picturesIn(const fs::path& folder, const char* what, bool 
   if (pictures.empty())
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("import.folder-without-pictures",
-                                 "the folder of the {} holds no pictures")
+        RELUCENT_ENGLISH_MESSAGE("import.folder-without-pictures", "the folder of the {} holds no pictures")
             .with(what),
         RELUCENT_ENGLISH_MESSAGE("import.name-picture-folder",
                                  "name the folder with the PNG, TIFF, JPEG, EXR or raw files themselves"),
@@ -105,14 +104,14 @@ importing::PictureSequence readSequence(const std::vector<fs::path>& paths, bool
       image = image::srgbDecoded(image);
     if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
     if (image.size() != sequence.size())
-      throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("import.picture-size-differs",
-                                           "the picture has {} pixels, but {} has {}")
-                      .with(as::size(image.width(), image.height()), paths.front().filename().string(),
-                            as::size(sequence.size())),
-                  RELUCENT_ENGLISH_MESSAGE("import.take-out-foreign-pictures",
-                                           "take out pictures that do not belong there"),
-                  paths[k].string());
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("import.picture-size-differs", "the picture has {} pixels, but {} has {}")
+              .with(as::size(image.width(), image.height()), paths.front().filename().string(),
+                    as::size(sequence.size())),
+          RELUCENT_ENGLISH_MESSAGE("import.take-out-foreign-pictures",
+                                   "take out pictures that do not belong there"),
+          paths[k].string());
     sequence.set(static_cast<int>(k), image);
     fingerprint.add(image.data());
     progress.report(static_cast<double>(k + 1) / static_cast<double>(paths.size()));
@@ -126,8 +125,7 @@ void checkFolderIsFree(const fs::path& folder) {
   if (!fs::exists(folder, code)) return;
   if (!fs::is_directory(folder, code) || fs::directory_iterator(folder, code) != fs::directory_iterator())
     throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("disk.name-taken",
-                                         "there is something of this name already"),
+                RELUCENT_ENGLISH_MESSAGE("disk.name-taken", "there is something of this name already"),
                 RELUCENT_ENGLISH_MESSAGE("calibration.choose-empty-folder",
                                          "choose a new or an empty folder for the calibration"),
                 folder.string());
@@ -234,9 +232,9 @@ ImportResult resultOf(const importing::Import& import, const ImportedRigSettings
 ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
                             Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   checkFolderIsFree(path);
   Stopwatch watch;
   ImportResult result;

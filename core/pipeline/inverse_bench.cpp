@@ -22,7 +22,8 @@ double secondsOf(const Work& work) {
 void timeInversions(const compensation::MeasuredVenue& venue, VenueInversion& result, Progress& progress) {
   const compensation::CompensatorSettings standard;
   result.windowSeconds = secondsOf([&] {
-    Progress part = progress.part(0.4, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
+    Progress part =
+        progress.part(0.4, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
     result.ridge = chooseRidge(venue, inverse::WindowSettings{}, part).ridge;
   });
   clustering::Clustering capped;

@@ -23,8 +23,7 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
     throw Error(
         ErrorKind::input,
         RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first",
-                                 "finish it first: relucent-cli resume {}")
+        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
             .with(folder.path().string()),
         folder.path().string());
   MeasuredCalibration measured;

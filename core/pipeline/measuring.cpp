@@ -33,9 +33,9 @@ fs::path unusedFolder(const fs::path& parent) {
 
 calibration::CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   return createCalibration(path, settings);
 }
 

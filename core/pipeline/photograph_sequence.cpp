@@ -102,11 +102,12 @@ CountProblem countProblem(const std::vector<TakenPhotograph>& photographs, std::
                                               "take out the photographs that show no pattern");
   if (names.empty()) return problem;
   const std::string suspected = fmt::to_string(fmt::join(names, ", "));
-  problem.what = isMissing
-                     ? RELUCENT_ENGLISH_MESSAGE("import.missing-after", "{}, judging by the camera's clock after {}")
-                           .with(problem.what, suspected)
-                     : RELUCENT_ENGLISH_MESSAGE("import.too-many-suspected", "{}, judging by the camera's clock these: {}")
-                           .with(problem.what, suspected);
+  problem.what = isMissing ? RELUCENT_ENGLISH_MESSAGE("import.missing-after",
+                                                      "{}, judging by the camera's clock after {}")
+                                 .with(problem.what, suspected)
+                           : RELUCENT_ENGLISH_MESSAGE("import.too-many-suspected",
+                                                      "{}, judging by the camera's clock these: {}")
+                                 .with(problem.what, suspected);
   return problem;
 }
 

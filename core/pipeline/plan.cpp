@@ -55,12 +55,10 @@ void checkHoldsNoPlan(const fs::path& out) {
   std::error_code code;
   if (fs::exists(out, code) &&
       (!fs::is_directory(out, code) || fs::directory_iterator(out, code) != fs::directory_iterator()))
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("disk.name-taken",
-                                 "there is something of this name already"),
-        RELUCENT_ENGLISH_MESSAGE("disk.choose-empty-folder", "choose a new or an empty folder"),
-        out.string());
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("disk.name-taken", "there is something of this name already"),
+                RELUCENT_ENGLISH_MESSAGE("disk.choose-empty-folder", "choose a new or an empty folder"),
+                out.string());
 }
 
 }  // namespace
@@ -68,9 +66,9 @@ void checkHoldsNoPlan(const fs::path& out) {
 WrittenFiles exportPlan(const importing::PatternPlanSettings& settings, const fs::path& out,
                         Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   checkHoldsNoPlan(out);
   createFolder(out);
   std::vector<importing::PlannedPattern> plan = importing::planPatterns(settings);

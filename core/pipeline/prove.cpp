@@ -11,8 +11,8 @@
 #include "relucent/compensation/methods.h"
 #include "relucent/compensation/prediction.h"
 #include "relucent/image/colour.h"
-#include "relucent/image/exr.h"
 #include "relucent/image/colour_map.h"
+#include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/photography/photographer.h"
 #include "relucent/pipeline/devices.h"
@@ -165,9 +165,9 @@ std::vector<fs::path> writePictures(const fs::path& out, const compensation::Tar
 ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSource source,
                    Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);

@@ -25,7 +25,8 @@ struct CommandRigSettings {
   /// camera's command and exposures.
   std::string cameraAddress{};
   double latency = 0.0;  // seconds from the end of the projector's command until its picture is out
-  std::string record{};  // folder for all that is shown and photographed (devices/recording.h); empty: none
+  std::string
+      record{};  // folder for all that is shown and photographed (devices/recording/recording.h); empty: none
   /// Pictures a second of the projector: exposures become whole pictures (devices/whole_frames.h). 0: as they
   /// are asked for.
   double frameRate = 0.0;
@@ -51,7 +52,7 @@ struct ScreenRigSettings {
   double latency = 0.0;  // seconds from the swap until the picture is out; 0: measured at the step Camera
 };
 
-/// A recording in place of devices (devices/recording.h).
+/// A recording in place of devices (devices/recording/recording.h).
 struct ReplayRigSettings {
   std::string folder;
 };

@@ -37,16 +37,16 @@ void writePair(const fs::path& folder, std::size_t camera, const image::Image& d
 std::vector<Message> problems(const SeparateSettings& settings) {
   std::vector<Message> found = problems(settings.direct);
   if (settings.out.empty())
-    found.emplace_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
-                                                "no folder for the results is given"));
+    found.emplace_back(
+        RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder", "no folder for the results is given"));
   return found;
 }
 
 SeparateResult separate(const fs::path& path, const SeparateSettings& settings, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   std::optional<image::Image> content;
   if (!settings.image.empty()) content = image::readLinearContent(settings.image);
   calibration::CalibrationFolder folder =

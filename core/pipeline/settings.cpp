@@ -56,7 +56,8 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
     if (!command.empty() && command.find(placeholder) == std::string::npos)
       problems.push_back(
           device == DeviceKind::projector
-              ? RELUCENT_MESSAGE("device.projector-command-lacks", "the projector's command does not contain {}")
+              ? RELUCENT_MESSAGE("device.projector-command-lacks",
+                                 "the projector's command does not contain {}")
                     .with(placeholder)
               : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not contain {}")
                     .with(placeholder));
@@ -64,8 +65,9 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
 
 void checkAddress(Problems& problems, const std::string& camera) {
   if (!devices::cameraRegistry().addressFrom(camera))
-    problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
-                           .with(camera, devices::cameraRegistry().addressForms()));
+    problems.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
+            .with(camera, devices::cameraRegistry().addressForms()));
 }
 
 template <typename Settings>
@@ -74,8 +76,9 @@ void checkTimes(Problems& problems, const Settings& settings) {
     problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.latency-out-of-range",
                                                 "a projector's latency is between 0 and 10 seconds"));
   if (!(settings.frameRate >= 0.0 && settings.frameRate <= 1000.0))
-    problems.push_back(RELUCENT_ENGLISH_MESSAGE("device.frame-rate-out-of-range",
-                                                "a projector's frame rate is between 0 and 1000 pictures a second"));
+    problems.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.frame-rate-out-of-range",
+                                 "a projector's frame rate is between 0 and 1000 pictures a second"));
   if (!(settings.shortestExposure > 0.0) || !(settings.longestExposure >= settings.shortestExposure))
     problems.push_back(
         RELUCENT_MESSAGE("device.exposure-range-invalid",
@@ -162,11 +165,10 @@ std::vector<Message> problems(const VerifySettings& settings) {
 Problems problems(const ImportPicturesSettings& settings) {
   Problems found;
   if (settings.patterns.empty())
-    found.push_back(
-        RELUCENT_ENGLISH_MESSAGE("import.no-pattern-folder", "no folder of patterns is given"));
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.no-pattern-folder", "no folder of patterns is given"));
   if (settings.photographs.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("import.no-photograph-folder",
-                                             "no folder of photographs is given"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("import.no-photograph-folder", "no folder of photographs is given"));
   append(found, problems(settings.import));
   return found;
 }
@@ -176,8 +178,8 @@ Problems problems(const CompensateSettings& settings) {
   if (settings.image.empty())
     found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-image", "no image is given"));
   if (settings.out.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
-                                             "no folder for the results is given"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder", "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
 }
@@ -187,8 +189,8 @@ Problems problems(const ProveSettings& settings) {
   if (settings.image.empty())
     found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-image", "no image is given"));
   if (settings.out.empty())
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder",
-                                             "no folder for the results is given"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder", "no folder for the results is given"));
   checkTarget(found, settings.target);
   return found;
 }

@@ -67,8 +67,7 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
   settings.rig = rig;
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry",
-                                         "change that setting and try again"));
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry", "change that setting and try again"));
   if (calibration::Json asked = folder.settings(); asked.contains(movedScreen)) {
     asked.erase(movedScreen);
     folder.setSettings(std::move(asked));

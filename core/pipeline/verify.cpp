@@ -32,9 +32,9 @@ std::vector<fs::path> writeMaps(const fs::path& folder, const acquisition::Rever
 VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigSource source,
                       Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
-    throw Error(ErrorKind::input, found.front(),
-                RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again",
-                                         "change that setting and start again"));
+    throw Error(
+        ErrorKind::input, found.front(),
+        RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   CalibrateSettings calibrated = settingsOf(folder);
@@ -44,8 +44,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
     throw Error(
         ErrorKind::input,
         RELUCENT_ENGLISH_MESSAGE("calibration.not-finished", "the calibration is not finished"),
-        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first",
-                                 "finish it first: relucent-cli resume {}")
+        RELUCENT_ENGLISH_MESSAGE("calibration.resume-first", "finish it first: relucent-cli resume {}")
             .with(path.string()),
         path.string());
   linearization::Linearization linearization = calibration::loadLinearization(*linearized);

@@ -106,8 +106,7 @@ class TransportFile {
 
   static BlockSparse read(const NpzReader& reader) {
     if (reader.text("format") != "bsr")
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.not-bsr",
-                                           "holds a matrix in another form than BSR"));
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.not-bsr", "holds a matrix in another form than BSR"));
     BlockSparse blocks;
     readShape(reader, blocks);
     readIndices(reader, blocks);
@@ -263,11 +262,10 @@ auto withinMemory(const std::filesystem::path& path, const Load& load) {
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw Error(ErrorKind::memory,
-              RELUCENT_ENGLISH_MESSAGE("transport.not-enough-memory",
-                                       "the file needs more memory than there is"),
-              RELUCENT_MESSAGE("device.close-other-programs", "close other programs and try again"),
-              path.string());
+  throw Error(
+      ErrorKind::memory,
+      RELUCENT_ENGLISH_MESSAGE("transport.not-enough-memory", "the file needs more memory than there is"),
+      RELUCENT_MESSAGE("device.close-other-programs", "close other programs and try again"), path.string());
 }
 
 }  // namespace

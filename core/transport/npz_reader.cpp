@@ -68,8 +68,7 @@ NpzReader::~NpzReader() {
 
 void NpzReader::fail(const Message& what) const {
   throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("transport.wrong-file", "the file {}").with(what),
-              RELUCENT_ENGLISH_MESSAGE("transport.save-or-copy-again",
-                                       "save it again or take another copy"),
+              RELUCENT_ENGLISH_MESSAGE("transport.save-or-copy-again", "save it again or take another copy"),
               path_.string());
 }
 
@@ -163,8 +162,7 @@ std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {
 std::vector<float> NpzReader::floats(const std::string& name) const {
   NpyHeader kind = header(name);
   if (kind.type != "<f4")
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-float",
-                                  "has an array '{}' of type {} instead of <f4")
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-float", "has an array '{}' of type {} instead of <f4")
              .with(name, kind.type));
   std::vector<float> values;
   read(name, [&](std::uint64_t begin, std::uint64_t count, const char* items) {
@@ -177,7 +175,8 @@ std::vector<float> NpzReader::floats(const std::string& name) const {
 std::string NpzReader::text(const std::string& name) const {
   NpyHeader kind = header(name);
   if (!kind.type.starts_with("|S") || kind.count() != 1)
-    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-text", "has an array '{}' that is not text").with(name));
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.array-not-text", "has an array '{}' that is not text")
+             .with(name));
   std::string text;
   read(name, [&](std::uint64_t, std::uint64_t, const char* items) { text.assign(items, kind.itemBytes()); });
   return text;

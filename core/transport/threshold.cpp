@@ -66,8 +66,8 @@ void requireValid(const ThresholdSettings& settings) {
 std::vector<Message> problems(const ThresholdSettings& settings) {
   std::vector<Message> found;
   if (!(settings.absolute >= 0.0f))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("transport.threshold-negative",
-                                             "the threshold must not be negative"));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("transport.threshold-negative", "the threshold must not be negative"));
   if (!(settings.shareOfRowMax >= 0.0f && settings.shareOfRowMax <= 1.0f))
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("transport.row-share-out-of-range",

@@ -34,10 +34,10 @@ template <typename Element>
 Element* newBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t count) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), count);
   if (!buffer)
-    throw Error(ErrorKind::memory,
-                RELUCENT_ENGLISH_MESSAGE("venue.not-enough-memory",
-                                         "not enough memory for the simulated venue"),
-                RELUCENT_ENGLISH_MESSAGE("venue.close-other-programs", "close other programs"));
+    throw Error(
+        ErrorKind::memory,
+        RELUCENT_ENGLISH_MESSAGE("venue.not-enough-memory", "not enough memory for the simulated venue"),
+        RELUCENT_ENGLISH_MESSAGE("venue.close-other-programs", "close other programs"));
   return static_cast<Element*>(buffer);
 }
 

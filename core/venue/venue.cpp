@@ -75,10 +75,9 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
                                           Progress& progress) {
   std::vector<Message> found = problems(settings);
   if (!found.empty())
-    throw Error(
-        ErrorKind::input, found.front(),
-        RELUCENT_ENGLISH_MESSAGE("venue.change-setting", "change the setting, then try again"),
-        "simulated venue");
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("venue.change-setting", "change the setting, then try again"),
+                "simulated venue");
   Scene scene = buildScene(settings);
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
   transport::NodeLayout layout{Rasters(sizes)};
@@ -94,9 +93,9 @@ std::vector<Message> problems(const VenueSettings& settings) {
   if (std::none_of(venues().begin(), venues().end(), named)) {
     std::string names;
     for (const VenueDescription& venue : venues()) names += (names.empty() ? "" : ", ") + venue.name;
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("venue.unknown",
-                                             "there is no simulated venue \"{}\"; there are {}")
-                        .with(settings.name, names));
+    found.push_back(
+        RELUCENT_ENGLISH_MESSAGE("venue.unknown", "there is no simulated venue \"{}\"; there are {}")
+            .with(settings.name, names));
   }
   checkSize("projector", settings.projector, found);
   checkSize("camera", settings.camera, found);

@@ -19,8 +19,7 @@ double checkedRate(double rate) {
   if (rate > 0.0 && rate <= 240.0) return rate;
   throw Error(
       ErrorKind::input,
-      RELUCENT_ENGLISH_MESSAGE("content.frame-rate-out-of-range",
-                               "{} pictures a second cannot be played")
+      RELUCENT_ENGLISH_MESSAGE("content.frame-rate-out-of-range", "{} pictures a second cannot be played")
           .with(rate),
       RELUCENT_ENGLISH_MESSAGE("content.choose-rate-in-range", "choose a rate above 0 and at most 240"));
 }

@@ -67,9 +67,9 @@ LiveCamera::LiveCamera(const QString& which, const Canvas& canvas) : canvas_(can
   if (!session_->frames.waitForFirst(patience)) {
     QString reason = session_->frames.failure();
     throw Error(ErrorKind::device,
-                reason.isEmpty() ? RELUCENT_MESSAGE("content.nothing-captured",
-                                                    "the capture device gives no picture")
-                                 : Message::plain(reason.toStdString()),
+                reason.isEmpty()
+                    ? RELUCENT_MESSAGE("content.nothing-captured", "the capture device gives no picture")
+                    : Message::plain(reason.toStdString()),
                 RELUCENT_MESSAGE("content.connect-capture-device",
                                  "plug it in, close other programs that use it, and try again"));
   }

@@ -26,11 +26,10 @@ auto startedInBackground(Work work) {
     } catch (const Error& error) {
       return error;
     } catch (const std::bad_alloc&) {
-      return Error(
-          ErrorKind::memory,
-          RELUCENT_ENGLISH_MESSAGE("content.not-enough-memory", "not enough memory to open this"),
-          RELUCENT_ENGLISH_MESSAGE("content.free-memory-or-shrink-pictures",
-                                   "close other programs or play smaller pictures"));
+      return Error(ErrorKind::memory,
+                   RELUCENT_ENGLISH_MESSAGE("content.not-enough-memory", "not enough memory to open this"),
+                   RELUCENT_ENGLISH_MESSAGE("content.free-memory-or-shrink-pictures",
+                                            "close other programs or play smaller pictures"));
     }
   });
 }

@@ -41,9 +41,10 @@ std::vector<Message> problems(const PlaylistSettings& settings) {
       found.push_back(
           RELUCENT_ENGLISH_MESSAGE("content.item-without-file", "an item of the playlist names no file"));
     if (!(item.seconds > 0.0 && item.seconds <= 86400.0))
-      found.push_back(RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
-                                               "{}: a picture is shown for more than 0 seconds and at most a day")
-                          .with(item.path.toStdString()));
+      found.push_back(
+          RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
+                                   "{}: a picture is shown for more than 0 seconds and at most a day")
+              .with(item.path.toStdString()));
     if (!(item.picturesPerSecond > 0.0 && item.picturesPerSecond <= 240.0))
       found.push_back(RELUCENT_ENGLISH_MESSAGE("content.film-too-fast",
                                                "{}: a film has more than 0 and at most 240 pictures a second")
@@ -57,10 +58,11 @@ PlaylistSettings readPlaylist(const QString& file) {
   QJsonParseError error;
   QJsonDocument document = QJsonDocument::fromJson(QByteArray::fromStdString(text), &error);
   if (!document.isObject() || !document.object()["items"].isArray())
-    refuse(file, error.error == QJsonParseError::NoError
-                     ? RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist", "this is not a playlist")
-                     : RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist-because", "this is not a playlist ({})")
-                           .with(error.errorString().toStdString()));
+    refuse(file,
+           error.error == QJsonParseError::NoError
+               ? RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist", "this is not a playlist")
+               : RELUCENT_ENGLISH_MESSAGE("content.not-a-playlist-because", "this is not a playlist ({})")
+                     .with(error.errorString().toStdString()));
   QJsonObject object = document.object();
   if (int written = object["version"].toInt(version); written > version)
     refuse(file, RELUCENT_ENGLISH_MESSAGE("content.playlist-of-newer-version",

@@ -33,12 +33,11 @@ Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
   chooseMediaBackend();
   playback_ = std::make_unique<Playback>(file);
   if (!playback_->frames.waitForFirst(patience))
-    throw Error(
-        ErrorKind::format,
-        RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
-            .with(playback_->frames.failure().toStdString()),
-        RELUCENT_ENGLISH_MESSAGE("content.convert-to-mp4", "convert it to H.264 in an MP4 file"),
-        file.toStdString());
+    throw Error(ErrorKind::format,
+                RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
+                    .with(playback_->frames.failure().toStdString()),
+                RELUCENT_ENGLISH_MESSAGE("content.convert-to-mp4", "convert it to H.264 in an MP4 file"),
+                file.toStdString());
   playback_->follower.with([this](VideoFollower& follower) { length_ = follower.length(); });
   show(playback_->frames.newest());  // what cannot be shown is refused now
 }

@@ -185,8 +185,7 @@ void writeReportPdf(const QString& html, const QString& file) {
     document.print(&writer);
   });
   if (QFile(file).size() == 0)
-    throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("report.cannot-write", "the report cannot be written"),
+    throw Error(ErrorKind::disk, RELUCENT_MESSAGE("report.cannot-write", "the report cannot be written"),
                 RELUCENT_MESSAGE("report.free-some-space", "free some space"), file.toStdString());
 }
 

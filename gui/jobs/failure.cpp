@@ -4,7 +4,7 @@
 #include <QCoreApplication>
 #include <new>
 
-#include "relucent/devices/screen_proof.h"
+#include "relucent/devices/check/screen_proof.h"
 #include "text/message_text.h"
 
 namespace relucent::gui {

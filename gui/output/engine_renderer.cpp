@@ -109,9 +109,9 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   }
   engine::FrameReport report;
   if (!backend_->render(frame, wanted, words_, report))
-    throw Error(ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its graphics card"),
-                RELUCENT_MESSAGE("show.start-show-again", "start the show again"),
-                std::string(backend_->name()));
+    throw Error(
+        ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its graphics card"),
+        RELUCENT_MESSAGE("show.start-show-again", "start the show again"), std::string(backend_->name()));
   if (request.compensated && !request.thorough) budget_->add(report);
 
   RenderedFrame rendered;

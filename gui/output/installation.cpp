@@ -87,10 +87,11 @@ bool removed(const QString& name) {
   std::error_code error;
   bool there = fs::remove(name.toStdString(), error);
   if (error)
-    throw Error(ErrorKind::disk,
-                RELUCENT_MESSAGE("show.cannot-remove-entry", "it cannot be removed ({})").with(error.message()),
-                RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
-                name.toStdString());
+    throw Error(
+        ErrorKind::disk,
+        RELUCENT_MESSAGE("show.cannot-remove-entry", "it cannot be removed ({})").with(error.message()),
+        RELUCENT_MESSAGE("show.check-folder-permissions", "check the folder's permissions"),
+        name.toStdString());
   return there;
 }
 

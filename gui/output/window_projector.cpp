@@ -249,12 +249,13 @@ void WindowProjector::waitFor(Done done) {
                            "set its resolution back in the desktop's settings, then try again"),
           name_);
     if (lasts(asleep, shared_->asleep, longestSleep * waking_.count()))
-      throw Error(ErrorKind::device,
-                  RELUCENT_MESSAGE("show.screen-asleep",
-                                   "the projector's screen is asleep and does not wake"),
-                  RELUCENT_MESSAGE("show.switch-off-power-saving",
-                                   "switch off its power saving and the screen saver in the desktop's settings, then try again"),
-                  name_);
+      throw Error(
+          ErrorKind::device,
+          RELUCENT_MESSAGE("show.screen-asleep", "the projector's screen is asleep and does not wake"),
+          RELUCENT_MESSAGE(
+              "show.switch-off-power-saving",
+              "switch off its power saving and the screen saver in the desktop's settings, then try again"),
+          name_);
     shared_->told.wait(&shared_->guard, patience);
   }
 }

@@ -26,11 +26,10 @@ void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
   if (path.endsWith(".exr", Qt::CaseInsensitive)) {
     image::Image numbers = values.values ? values.values() : image::Image();
     if (numbers.empty())
-      throw Error(
-          ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("view.no-numbers-yet", "there are no numbers to save yet"),
-          RELUCENT_ENGLISH_MESSAGE("view.wait-until-complete", "wait until the view is complete"),
-          file.string());
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("view.no-numbers-yet", "there are no numbers to save yet"),
+                  RELUCENT_ENGLISH_MESSAGE("view.wait-until-complete", "wait until the view is complete"),
+                  file.string());
     std::map<std::string, image::ExrAttribute> attributes{{image::exr_attribute::units, values.units}};
     return image::writeExr(file, numbers, image::ExrType::floatType, std::move(attributes));
   }

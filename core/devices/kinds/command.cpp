@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_kind.h"
-#include "relucent/devices/command_camera.h"
+#include "relucent/devices/command/command_camera.h"
 
 namespace relucent::devices {
 namespace {

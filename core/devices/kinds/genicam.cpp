@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/base/message.h"
 #include "relucent/devices/camera_kind.h"
-#include "relucent/devices/genicam_driver.h"
+#include "relucent/devices/genicam/genicam_driver.h"
 
 namespace relucent::devices {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/devices/camera_kind.h"
-#include "relucent/devices/video_driver.h"
+#include "relucent/devices/video/video_driver.h"
 
 namespace relucent::devices {
 namespace fs = std::filesystem;

@@ -236,7 +236,8 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   Progress preparing = progress.part(0.5, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
   const compensation::MeasuredVenue venue = venueOf(settings);
   preparing.report(0.3);
-  Progress computing = preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
+  Progress computing =
+      preparing.part(0.6, RELUCENT_MESSAGE("stage.windows", "Computing the windows of the inverse"));
   const inverse::WindowInverse inverse =
       inverse::computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;

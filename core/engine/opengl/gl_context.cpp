@@ -37,13 +37,12 @@ GlContext::GlContext(Device wanted) {
   context_ = platform::HeadlessGl::open({leastVersion, wanted == Device::any},
                                         [&] { return accepts(wanted, found); });
   if (!context_)
-    throw Error(
-        ErrorKind::device,
-        wanted == Device::graphics
-            ? RELUCENT_MESSAGE("engine.no-graphics-card",
-                               "there is no graphics card with OpenGL 4.3 and compute shaders")
-            : RELUCENT_MESSAGE("engine.no-opengl", "there is no OpenGL 4.3 with compute shaders"),
-        advice, found.empty() ? "" : "found only" + found);
+    throw Error(ErrorKind::device,
+                wanted == Device::graphics
+                    ? RELUCENT_MESSAGE("engine.no-graphics-card",
+                                       "there is no graphics card with OpenGL 4.3 and compute shaders")
+                    : RELUCENT_MESSAGE("engine.no-opengl", "there is no OpenGL 4.3 with compute shaders"),
+                advice, found.empty() ? "" : "found only" + found);
 }
 
 /// Whether the context that is current may become this one. `found`: names of those that did not.

@@ -7,7 +7,7 @@
 #include "output/window_projector.h"
 #include "relucent/base/error.h"
 #include "relucent/calibration/results.h"
-#include "relucent/devices/test_exposure.h"
+#include "relucent/devices/check/test_exposure.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/rig/watched_rig.h"

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "relucent/base/error.h"
-#include "relucent/devices/gphoto_driver.h"
+#include "relucent/devices/gphoto/gphoto_driver.h"
 #include "relucent/devices/shutter_speed.h"
 
 namespace relucent::test {

@@ -3,7 +3,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_registry.h"
-#include "relucent/devices/video_driver.h"
+#include "relucent/devices/video/video_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;

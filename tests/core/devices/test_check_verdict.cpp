@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/base/message.h"
-#include "relucent/devices/check_verdict.h"
+#include "relucent/devices/check/check_verdict.h"
 
 #include <QtTest>
 #include <set>

@@ -8,7 +8,7 @@
 
 #include "relucent/base/file.h"
 #include "relucent/devices/driven_camera.h"
-#include "relucent/devices/genicam_driver.h"
+#include "relucent/devices/genicam/genicam_driver.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/measured_venue.h"

@@ -9,7 +9,7 @@
 #include "relucent/base/random.h"
 #include "relucent/devices/camera_registry.h"
 #include "relucent/devices/driven_camera.h"
-#include "relucent/devices/genicam_driver.h"
+#include "relucent/devices/genicam/genicam_driver.h"
 #include "support/fake_gige_camera.h"
 #include "support/own_network.h"
 #include "support/sentences.h"

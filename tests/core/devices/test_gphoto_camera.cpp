@@ -4,8 +4,8 @@
 
 #include "core/devices/scripted_gphoto.h"
 #include "relucent/base/message.h"
-#include "relucent/devices/gphoto_failure.h"
-#include "relucent/devices/gphoto_setup.h"
+#include "relucent/devices/gphoto/gphoto_failure.h"
+#include "relucent/devices/gphoto/gphoto_setup.h"
 #include "relucent/devices/listed_camera.h"
 #include "support/sentences.h"
 

@@ -4,7 +4,7 @@
 #include <clocale>
 
 #include "relucent/base/error.h"
-#include "relucent/devices/gphoto_driver.h"
+#include "relucent/devices/gphoto/gphoto_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;

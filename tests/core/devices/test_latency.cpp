@@ -4,7 +4,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
-#include "relucent/devices/latency.h"
+#include "relucent/devices/check/latency.h"
 #include "support/sentences.h"
 #include "support/stopped.h"
 

@@ -4,7 +4,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
-#include "relucent/devices/light_check.h"
+#include "relucent/devices/check/light_check.h"
 #include "support/sentences.h"
 #include "support/stopped.h"
 

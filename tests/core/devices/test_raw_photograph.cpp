@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "relucent/base/random.h"
-#include "relucent/devices/raw_photograph.h"
+#include "relucent/devices/raw/raw_photograph.h"
 #include "support/dng.h"
 #include "support/sentences.h"
 

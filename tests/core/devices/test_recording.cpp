@@ -6,7 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/devices/recording.h"
+#include "relucent/devices/recording/recording.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/measuring.h"

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "relucent/base/error.h"
-#include "relucent/devices/screen_proof.h"
+#include "relucent/devices/check/screen_proof.h"
 #include "support/scripted_rig.h"
 #include "support/sentences.h"
 #include "support/stopped.h"

@@ -8,7 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/devices/shell_command.h"
+#include "relucent/devices/command/shell_command.h"
 #include "support/sentences.h"
 
 using namespace relucent;

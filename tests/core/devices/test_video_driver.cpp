@@ -8,7 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/devices/driven_camera.h"
-#include "relucent/devices/video_driver.h"
+#include "relucent/devices/video/video_driver.h"
 #include "support/sentences.h"
 
 using namespace relucent;

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "relucent/base/error.h"
-#include "relucent/devices/raw_photograph.h"
+#include "relucent/devices/raw/raw_photograph.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"

@@ -11,7 +11,7 @@
 #include "gui/app/translation_file.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/devices/check_verdict.h"
+#include "relucent/devices/check/check_verdict.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 

@@ -8,7 +8,7 @@
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
 #include "relucent/base/error.h"
-#include "relucent/devices/screen_proof.h"
+#include "relucent/devices/check/screen_proof.h"
 
 using namespace relucent;
 using namespace relucent::devices;

@@ -3,7 +3,7 @@
 #include <QtTest>
 
 #include "relucent/base/message.h"
-#include "relucent/devices/check_verdict.h"
+#include "relucent/devices/check/check_verdict.h"
 #include "text/message_text.h"
 
 using namespace relucent;

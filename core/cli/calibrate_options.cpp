@@ -109,6 +109,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   simulate("--paths", places->venue.pathsPerPixel, "Light paths traced for each camera pixel");
   simulate("--projector-bits", devices.projectorBits, "Bits of the projector's drive values");
   simulate("--camera-bits", devices.cameraBits, "Bits of the camera");
+  simulate("--full-well", devices.fullWell, "Electrons of the camera at full scale");
   simulate("--contrast", devices.contrast, "White of the projector divided by its black");
   simulate("--ambient", devices.ambient, "Room light, as a share of the mean flood image");
   simulate("--drift", devices.drift, "Relative change of the lamp over 1000 photographs");

@@ -32,6 +32,8 @@ constexpr int fewestPatterns = 8, mostPatterns = 64;
 // that a prediction has to lose for more of them to be worth while.
 constexpr int predictedPatterns = 8, mostFinest = 96;
 constexpr double worthMore = 0.04;
+// As long as leaves are to be divided, few of them need colours of their own.
+constexpr int fewDetails = 4;
 // Thresholds of dim pixels are raised by at most this.
 constexpr float mostDimming = 10.0f;
 // Rows that are solved one after the other with the same memory, and that wait to be written.
@@ -89,6 +91,7 @@ class Measurement {
                                     RELUCENT_MESSAGE("stage.dense-patterns", "patterns in blocks of {} px")
                                         .with(as::label(1 << level)));
       if (auto interrupted = photograph(level, patterns, part)) return interrupted;
+      model_.details = level > 0 ? fewDetails : multiplexing::RowSettings().details;
       if (level == 0) return refine(part);
       solve();
       solve();
@@ -181,7 +184,6 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     before = error;
   }
   multiplexing::divide(rows_, references_.cameras, means_.layout(), 0, thresholds_, {});
-  solve();
   return std::nullopt;
 }
 

@@ -34,7 +34,7 @@ struct RowSettings {
   float nearColours = 0.12f;  // relative deviation of a near leaf's nine values from the row's mixing
   float farColours = 0.35f;   // of a far one's
   float anyColour = 0.02f;    // added to the mixing where that deviation is relative to it
-  int details = 12;  // leaves whose nine values are unknowns of their own; for the others they are noise
+  int details = 8;  // leaves whose nine values are unknowns of their own; for the others they are noise
   float leastExcess = 0.002f;  // standard deviation of what the model lacks, at least ...
   float mostExcess = 0.05f;    // ... and at most
   float faintest = 8e-4f;      // spread that every leaf keeps

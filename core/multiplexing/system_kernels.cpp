@@ -19,8 +19,12 @@ RELUCENT_KERNEL void load(Lanes& to, const float* from) {
 }
 
 RELUCENT_KERNEL float sumOf(const Lanes& values) {
-  return ((values[0] + values[4]) + (values[2] + values[6])) +
-         ((values[1] + values[5]) + (values[3] + values[7]));
+  using Half [[gnu::vector_size(2 * lanes)]] = float;
+  using Quarter [[gnu::vector_size(lanes)]] = float;
+  Half half = __builtin_shufflevector(values, values, 0, 1, 2, 3) +
+              __builtin_shufflevector(values, values, 4, 5, 6, 7);
+  Quarter quarter = __builtin_shufflevector(half, half, 0, 1) + __builtin_shufflevector(half, half, 2, 3);
+  return quarter[0] + quarter[1];
 }
 
 /// The products of up to `across` columns with up to `down` others.
@@ -29,15 +33,21 @@ RELUCENT_KERNEL void tile(const float* rows, const float* columns, std::size_t l
                           std::size_t stride) {
   Lanes sums[down][across] = {};
   for (std::size_t n = 0; n < length; n += lanes) {
+    // Unrolled, so that all of them are registers.
     Lanes row[down];
+#pragma GCC unroll 4
     for (int i = 0; i < down; ++i) load(row[i], rows + static_cast<std::size_t>(i) * length + n);
+#pragma GCC unroll 4
     for (int j = 0; j < across; ++j) {
       Lanes column;
       load(column, columns + static_cast<std::size_t>(j) * length + n);
+#pragma GCC unroll 4
       for (int i = 0; i < down; ++i) sums[i][j] += row[i] * column;
     }
   }
+#pragma GCC unroll 4
   for (int i = 0; i < down; ++i)
+#pragma GCC unroll 4
     for (int j = 0; j < across; ++j)
       gram[static_cast<std::size_t>(i) * stride + static_cast<std::size_t>(j)] = sumOf(sums[i][j]);
 }

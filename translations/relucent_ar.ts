@@ -5357,6 +5357,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.dense-patterns</name>
+    <message>
+        <source>patterns in blocks of {} px</source>
+        <translation>أنماط في كتل من ⁨{}⁩ بكسل</translation>
+    </message>
+</context>
+<context>
     <name>stage.estimating-light-transport</name>
     <message>
         <source>Estimating the light transport</source>

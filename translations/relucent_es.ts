@@ -5249,6 +5249,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.dense-patterns</name>
+    <message>
+        <source>patterns in blocks of {} px</source>
+        <translation>patrones en bloques de {} px</translation>
+    </message>
+</context>
+<context>
     <name>stage.estimating-light-transport</name>
     <message>
         <source>Estimating the light transport</source>

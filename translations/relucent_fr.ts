@@ -5249,6 +5249,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.dense-patterns</name>
+    <message>
+        <source>patterns in blocks of {} px</source>
+        <translation>motifs en blocs de {} px</translation>
+    </message>
+</context>
+<context>
     <name>stage.estimating-light-transport</name>
     <message>
         <source>Estimating the light transport</source>

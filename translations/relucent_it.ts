@@ -5249,6 +5249,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.dense-patterns</name>
+    <message>
+        <source>patterns in blocks of {} px</source>
+        <translation>pattern a blocchi di {} px</translation>
+    </message>
+</context>
+<context>
     <name>stage.estimating-light-transport</name>
     <message>
         <source>Estimating the light transport</source>

@@ -5222,6 +5222,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.dense-patterns</name>
+    <message>
+        <source>patterns in blocks of {} px</source>
+        <translation>{} pxのブロックのパターン</translation>
+    </message>
+</context>
+<context>
     <name>stage.estimating-light-transport</name>
     <message>
         <source>Estimating the light transport</source>

@@ -8,6 +8,7 @@
 
 #include "relucent/acquisition/forecast.h"
 #include "relucent/acquisition/growth.h"
+#include "relucent/acquisition/multiplexed.h"
 #include "relucent/acquisition/repair.h"
 #include "relucent/base/error.h"
 
@@ -26,15 +27,6 @@ constexpr double unusableLimit = 0.01;
 
 double shareOf(const std::vector<std::uint8_t>& flags) {
   return static_cast<double>(std::count(flags.begin(), flags.end(), 1)) / static_cast<double>(flags.size());
-}
-
-/// The images under full red, green and blue, or their variances, of all projectors summed.
-CameraStack summed(const std::vector<std::vector<transport::ColourBlock>>& roots, std::size_t rows) {
-  CameraStack sum(3 * rows, 0.0f);
-  for (const std::vector<transport::ColourBlock>& root : roots)
-    for (std::size_t row = 0; row < rows; ++row)
-      Eigen::Map<Eigen::Vector3f>(&sum[3 * row]) += root[row].rowwise().sum();
-  return sum;
 }
 
 double unresolvedEnergy(const transport::TransportMatrix& transport, const CameraStack& flood) {
@@ -124,21 +116,26 @@ class Measurement {
     TreeObserver observer(supervision_.observer,
                           [&](const std::vector<int>& levels) { expect(progress, levels); });
     const TreeContext context{watch, scheme, observer};
-    Tree tree = emptyTree(references, references.usable);
+    MeasuredTransport measured;
     std::optional<sentinels::Interruption> dropped =
-        growTree(tree, context, interrupted.has_value(), treePart);
+        run_.settings.scheme == AcquisitionScheme::multiplexed
+            ? measureMultiplexed(measured, context, photographer_, run_.settings, interrupted.has_value(),
+                                 treePart)
+            : measureTree(measured, context, interrupted.has_value(), treePart);
     if (dropped == sentinels::Interruption::beginAgain) return *dropped;
 
     Progress verificationPart =
         progress.part(verificationShare, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
-    VerifiedTransport verified = unverified(tree, references);
+    const CameraMask unknown = std::move(measured.unknown);
+    Floods floods = std::move(measured.floods);
+    VerifiedTransport verified = unverified(std::move(measured), references);
     if (!interrupted && !dropped) {
       interrupted = verify(verified, context, verificationPart);
       if (interrupted == sentinels::Interruption::beginAgain) return *interrupted;
     }
     for (std::size_t row = 0; row < verified.flagged.size(); ++row)
-      if (!references.usable[row] || tree.unknown[row]) verified.flagged[row] = 1;
-    transport::Acquisition acquisition = finished(std::move(verified), watch);
+      if (!references.usable[row] || unknown[row]) verified.flagged[row] = 1;
+    transport::Acquisition acquisition = finished(std::move(verified), std::move(floods), watch);
     progress.report(1.0);
     return acquisition;
   }
@@ -150,13 +147,24 @@ class Measurement {
                              run_.linearization.times, state));
   }
 
-  static VerifiedTransport unverified(Tree& tree, const photography::References& references) {
+  static std::optional<sentinels::Interruption> measureTree(MeasuredTransport& measured,
+                                                            const TreeContext& context, bool rootsOnly,
+                                                            Progress& progress) {
+    const photography::References& references = context.references();
+    Tree tree = emptyTree(references, references.usable);
+    std::optional<sentinels::Interruption> dropped = growTree(tree, context, rootsOnly, progress);
+    if (dropped == sentinels::Interruption::beginAgain) return dropped;
+    measured.leafVariance = leafVarianceOf(tree);
+    measured.unknown = std::move(tree.unknown);
+    measured.transport =
+        transport::TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references));
+    return dropped;
+  }
+
+  static VerifiedTransport unverified(MeasuredTransport measured, const photography::References& references) {
     std::size_t rows = references.usable.size();
-    CameraStack leafVariance = leafVarianceOf(tree);
-    return {
-        transport::TransportMatrix(references.cameras, references.projectors, takeLeaves(tree, references)),
-        std::move(leafVariance), CameraMask(rows, 0),
-        std::vector<CameraStack>(verificationSizes, CameraStack(3 * rows, 0.0f))};
+    return {std::move(measured.transport), std::move(measured.leafVariance), CameraMask(rows, 0),
+            std::vector<CameraStack>(verificationSizes, CameraStack(3 * rows, 0.0f))};
   }
 
   /// Whoever asked to stop and keep waits for the test patterns alone.
@@ -171,18 +179,19 @@ class Measurement {
     return context.watch.check(progress);
   }
 
-  transport::Acquisition finished(VerifiedTransport verified, const sentinels::Watch& watch) const {
+  transport::Acquisition finished(VerifiedTransport verified, Floods better,
+                                  const sentinels::Watch& watch) const {
     const photography::References& references = watch.references();
-    std::size_t rows = references.usable.size();
-    CameraStack flood = summed(references.root, rows);
-    double unresolved = unresolvedEnergy(verified.transport, flood);
+    Floods floods = floodsOf(references);
+    double unresolved = unresolvedEnergy(verified.transport, floods.light);
+    if (!better.light.empty()) floods = std::move(better);
     double flagged = shareOf(verified.flagged);
     return {
         .transport = std::move(verified.transport),
         .black = watch.black().radiance,
         .blackVariance = watch.black().variance,
-        .flood = std::move(flood),
-        .floodVariance = summed(references.rootVariance, rows),
+        .flood = std::move(floods.light),
+        .floodVariance = std::move(floods.variance),
         .flagged = std::move(verified.flagged),
         .residual = std::move(verified.residual),
         .leafVariance = std::move(verified.leafVariance),

@@ -30,7 +30,8 @@ std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t l
 /// to 0.02: a factor of 0.44 to 0.58 each, and 1.18 to 1.34 at 0.006 (README).
 double colourFactor(double relativeThreshold);
 
-/// The same with the lights and the threshold of settings.
+/// The same with the lights and the threshold of settings. Of dense patterns, down to single pixels: as many
+/// as simulated venues took.
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, const AcquisitionSettings& settings,
                                         std::span<const int> known);
 

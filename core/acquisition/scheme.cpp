@@ -35,9 +35,10 @@ bool Scheme::follows(std::size_t row, const transport::ColourBlock& value,
 Scheme schemeOf(const AcquisitionSettings& settings, const photography::References& references) {
   Scheme scheme;
   scheme.lights = lightsOf(settings.colours);
-  if (settings.scheme == AcquisitionScheme::adaptive) {
+  if (settings.scheme != AcquisitionScheme::sen) {
     scheme.threshold = scaled(references.strongest, settings.relativeThreshold);
     scheme.noiseSigmas = settings.noiseSigmas;
+    scheme.repairs = settings.scheme == AcquisitionScheme::adaptive;
   } else {
     // One radiance for all has to be that of the dimmest pixels that are to be resolved.
     double dimmest = settings.relativeThreshold * settings.dimShare * static_cast<double>(references.typical);

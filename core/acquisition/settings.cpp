@@ -60,6 +60,12 @@ AcquisitionSettings settingsOf(AcquisitionMode mode) {
       settings.references = 2;
       settings.verificationPatterns = 4;
       break;
+    case AcquisitionMode::multiplexed:
+      settings.scheme = AcquisitionScheme::multiplexed;
+      settings.relativeThreshold = 0.012;
+      settings.references = 2;
+      settings.verificationPatterns = 8;
+      break;
   }
   return settings;
 }

@@ -14,9 +14,11 @@ namespace relucent::acquisition {
 inline constexpr int verificationSizes = 4;
 
 /// What decides which nodes of the tree are divided and what is stored: see scheme.h.
-enum class AcquisitionScheme { adaptive, sen };
+enum class AcquisitionScheme { adaptive, sen, multiplexed };
 inline constexpr EnumName<AcquisitionScheme> acquisitionSchemeNames[]{
-    {AcquisitionScheme::adaptive, "adaptive"}, {AcquisitionScheme::sen, "sen"}};
+    {AcquisitionScheme::adaptive, "adaptive"},
+    {AcquisitionScheme::sen, "sen"},
+    {AcquisitionScheme::multiplexed, "multiplexed"}};
 constexpr EnumNames<AcquisitionScheme> namesOf(AcquisitionScheme) {
   return {"acquisition scheme", acquisitionSchemeNames};
 }
@@ -49,11 +51,12 @@ struct AcquisitionSettings {
 std::vector<Message> problems(const AcquisitionSettings& settings);
 
 /// Settings that go together. Fast is adaptive, white, one exposure, a looser threshold, fewer references.
-enum class AcquisitionMode { adaptive, sen, fast };
+enum class AcquisitionMode { adaptive, sen, fast, multiplexed };
 inline constexpr EnumName<AcquisitionMode> acquisitionModeNames[]{
     {AcquisitionMode::adaptive, "adaptive"},
     {AcquisitionMode::sen, "sen", "the reference"},
-    {AcquisitionMode::fast, "fast", "a first look"}};
+    {AcquisitionMode::fast, "fast", "a first look"},
+    {AcquisitionMode::multiplexed, "multiplexed", "dense coloured patterns"}};
 constexpr EnumNames<AcquisitionMode> namesOf(AcquisitionMode) {
   return {"acquisition mode", acquisitionModeNames};
 }

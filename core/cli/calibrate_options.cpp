@@ -111,6 +111,7 @@ void addSimulatedDevices(CLI::App* sub, DeviceOptions& devices) {
   simulate("--paths", devices.venue.pathsPerPixel, "Light paths traced for each camera pixel");
   simulate("--projector-bits", model.projectorBits, "Bits of the projector's drive values");
   simulate("--camera-bits", model.cameraBits, "Bits of the camera");
+  simulate("--full-well", model.fullWell, "Electrons of the camera at full scale");
   simulate("--contrast", model.contrast, "White of the projector divided by its black");
   simulate("--ambient", model.ambient, "Room light, as a share of the mean flood image");
   simulate("--drift", model.drift, "Relative change of the lamp over 1000 photographs");

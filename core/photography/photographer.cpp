@@ -157,12 +157,17 @@ hdr::HdrFrame Photographer::take(const ProjectorStack& pattern, const std::vecto
 
 hdr::HdrFrame Photographer::takeAll(const ProjectorStack& pattern, const Progress& progress,
                                     const Meanwhile& meanwhile) {
+  std::vector<std::size_t> all(linearization_.exposures.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return takeAt(pattern, all, progress, meanwhile);
+}
+
+hdr::HdrFrame Photographer::takeAt(const ProjectorStack& pattern, const std::vector<std::size_t>& exposures,
+                                   const Progress& progress, const Meanwhile& meanwhile) {
   std::vector<image::Image> encoded;
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
     encoded.push_back(image::imageFromStack(pattern, projectors_, projector));
-  std::vector<std::size_t> all(linearization_.exposures.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  rig::Shot shot = shoot(encoded, all, progress, meanwhile);
+  rig::Shot shot = shoot(encoded, exposures, progress, meanwhile);
   contradiction_ = bracketContradiction(shot, linearization_.cameras);
   return hdr::mergeBracket(shot, linearization_.cameras, cameras_);
 }

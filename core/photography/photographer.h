@@ -38,6 +38,10 @@ class Photographer {
   hdr::HdrFrame takeAll(const ProjectorStack& pattern, const Progress& progress,
                         const Meanwhile& meanwhile = {});
 
+  /// With these exposures, longest first, and no others: what they saturate comes out invalid.
+  hdr::HdrFrame takeAt(const ProjectorStack& pattern, const std::vector<std::size_t>& exposures,
+                       const Progress& progress, const Meanwhile& meanwhile = {});
+
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
 
@@ -51,8 +55,10 @@ class Photographer {
   /// that does not saturate it, and for nearly all of them one that is not too noisy either.
   std::vector<std::size_t> exposuresFor(const std::vector<Demand>& demands) const;
 
- private:
+  /// Index of the longest exposure that a radiance does not come near to saturating, or of the shortest.
   std::size_t longestUnsaturated(std::size_t row, double radiance) const;
+
+ private:
   rig::Shot shoot(const std::vector<image::Image>& encoded, const std::vector<std::size_t>& exposures,
                   const Progress& progress, const Meanwhile& meanwhile);
   bool needsShorter(const hdr::HdrFrame& frame, const std::vector<Demand>& demands) const;

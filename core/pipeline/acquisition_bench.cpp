@@ -21,7 +21,7 @@ constexpr Trial trials[] = {
     {acquisition::AcquisitionMode::adaptive, 0.006}, {acquisition::AcquisitionMode::adaptive, 0.008},
     {acquisition::AcquisitionMode::adaptive, 0.02},  {acquisition::AcquisitionMode::sen, 0.008},
     {acquisition::AcquisitionMode::sen, 0.02},       {acquisition::AcquisitionMode::sen, 0.05},
-    {acquisition::AcquisitionMode::fast, 0.02}};
+    {acquisition::AcquisitionMode::fast, 0.02},      {acquisition::AcquisitionMode::multiplexed, 0.012}};
 
 AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& trial,
                              const std::filesystem::path& cache, Progress& progress) {

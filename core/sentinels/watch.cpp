@@ -214,6 +214,13 @@ Interruptible<hdr::LampLight> Watch::light(const ProjectorStack& pattern,
   return lightOf(take, progress);
 }
 
+Interruptible<hdr::LampLight> Watch::lightAt(const ProjectorStack& pattern,
+                                             const std::vector<std::size_t>& exposures,
+                                             const Progress& progress,
+                                             const photography::Meanwhile& meanwhile) {
+  return lightOf([&] { return photographer_.takeAt(pattern, exposures, progress, meanwhile); }, progress);
+}
+
 Interruptible<hdr::LampLight> Watch::lightOfAll(const ProjectorStack& pattern, const Progress& progress,
                                                 const photography::Meanwhile& meanwhile) {
   return lightOf([&] { return photographer_.takeAll(pattern, progress, meanwhile); }, progress);

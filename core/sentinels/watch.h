@@ -59,6 +59,10 @@ class Watch {
   Interruptible<hdr::LampLight> light(const ProjectorStack& pattern,
                                       const std::vector<photography::Demand>& demands,
                                       const Progress& progress, const photography::Meanwhile& meanwhile = {});
+  /// The same at given exposures, see Photographer::takeAt.
+  Interruptible<hdr::LampLight> lightAt(const ProjectorStack& pattern,
+                                        const std::vector<std::size_t>& exposures, const Progress& progress,
+                                        const photography::Meanwhile& meanwhile = {});
   Interruptible<hdr::LampLight> lightOfAll(const ProjectorStack& pattern, const Progress& progress,
                                            const photography::Meanwhile& meanwhile = {});
 

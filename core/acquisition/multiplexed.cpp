@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/acquisition/multiplexed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relucent/acquisition/dense_photographs.h"
+#include "relucent/acquisition/exposure_cycle.h"
+#include "relucent/base/message.h"
+#include "relucent/base/parallel.h"
+#include "relucent/multiplexing/division.h"
+#include "relucent/multiplexing/learning.h"
+#include "relucent/multiplexing/pattern.h"
+
+namespace relucent::acquisition {
+namespace {
+
+using multiplexing::Leaf;
+using multiplexing::Row;
+using multiplexing::RowFit;
+using multiplexing::RowLight;
+using multiplexing::RowRegression;
+using Code = transport::BlockSparseWriter::Code;
+
+constexpr float startingSpread = 0.1f;
+constexpr float rootSpread = 1.0f;
+// Equations for each unknown that a level adds, in all but some camera pixels.
+constexpr double equationsPerLeaf = 2.0;
+constexpr double served = 0.9;
+constexpr int fewestPatterns = 8, mostPatterns = 64;
+// At the finest level: patterns that are predicted at a time, the most of all, and the share of its error
+// that a prediction has to lose for more of them to be worth while.
+constexpr int predictedPatterns = 8, mostFinest = 96;
+constexpr double worthMore = 0.04;
+// As long as leaves are to be divided, few of them need colours of their own.
+constexpr int fewDetails = 4;
+// Thresholds of dim pixels are raised by at most this.
+constexpr float mostDimming = 10.0f;
+// Rows that are solved one after the other with the same memory, and that wait to be written.
+constexpr std::size_t rowsAtOnce = 64, rowsWritten = 8192;
+
+std::size_t partsOf(std::size_t rows) {
+  return (rows + rowsAtOnce - 1) / rowsAtOnce;
+}
+
+/// How well photographs that were held out are predicted.
+struct Prediction {
+  double squared = 0.0, variance = 0.0, light = 0.0;
+
+  double error() const { return light > 0.0 ? std::sqrt(std::max(0.0, squared - variance) / light) : 0.0; }
+  void add(const Prediction& other) {
+    squared += other.squared;
+    variance += other.variance;
+    light += other.light;
+  }
+};
+
+/// From the coarsest level to the finest.
+class Measurement {
+ public:
+  Measurement(const TreeContext& context, const photography::Photographer& photographer,
+              const AcquisitionSettings& settings)
+      : context_(context),
+        references_(context.references()),
+        settings_(settings),
+        cycle_(exposureCycle(references_, photographer)),
+        photographs_(references_),
+        means_(transport::NodeLayout(references_.projectors)),
+        rows_(references_.usable.size()),
+        thresholds_(rows_.size()) {
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      float strongest = std::max(photographs_.flood(row).maxCoeff(), 1e-6f * references_.typical);
+      float dimming = static_cast<float>(settings.dimShare) * references_.typical / strongest;
+      thresholds_[row] =
+          static_cast<float>(settings.relativeThreshold) * std::clamp(dimming, 1.0f, mostDimming);
+    }
+  }
+
+  std::optional<sentinels::Interruption> run(bool rootsOnly, Progress& progress) {
+    const transport::NodeLayout& layout = means_.layout();
+    int start = rootsOnly ? layout.levels() : multiplexing::startingLevel(layout);
+    begin(start, rootsOnly ? rootSpread : startingSpread);
+    if (rootsOnly) return std::nullopt;
+    for (int level = start; level >= 0; --level) {
+      if (level < start && progress.stopAndKeep()) break;
+      int patterns = patternsFor(level);
+      if (patterns == 0) continue;
+      levels_.push_back(patterns);
+      context_.observer.grew(levels_, 0);
+      Progress part = progress.part((level > 0 ? 1.0 : 2.0) / (start + 2),
+                                    RELUCENT_MESSAGE("stage.dense-patterns", "patterns in blocks of {} px")
+                                        .with(as::label(1 << level)));
+      if (auto interrupted = photograph(level, patterns, part)) return interrupted;
+      model_.details = level > 0 ? fewDetails : multiplexing::RowSettings().details;
+      if (level == 0) return refine(part);
+      solve();
+      solve();
+      multiplexing::divide(rows_, references_.cameras, layout, level, thresholds_, {});
+    }
+    return std::nullopt;
+  }
+
+  MeasuredTransport finish();
+
+ private:
+  void begin(int level, float spread);
+  int patternsFor(int level) const;
+  std::optional<sentinels::Interruption> photograph(int level, int patterns, Progress& part);
+  std::optional<sentinels::Interruption> refine(Progress& part);
+  void solve();
+  Prediction predict();
+  Prediction predicted(std::size_t row, const RowRegression& regression) const;
+  void finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
+                 MeasuredTransport& measured) const;
+
+  const TreeContext& context_;
+  const photography::References& references_;
+  const AcquisitionSettings& settings_;
+  std::vector<std::size_t> cycle_;
+  DensePhotographs photographs_;
+  multiplexing::PatternMeans means_;
+  multiplexing::RowSettings model_;
+  std::vector<Row> rows_;
+  std::vector<float> thresholds_;  // relative to F
+  std::vector<int> levels_;        // patterns of the levels that have begun
+};
+
+void Measurement::begin(int level, float spread) {
+  std::vector<Leaf> leaves = multiplexing::startingLeaves(means_.layout(), level, spread);
+  parallelFor(0, rows_.size(), 1024, [&](std::size_t row) {
+    if (!references_.usable[row]) return;
+    for (const transport::ColourBlock& mixing : photographs_.floodMixing(row))
+      rows_[row].mixing.insert(rows_[row].mixing.end(), 2, mixing);
+    rows_[row].excess = model_.leastExcess * model_.leastExcess;
+    rows_[row].leaves = leaves;
+  });
+}
+
+int Measurement::patternsFor(int level) const {
+  std::vector<std::size_t> unknown;
+  for (const Row& row : rows_)
+    if (!row.leaves.empty())
+      unknown.push_back(
+          static_cast<std::size_t>(std::count_if(row.leaves.begin(), row.leaves.end(), [&](const Leaf& leaf) {
+            return means_.layout().node(leaf.node).level == level;
+          })));
+  if (unknown.empty()) return 0;
+  auto many = unknown.begin() + static_cast<std::ptrdiff_t>(served * static_cast<double>(unknown.size() - 1));
+  std::nth_element(unknown.begin(), many, unknown.end());
+  // A photograph gives three equations, one for each channel.
+  return std::clamp(static_cast<int>(std::ceil(equationsPerLeaf * static_cast<double>(*many) / 3.0)),
+                    fewestPatterns, mostPatterns);
+}
+
+std::optional<sentinels::Interruption> Measurement::photograph(int level, int patterns, Progress& part) {
+  if (auto interrupted = context_.watch.check(part)) return interrupted;
+  std::vector<ProjectorStack> shown;
+  std::size_t before = photographs_.size();
+  int first = levels_.back() - patterns;
+  for (int number = first; number < levels_.back(); ++number) {
+    shown.push_back(multiplexing::blockPattern(references_.projectors, level, number, settings_.seed));
+    auto seen = context_.watch.lightAt(shown.back(), {cycle_[photographs_.size() % cycle_.size()]}, part);
+    if (!seen) {
+      photographs_.keep(before);
+      return seen.interruption();
+    }
+    photographs_.add(*seen);
+    part.report(static_cast<double>(number + 1) /
+                static_cast<double>(level > 0 ? levels_.back() : mostFinest));
+    context_.observer.grew(levels_, number + 1);
+  }
+  means_.add(shown);
+  return std::nullopt;
+}
+
+std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
+  double before = 0.0;
+  solve();
+  while (levels_.back() + predictedPatterns <= mostFinest && !part.stopAndKeep()) {
+    levels_.back() += predictedPatterns;
+    if (auto interrupted = photograph(0, predictedPatterns, part)) return interrupted;
+    double error = predict().error();
+    if (error < settings_.relativeThreshold || (before > 0.0 && error > (1.0 - worthMore) * before)) break;
+    before = error;
+  }
+  multiplexing::divide(rows_, references_.cameras, means_.layout(), 0, thresholds_, {});
+  return std::nullopt;
+}
+
+void Measurement::solve() {
+  parallelChunks(0, rows_.size(), partsOf(rows_.size()),
+                 [&](std::size_t, std::size_t begin, std::size_t end) {
+                   RowRegression regression(means_, model_);
+                   RowLight seen;
+                   for (std::size_t row = begin; row < end; ++row) {
+                     if (rows_[row].leaves.empty()) continue;
+                     photographs_.read(row, 0, seen);
+                     const RowFit& fit = regression.solve(rows_[row], seen);
+                     multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
+                   }
+                 });
+}
+
+Prediction Measurement::predict() {
+  std::vector<Prediction> parts(partsOf(rows_.size()));
+  parallelChunks(0, rows_.size(), parts.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    RowRegression regression(means_, model_);
+    RowLight seen;
+    for (std::size_t row = begin; row < end; ++row) {
+      if (rows_[row].leaves.empty()) continue;
+      photographs_.read(row, predictedPatterns, seen);
+      const RowFit& fit = regression.solve(rows_[row], seen);
+      parts[part].add(predicted(row, regression));
+      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
+    }
+  });
+  Prediction all;
+  for (const Prediction& part : parts) all.add(part);
+  return all;
+}
+
+Prediction Measurement::predicted(std::size_t row, const RowRegression& regression) const {
+  Prediction prediction;
+  Eigen::Array3d flood = photographs_.flood(row).cast<double>();
+  for (std::size_t number = photographs_.size() - predictedPatterns; number < photographs_.size(); ++number) {
+    auto [light, variance] = photographs_.shown(number, row);
+    Eigen::Array3f off = light - regression.predicted(number);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      if (!std::isfinite(variance[c])) continue;
+      double unit = flood[c] * flood[c];
+      prediction.squared += unit * static_cast<double>(off[c] * off[c]);
+      prediction.variance += unit * static_cast<double>(variance[c]);
+      prediction.light += unit * static_cast<double>(light[c] * light[c]);
+    }
+  }
+  return prediction;
+}
+
+/// The row's leaves as codes, what rounding leaves over handed on to the next, and what is known of them.
+void Measurement::finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
+                            MeasuredTransport& measured) const {
+  Eigen::Array3f flood = photographs_.flood(row);
+  float scale = references_.fullScale[row] / 32767.0f, variance = 0.0f;
+  transport::ColourBlock rest = transport::ColourBlock::Zero();
+  for (std::size_t j = 0; j < fit.blocks.size(); ++j) {
+    transport::ColourBlock value = fit.blocks[j];
+    value.array().colwise() *= flood;
+    value += rest;
+    codes.push_back(transport::codeOf(value, scale));
+    for (std::size_t i = 0; i < 9; ++i)
+      rest.data()[i] = value.data()[i] - scale * static_cast<float>(codes.back()[i]);
+    variance += rows_[row].leaves[j].deviation * rows_[row].leaves[j].deviation;
+  }
+  // A third of a leaf's light is in each projector channel.
+  variance /= 9.0f * static_cast<float>(std::max<std::size_t>(1, fit.blocks.size()));
+  Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * row]) = flood.square() * variance;
+  Eigen::Map<Eigen::Array3f>(&measured.floods.light[3 * row]) = flood * fit.flood;
+  Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * row]) = flood.square() * fit.floodVariance;
+  measured.unknown[row] = photographs_.hardlySeen(row) ? 1 : 0;
+}
+
+MeasuredTransport Measurement::finish() {
+  std::size_t count = rows_.size(), leaves = 0;
+  for (const Row& row : rows_) leaves += row.leaves.size();
+  MeasuredTransport measured;
+  measured.leafVariance.assign(3 * count, 0.0f);
+  measured.unknown.assign(count, 0);
+  measured.floods = floodsOf(references_);
+  transport::BlockSparseWriter writer(means_.layout().count(), references_.fullScale, leaves);
+  std::vector<std::vector<Code>> codes(std::min(rowsWritten, count));
+  for (std::size_t first = 0; first < count; first += rowsWritten) {
+    std::size_t last = std::min(first + rowsWritten, count);
+    parallelChunks(first, last, partsOf(last - first), [&](std::size_t, std::size_t begin, std::size_t end) {
+      RowRegression regression(means_, model_);
+      RowLight seen;
+      for (std::size_t row = begin; row < end; ++row) {
+        codes[row - first].clear();
+        if (rows_[row].leaves.empty()) continue;
+        photographs_.read(row, 0, seen);
+        finishRow(row, regression.solve(rows_[row], seen), codes[row - first], measured);
+      }
+    });
+    for (std::size_t row = first; row < last; ++row) {
+      for (std::size_t j = 0; j < rows_[row].leaves.size(); ++j)
+        writer.add(rows_[row].leaves[j].node, codes[row - first][j]);
+      writer.endRow();
+      rows_[row] = {};  // two of them need not fit into memory
+    }
+  }
+  measured.transport =
+      transport::TransportMatrix(references_.cameras, references_.projectors, writer.build());
+  return measured;
+}
+
+}  // namespace
+
+std::optional<sentinels::Interruption> measureMultiplexed(MeasuredTransport& measured,
+                                                          const TreeContext& context,
+                                                          const photography::Photographer& photographer,
+                                                          const AcquisitionSettings& settings, bool rootsOnly,
+                                                          Progress& progress) {
+  Measurement measurement(context, photographer, settings);
+  std::optional<sentinels::Interruption> interrupted = measurement.run(rootsOnly, progress);
+  if (interrupted != sentinels::Interruption::beginAgain) measured = measurement.finish();
+  return interrupted;
+}
+
+}  // namespace relucent::acquisition

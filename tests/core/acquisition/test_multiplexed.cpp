@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <tbb/global_control.h>
+
+#include <QtTest>
+
+#include "acquisition_run.h"
+
+using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::transport;
+using namespace relucent::test;
+
+namespace {
+
+Venue denseVenue() {
+  Venue venue = smallVenue();
+  std::uint64_t seed = venue.settings.seed;
+  venue.settings = settingsOf(AcquisitionMode::multiplexed);
+  venue.settings.seed = seed;
+  venue.settings.checkInterval = 10;
+  venue.noise = 1e-3;
+  return venue;
+}
+
+}  // namespace
+
+class TestMultiplexed : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void fewPhotographsAreEnough_data() {
+    QTest::addColumn<int>("projectors");
+    QTest::addColumn<int>("cameras");
+    QTest::addColumn<double>("drift");
+    QTest::newRow("one projector") << 1 << 1 << 0.0;
+    QTest::newRow("two projectors, lit together") << 2 << 1 << 0.0;
+    QTest::newRow("two cameras") << 1 << 2 << 0.0;
+    QTest::newRow("a lamp that fades") << 1 << 1 << -0.03;
+  }
+  /// Sizes are no multiples of the blocks.
+  void fewPhotographsAreEnough() {
+    QFETCH(int, projectors);
+    QFETCH(int, cameras);
+    QFETCH(double, drift);
+    Venue venue = denseVenue();
+    if (projectors == 2) venue.synthetic.projectors.push_back({13, 11});
+    if (cameras == 2) venue.synthetic.cameras.push_back({9, 7});
+    venue.drift = drift;
+    Run run(venue);
+    Acquisition a = run();
+    ProjectorStack pattern(naturalPattern(run.truth.projectors()));
+    QVERIFY2(relativeError(a.transport.apply(pattern), run.truth.apply(pattern)) < 0.02,
+             qPrintable(shown(a, run.truth)));
+    QVERIFY2(difference(a.transport, run.truth).frobenius < 0.15, qPrintable(shown(a, run.truth)));
+    QVERIFY2(a.exposures < 300, qPrintable(shown(a, run.truth)));
+    // T 1 is the flood, which all photographs together know better than its own.
+    QVERIFY(relativeError(a.transport.floodlight(), a.flood) < 1e-3);
+    QVERIFY2(relativeError(a.flood, run.truth.floodlight()) < 0.01, qPrintable(shown(a, run.truth)));
+  }
+
+  void resumedWithTheSameBits_data() {
+    QTest::addColumn<int>("shot");
+    for (int shot : {3, 20, 60}) QTest::addRow("killed at %d", shot) << shot;
+  }
+  void resumedWithTheSameBits() {
+    QFETCH(int, shot);
+    Venue venue = denseVenue();
+    Acquisition whole = Run(venue)();
+
+    struct Sink : ProgressSink {
+      void progressed(double, const Message&) override {}
+    } sink;
+    StopRequest stop;
+    Venue killed = venue;
+    killed.beforeCapture = [&](const rig::CaptureRequest& request) {
+      if (request.shot.number == shot) stop.ask(StopRequest::Kind::cancel);
+    };
+    MemoryLog log;
+    Run first(killed);
+    QVERIFY_EXCEPTION_THROWN(first(log, Progress(sink, stop)), Cancelled);
+    Acquisition again = Run(venue)(log);
+    QVERIFY(again.transport.leaves() == whole.transport.leaves());
+    QVERIFY(again.flood == whole.flood && again.floodVariance == whole.floodVariance);
+    QVERIFY(again.leafVariance == whole.leafVariance && again.flagged == whole.flagged);
+    QCOMPARE(again.exposures, whole.exposures);
+  }
+
+  void resultsAreTheSameForEveryNumberOfThreads() {
+    Venue venue = denseVenue();
+    Acquisition many = Run(venue)();
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    Acquisition one = Run(venue)();
+    QVERIFY(one.transport.leaves() == many.transport.leaves());
+    QVERIFY(one.flood == many.flood && one.floodVariance == many.floodVariance);
+  }
+
+  void stopAndKeepIsAValidCoarserTransport_data() {
+    QTest::addColumn<QString>("stage");
+    QTest::newRow("before the patterns") << "black";
+    QTest::newRow("in blocks of 8") << "patterns in blocks of 8";
+  }
+  void stopAndKeepIsAValidCoarserTransport() {
+    QFETCH(QString, stage);
+    Venue venue = denseVenue();
+    venue.synthetic.projectors = {{61, 45}};
+    Run run(venue);
+    Acquisition whole = run();
+    struct Sink : ProgressSink {
+      void progressed(double, const Message& name) override {
+        if (QString::fromStdString(english(name)).startsWith(stage)) stop->ask(StopRequest::Kind::keep);
+      }
+      QString stage;
+      StopRequest* stop = nullptr;
+    } sink;
+    StopRequest stop;
+    sink.stage = stage;
+    sink.stop = &stop;
+    rig::NoShotLog log;
+    Acquisition kept = run(log, Progress(sink, stop));
+    QVERIFY(kept.patterns < whole.patterns);
+    QVERIFY(finestLevel(kept.transport) > finestLevel(whole.transport));
+    QVERIFY2(std::abs(kept.unresolvedEnergy) < 0.01, qPrintable(shown(kept, run.truth)));
+    QVERIFY(difference(kept.transport, run.truth).frobenius >
+            difference(whole.transport, run.truth).frobenius);
+  }
+
+  void whatIsOverexposedIsFlaggedAndNeverStored() {
+    Venue venue = denseVenue();
+    venue.exposures = {0.2};
+    Run run(venue);
+    Acquisition a = run();
+    std::size_t empty = 0;
+    for (std::size_t row = 0; row < a.flagged.size(); ++row) {
+      if (a.transport.leaves().rowBegin(row) != a.transport.leaves().rowBegin(row + 1)) continue;
+      ++empty;
+      QVERIFY(a.flagged[row]);
+    }
+    QVERIFY(empty > 0 && empty < a.flagged.size());
+  }
+
+  /// What is asked to be finer takes more photographs, and is.
+  void finenessDecidesPhotographs() {
+    Venue venue = denseVenue();
+    venue.noise = 1e-4;
+    venue.settings.relativeThreshold = 0.05;
+    Run run(venue);
+    Acquisition coarse = run();
+    venue.settings.relativeThreshold = 0.003;
+    Acquisition fine = Run(venue)();
+    QVERIFY2(coarse.exposures < fine.exposures, qPrintable(shown(coarse, run.truth)));
+    QVERIFY2(
+        difference(fine.transport, run.truth).frobenius < difference(coarse.transport, run.truth).frobenius,
+        qPrintable(shown(fine, run.truth)));
+  }
+};
+
+QTEST_MAIN(TestMultiplexed)
+#include "test_multiplexed.moc"

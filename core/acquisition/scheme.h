@@ -23,6 +23,7 @@ using LitChannels = std::array<bool, 3>;
 ///   what does not go on  a leaf of its own, signed       added up in a leaf at the parent's level
 ///   flagged rows         measured again                  left as they are
 ///
+/// Dense patterns need no tree. Their T is verified as that of adaptive; flagged rows are left as they are.
 /// Source: core/acquisition/README.md; Sen et al. 2005, adaptive multiplexed acquisition.
 struct Scheme {
   std::vector<float> threshold;  // radiance, per camera pixel

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 
 namespace relucent::multiplexing {
@@ -32,12 +31,6 @@ void PatternMeans::add(const std::vector<ProjectorStack>& patterns) {
   }
   patterns_ += patterns.size();
   batches_.push_back(std::move(batch));
-}
-
-void PatternMeans::dropLast() {
-  require(!batches_.empty(), "no patterns to drop");
-  patterns_ -= batches_.back().patterns;
-  batches_.pop_back();
 }
 
 void PatternMeans::read(std::size_t node, const std::array<float*, 3>& means) const {

@@ -21,8 +21,6 @@ class PatternMeans {
 
   /// Patterns of zeros and ones, after those that are there.
   void add(const std::vector<ProjectorStack>& patterns);
-  /// Forgets the last ones.  Contract: as many as one add() added.
-  void dropLast();
 
   /// A node's means in each channel, pattern after pattern.  Shapes: patterns() values each.
   void read(std::size_t node, const std::array<float*, 3>& means) const;

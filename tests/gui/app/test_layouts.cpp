@@ -296,7 +296,7 @@ class TestLayouts : public QObject {
         !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().cameras().cameras.empty(),
         patience);
     page("choosing");
-    wizard_->session().decide(CameraCheckResult{.exposures = {1.0}});
+    wizard_->session().decide(CameraCheckResult{{1.0}, std::nullopt, {}});
     pages({2}, "asking for consent");
   }
 

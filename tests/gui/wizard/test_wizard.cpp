@@ -218,7 +218,7 @@ class TestWizard : public QObject {
   void decisionsSurviveAndSettingsMakeThemStale() {
     CalibrateSettings settings;
     session_->begin(std::filesystem::path(folder_.filePath("kept").toStdString()), settings);
-    session_->decide(CameraCheckResult{.exposures = {1.0}});
+    session_->decide(CameraCheckResult{{1.0}, std::nullopt, {}});
     session_->decide(ThresholdResult{.energyKept = 0.98});
     settings = session_->settings();
     settings.threshold.absolute = 0.1f;

@@ -60,9 +60,11 @@ class TestSystemKernels : public QObject {
     Symmetric part = system;
     auto stride = static_cast<std::size_t>(system.cols()), order = static_cast<std::size_t>(unknowns);
     of.eliminate(part.data(), stride, order, static_cast<std::size_t>(half));
-    Eigen::MatrixXd schur = exact.bottomRightCorner(rest, rest) -
-                            exact.bottomLeftCorner(rest, half) *
-                                exact.topLeftCorner(half, half).llt().solve(exact.topRightCorner(half, rest));
+    // Eigen's solver takes the address of the first of no columns.
+    Eigen::MatrixXd schur = exact.bottomRightCorner(rest, rest);
+    if (rest > 0)
+      schur -= exact.bottomLeftCorner(rest, half) *
+               exact.topLeftCorner(half, half).llt().solve(exact.topRightCorner(half, rest));
     for (Eigen::Index i = 0; i < rest; ++i)
       for (Eigen::Index j = i; j < rest; ++j)
         // Sums of some hundred products of size 1 in single precision.

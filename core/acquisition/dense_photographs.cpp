@@ -18,6 +18,8 @@ constexpr float leastLight = 1e-3f;
 // common.
 constexpr float ownNoise = 0.3f;
 constexpr double leastSeen = 0.3;
+// No pattern shows more light than all projectors do; much more is a fault, and beyond half precision.
+constexpr float mostLight = 1000.0f;
 
 }  // namespace
 
@@ -54,11 +56,13 @@ std::vector<transport::ColourBlock> DensePhotographs::floodMixing(std::size_t ro
 }
 
 void DensePhotographs::add(const hdr::LampLight& seen) {
-  Photograph photograph{CameraStack(flood_.size()), std::vector<Eigen::half>(flood_.size())};
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Photograph photograph{std::vector<Eigen::half>(flood_.size()), std::vector<Eigen::half>(flood_.size())};
   parallelFor(0, flood_.size(), 4096, [&](std::size_t i) {
-    float deviation = seen.valid[i] ? std::sqrt(std::max(0.0f, seen.variance[i])) / flood_[i]
-                                    : std::numeric_limits<float>::infinity();
-    photograph.light[i] = seen.radiance[i] / flood_[i];
+    float light = seen.radiance[i] / flood_[i];
+    bool known = seen.valid[i] && std::abs(light) < mostLight;
+    float deviation = known ? std::sqrt(std::max(0.0f, seen.variance[i])) / flood_[i] : infinity;
+    photograph.light[i] = static_cast<Eigen::half>(known ? light : 0.0f);
     photograph.deviation[i] = static_cast<Eigen::half>(deviation);
   });
   photographs_.push_back(std::move(photograph));
@@ -67,9 +71,8 @@ void DensePhotographs::add(const hdr::LampLight& seen) {
 std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::shown(std::size_t photograph,
                                                                   std::size_t row) const {
   const Photograph& of = photographs_[photograph];
-  Eigen::Array3f deviation =
-      Eigen::Map<const Eigen::Array<Eigen::half, 3, 1>>(&of.deviation[3 * row]).cast<float>();
-  return {Eigen::Map<const Eigen::Array3f>(&of.light[3 * row]), deviation.square()};
+  using Halves = Eigen::Map<const Eigen::Array<Eigen::half, 3, 1>>;
+  return {Halves(&of.light[3 * row]).cast<float>(), Halves(&of.deviation[3 * row]).cast<float>().square()};
 }
 
 void DensePhotographs::read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const {

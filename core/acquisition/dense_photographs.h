@@ -24,6 +24,7 @@ class DensePhotographs {
   std::vector<transport::ColourBlock> floodMixing(std::size_t row) const;
 
   std::size_t size() const { return photographs_.size(); }
+  /// The light is rounded to half precision, a twentieth of what photon noise leaves of it at best.
   void add(const hdr::LampLight& seen);
   /// Forgets all but the first ones.
   void keep(std::size_t count) { photographs_.resize(count); }
@@ -37,7 +38,7 @@ class DensePhotographs {
 
  private:
   struct Photograph {
-    CameraStack light;
+    std::vector<Eigen::half> light;
     std::vector<Eigen::half> deviation;  // infinite: saturated
   };
 

@@ -8,6 +8,7 @@
 #include "relucent/acquisition/exposure_cycle.h"
 #include "relucent/base/message.h"
 #include "relucent/base/parallel.h"
+#include "relucent/base/random.h"
 #include "relucent/multiplexing/division.h"
 #include "relucent/multiplexing/learning.h"
 #include "relucent/multiplexing/pattern.h"
@@ -34,6 +35,10 @@ constexpr int predictedPatterns = 8, mostFinest = 96;
 constexpr double worthMore = 0.04;
 // As long as leaves are to be divided, few of them need colours of their own.
 constexpr int fewDetails = 4;
+// Camera pixels of which the predictions are judged, about.
+constexpr std::size_t judgedRows = 40000;
+// Patterns that have to wait for a check before one is made only to confirm them.
+constexpr int fewUnconfirmed = 20;
 // Thresholds of dim pixels are raised by at most this.
 constexpr float mostDimming = 10.0f;
 // Rows that are solved one after the other with the same memory, and that wait to be written.
@@ -92,22 +97,29 @@ class Measurement {
                                         .with(as::label(1 << level)));
       if (auto interrupted = photograph(level, patterns, part)) return interrupted;
       model_.details = level > 0 ? fewDetails : multiplexing::RowSettings().details;
-      if (level == 0) return refine(part);
+      if (level == 0) {
+        if (auto interrupted = refine(part)) return interrupted;
+        break;
+      }
       solve();
       solve();
       multiplexing::divide(rows_, references_.cameras, layout, level, thresholds_, {});
     }
-    return std::nullopt;
+    return confirm(progress);
   }
 
   MeasuredTransport finish();
 
  private:
   void begin(int level, float spread);
+  std::optional<sentinels::Interruption> confirm(const Progress& progress);
+  std::optional<sentinels::Interruption> interrupted(sentinels::Interruption how);
   int patternsFor(int level) const;
   std::optional<sentinels::Interruption> photograph(int level, int patterns, Progress& part);
   std::optional<sentinels::Interruption> refine(Progress& part);
-  void solve();
+  enum class Which { all, notJudged };
+  bool isJudged(std::size_t row) const;
+  void solve(Which which = Which::all);
   Prediction predict();
   Prediction predicted(std::size_t row, const RowRegression& regression) const;
   void finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
@@ -123,6 +135,7 @@ class Measurement {
   std::vector<Row> rows_;
   std::vector<float> thresholds_;  // relative to F
   std::vector<int> levels_;        // patterns of the levels that have begun
+  std::vector<int> shots_;         // numbers of the shots after each photograph
 };
 
 void Measurement::begin(int level, float spread) {
@@ -153,24 +166,43 @@ int Measurement::patternsFor(int level) const {
 }
 
 std::optional<sentinels::Interruption> Measurement::photograph(int level, int patterns, Progress& part) {
-  if (auto interrupted = context_.watch.check(part)) return interrupted;
+  if (context_.watch.shots() - context_.watch.confirmed() >= fewUnconfirmed)
+    if (auto disturbed = confirm(part)) return disturbed;
+  std::optional<sentinels::Interruption> disturbed;
   std::vector<ProjectorStack> shown;
-  std::size_t before = photographs_.size();
   int first = levels_.back() - patterns;
   for (int number = first; number < levels_.back(); ++number) {
-    shown.push_back(multiplexing::blockPattern(references_.projectors, level, number, settings_.seed));
-    auto seen = context_.watch.lightAt(shown.back(), {cycle_[photographs_.size() % cycle_.size()]}, part);
+    ProjectorStack pattern =
+        multiplexing::blockPattern(references_.projectors, level, number, settings_.seed);
+    auto seen = context_.watch.lightAt(pattern, {cycle_[photographs_.size() % cycle_.size()]}, part);
     if (!seen) {
-      photographs_.keep(before);
-      return seen.interruption();
+      disturbed = seen.interruption();
+      break;
     }
+    shown.push_back(std::move(pattern));
     photographs_.add(*seen);
+    shots_.push_back(context_.watch.shots());
     part.report(static_cast<double>(number + 1) /
                 static_cast<double>(level > 0 ? levels_.back() : mostFinest));
     context_.observer.grew(levels_, number + 1);
   }
-  means_.add(shown);
-  return std::nullopt;
+  means_.add(level, shown);
+  return disturbed ? interrupted(*disturbed) : std::nullopt;
+}
+
+/// A check, unless there has just been one.
+std::optional<sentinels::Interruption> Measurement::confirm(const Progress& progress) {
+  std::optional<sentinels::Interruption> disturbed = context_.watch.check(progress);
+  return disturbed ? interrupted(*disturbed) : std::nullopt;
+}
+
+/// T is to follow from the photographs that a check has confirmed.
+std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Interruption how) {
+  auto doubtful = std::upper_bound(shots_.begin(), shots_.end(), context_.watch.confirmed());
+  shots_.erase(doubtful, shots_.end());
+  photographs_.keep(shots_.size());
+  means_.keep(shots_.size());
+  return how;
 }
 
 std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
@@ -183,17 +215,24 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     if (error < settings_.relativeThreshold || (before > 0.0 && error > (1.0 - worthMore) * before)) break;
     before = error;
   }
+  solve(Which::notJudged);
   multiplexing::divide(rows_, references_.cameras, means_.layout(), 0, thresholds_, {});
   return std::nullopt;
 }
 
-void Measurement::solve() {
+/// By chance, so that no row or column of the picture counts more than another.
+bool Measurement::isJudged(std::size_t row) const {
+  std::size_t apart = rows_.size() / judgedRows;
+  return apart < 2 || Random{row}.below(apart) == 0;
+}
+
+void Measurement::solve(Which which) {
   parallelChunks(0, rows_.size(), partsOf(rows_.size()),
                  [&](std::size_t, std::size_t begin, std::size_t end) {
                    RowRegression regression(means_, model_);
                    RowLight seen;
                    for (std::size_t row = begin; row < end; ++row) {
-                     if (rows_[row].leaves.empty()) continue;
+                     if (rows_[row].leaves.empty() || (which == Which::notJudged && isJudged(row))) continue;
                      photographs_.read(row, 0, seen);
                      const RowFit& fit = regression.solve(rows_[row], seen);
                      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
@@ -207,7 +246,7 @@ Prediction Measurement::predict() {
     RowRegression regression(means_, model_);
     RowLight seen;
     for (std::size_t row = begin; row < end; ++row) {
-      if (rows_[row].leaves.empty()) continue;
+      if (rows_[row].leaves.empty() || !isJudged(row)) continue;
       photographs_.read(row, predictedPatterns, seen);
       const RowFit& fit = regression.solve(rows_[row], seen);
       parts[part].add(predicted(row, regression));

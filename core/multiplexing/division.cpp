@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 #include "relucent/base/parallel.h"
@@ -48,6 +49,23 @@ void addChildren(std::vector<Leaf>& leaves, const Leaf& leaf, float threshold,
   }
 }
 
+/// Which leaves of a level are divided, for all rows: dividing one row looks at those beside it, as they
+/// were.
+class Followed {
+ public:
+  explicit Followed(const std::vector<Row>& rows) : begin_(rows.size() + 1, 0) {
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      begin_[row + 1] = begin_[row] + rows[row].leaves.size();
+    flags_.resize(begin_.back(), 0);
+  }
+
+  std::uint8_t* of(std::size_t row) { return flags_.data() + begin_[row]; }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint8_t> flags_;
+};
+
 /// A leaf and what becomes of it.
 struct Candidate {
   std::size_t parent;
@@ -69,59 +87,81 @@ void addParent(std::vector<Leaf>& leaves, std::size_t parent, const std::vector<
   leaves.push_back(joined);
 }
 
-}  // namespace
-
-void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
-            const std::vector<float>& thresholds, const DivisionSettings& settings) {
-  std::vector<std::vector<Leaf>> divided(rows.size());
+void findFollowed(Followed& followed, const std::vector<Row>& rows, const Rasters& cameras,
+                  const transport::NodeLayout& layout, int level, const std::vector<float>& thresholds,
+                  const DivisionSettings& settings) {
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     parallelFor(0, cameras.size(camera).count(), 256, [&](std::size_t pixel) {
       std::size_t row = cameras.offset(camera) + pixel;
       std::vector<std::size_t> others = beside(cameras, camera, pixelAt(cameras.size(camera), pixel));
-      std::vector<Leaf>& leaves = divided[row];
-      leaves.reserve(rows[row].leaves.size());
-      std::vector<Candidate> candidates;
-      for (std::size_t i = 0; i < rows[row].leaves.size(); ++i) {
-        const Leaf& leaf = rows[row].leaves[i];
-        transport::Node node = layout.node(leaf.node);
-        if (node.level != level) {
-          leaves.push_back(leaf);
-          continue;
+      std::uint8_t* flag = followed.of(row);
+      for (const Leaf& leaf : rows[row].leaves) {
+        bool follow = false;
+        if (layout.node(leaf.node).level == level) {
+          follow = isStrong(leaf, thresholds[row], settings);
+          float sum = 0.0f;
+          for (std::size_t other : others)
+            if (!follow) sum += strongLight(rows[other], leaf.node, thresholds[other], settings);
+          follow = follow || sum > 4.0f * settings.neighbours * thresholds[row];
         }
-        bool follow = isStrong(leaf, thresholds[row], settings);
-        float sum = 0.0f;
-        for (std::size_t other : others)
-          if (!follow) sum += strongLight(rows[other], leaf.node, thresholds[other], settings);
-        follow = follow || sum > 4.0f * settings.neighbours * thresholds[row];
-        bool root = node.level + 1 >= layout.levels(static_cast<std::size_t>(node.projector));
-        candidates.push_back({root ? layout.count() : layout.index(layout.parent(node)), i, follow});
+        *flag++ = follow ? 1 : 0;
       }
-      std::stable_sort(candidates.begin(), candidates.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.parent < b.parent; });
-      for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
-        float light = 0.0f;
-        bool followed = false;
-        for (; end < candidates.size() && candidates[end].parent == candidates[begin].parent; ++end) {
-          light += std::abs(rows[row].leaves[candidates[end].leaf].light);
-          followed = followed || candidates[end].followed;
-        }
-        std::span<const Candidate> siblings(&candidates[begin], end - begin);
-        if (!followed && light < settings.joined * thresholds[row] && siblings[0].parent < layout.count() &&
-            siblings.size() == layout.children(layout.node(siblings[0].parent)).size()) {
-          addParent(leaves, siblings[0].parent, rows[row].leaves, siblings);
-          continue;
-        }
-        for (const Candidate& sibling : siblings) {
-          const Leaf& leaf = rows[row].leaves[sibling.leaf];
-          if (sibling.followed && level > 0)
-            addChildren(leaves, leaf, thresholds[row], layout);
-          else
-            leaves.push_back(leaf);
-        }
-      }
-      std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.node < b.node; });
     });
-  for (std::size_t row = 0; row < rows.size(); ++row) rows[row].leaves = std::move(divided[row]);
+}
+
+/// The row's leaves with those of the level divided, joined or as they are.
+std::vector<Leaf> divided(const std::vector<Leaf>& leaves, const std::uint8_t* followed,
+                          const transport::NodeLayout& layout, int level, float threshold,
+                          const DivisionSettings& settings) {
+  std::vector<Leaf> result;
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    transport::Node node = layout.node(leaves[i].node);
+    if (node.level != level) {
+      result.push_back(leaves[i]);
+      continue;
+    }
+    bool root = node.level + 1 >= layout.levels(static_cast<std::size_t>(node.projector));
+    candidates.push_back({root ? layout.count() : layout.index(layout.parent(node)), i, followed[i] != 0});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.parent < b.parent; });
+  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+    float light = 0.0f;
+    bool anyFollowed = false;
+    for (; end < candidates.size() && candidates[end].parent == candidates[begin].parent; ++end) {
+      light += std::abs(leaves[candidates[end].leaf].light);
+      anyFollowed = anyFollowed || candidates[end].followed;
+    }
+    std::span<const Candidate> siblings(&candidates[begin], end - begin);
+    if (!anyFollowed && light < settings.joined * threshold && siblings[0].parent < layout.count() &&
+        siblings.size() == layout.children(layout.node(siblings[0].parent)).size()) {
+      addParent(result, siblings[0].parent, leaves, siblings);
+      continue;
+    }
+    for (const Candidate& sibling : siblings) {
+      const Leaf& leaf = leaves[sibling.leaf];
+      if (sibling.followed && level > 0)
+        addChildren(result, leaf, threshold, layout);
+      else
+        result.push_back(leaf);
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const Leaf& a, const Leaf& b) { return a.node < b.node; });
+  result.shrink_to_fit();  // there are hundreds of thousands of them
+  return result;
+}
+
+}  // namespace
+
+void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
+            const std::vector<float>& thresholds, const DivisionSettings& settings) {
+  Followed followed(rows);
+  findFollowed(followed, rows, cameras, layout, level, thresholds, settings);
+  parallelFor(0, rows.size(), 256, [&](std::size_t row) {
+    if (rows[row].leaves.empty()) return;
+    rows[row].leaves = divided(rows[row].leaves, followed.of(row), layout, level, thresholds[row], settings);
+  });
 }
 
 }  // namespace relucent::multiplexing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/multiplexing/pattern_means.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "relucent/base/parallel.h"
@@ -10,22 +11,35 @@ namespace {
 
 constexpr float whole = 65535.0f;
 
+/// The node of `level` that holds one, or the last of its projector.
+transport::Node ancestor(const transport::NodeLayout& layout, transport::Node node, int level) {
+  int last = std::min(level, layout.levels(static_cast<std::size_t>(node.projector)) - 1);
+  if (node.level >= last) return node;
+  int up = last - node.level;
+  return {node.projector, last, node.x >> up, node.y >> up};
+}
+
 }  // namespace
 
-void PatternMeans::add(const std::vector<ProjectorStack>& patterns) {
-  std::size_t pixels = layout_.projectors().count(), nodes = layout_.count();
+void PatternMeans::add(int level, const std::vector<ProjectorStack>& patterns) {
+  if (patterns.empty()) return;
+  std::size_t pixels = layout_.projectors().count(), nodes = layout_.count(), first = nodes;
+  for (std::size_t projector = 0; projector < layout_.projectors().devices(); ++projector)
+    first = std::min(first, layout_.index(ancestor(layout_, {static_cast<int>(projector), 0, 0, 0}, level)));
   std::size_t stride = 3 * patterns.size();
-  Batch batch{patterns.size(), std::vector<std::uint8_t>(stride * pixels),
-              std::vector<std::uint16_t>(stride * (nodes - pixels))};
+  Batch batch{level, patterns.size(), patterns.size(), std::max(first, pixels), {}, {}};
+  if (first < pixels) batch.pixels.resize(stride * pixels);
+  batch.blocks.resize(stride * (nodes - batch.first));
   for (std::size_t number = 0; number < patterns.size(); ++number) {
     transport::NodeStack means = layout_.means(patterns[number]);
-    parallelFor(0, pixels, 4096, [&](std::size_t node) {
+    if (!batch.pixels.empty())
+      parallelFor(0, pixels, 4096, [&](std::size_t node) {
+        for (std::size_t c = 0; c < 3; ++c)
+          batch.pixels[node * stride + c * batch.patterns + number] = means[3 * node + c] > 0.5f ? 1 : 0;
+      });
+    parallelFor(batch.first, nodes, 4096, [&](std::size_t node) {
       for (std::size_t c = 0; c < 3; ++c)
-        batch.pixels[node * stride + c * batch.patterns + number] = means[3 * node + c] > 0.5f ? 1 : 0;
-    });
-    parallelFor(pixels, nodes, 4096, [&](std::size_t node) {
-      for (std::size_t c = 0; c < 3; ++c)
-        batch.blocks[(node - pixels) * stride + c * batch.patterns + number] =
+        batch.blocks[(node - batch.first) * stride + c * batch.patterns + number] =
             static_cast<std::uint16_t>(std::lround(whole * means[3 * node + c]));
     });
   }
@@ -33,21 +47,38 @@ void PatternMeans::add(const std::vector<ProjectorStack>& patterns) {
   batches_.push_back(std::move(batch));
 }
 
+void PatternMeans::keep(std::size_t count) {
+  patterns_ = std::min(count, patterns_);
+  std::size_t left = patterns_;
+  for (Batch& batch : batches_) {
+    batch.used = std::min(batch.used, left);
+    left -= batch.used;
+  }
+  std::erase_if(batches_, [](const Batch& batch) { return batch.used == 0; });
+}
+
+std::size_t PatternMeans::storedNode(const Batch& batch, std::size_t node,
+                                     const transport::Node& place) const {
+  return node >= batch.first || !batch.pixels.empty() ? node
+                                                      : layout_.index(ancestor(layout_, place, batch.level));
+}
+
 void PatternMeans::read(std::size_t node, const std::array<float*, 3>& means) const {
-  std::size_t pixels = layout_.projectors().count(), at = 0;
+  transport::Node place = layout_.node(node);
+  std::size_t at = 0;
   for (const Batch& batch : batches_) {
-    std::size_t count = batch.patterns, stride = 3 * count;
+    std::size_t count = batch.patterns, stride = 3 * count, stored = storedNode(batch, node, place);
     for (std::size_t c = 0; c < 3; ++c) {
       float* to = means[c] + at;
-      if (node < pixels) {
-        const std::uint8_t* from = &batch.pixels[node * stride + c * count];
-        for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
+      if (stored < batch.first) {
+        const std::uint8_t* from = &batch.pixels[stored * stride + c * count];
+        for (std::size_t i = 0; i < batch.used; ++i) to[i] = static_cast<float>(from[i]);
       } else {
-        const std::uint16_t* from = &batch.blocks[(node - pixels) * stride + c * count];
-        for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]) * (1.0f / whole);
+        const std::uint16_t* from = &batch.blocks[(stored - batch.first) * stride + c * count];
+        for (std::size_t i = 0; i < batch.used; ++i) to[i] = static_cast<float>(from[i]) * (1.0f / whole);
       }
     }
-    at += count;
+    at += batch.used;
   }
 }
 

@@ -104,9 +104,7 @@ void RowRegression::findNoise(const RowLight& seen) {
 
 float RowRegression::colourSpread(const Row& row, Eigen::Index leaf) const {
   const Leaf& of = row.leaves[static_cast<std::size_t>(leaf)];
-  bool far = kinds_[static_cast<std::size_t>(leaf)] % 2 == 1;
-  return (far ? settings_.farColours : settings_.nearColours) *
-         std::sqrt(of.spread * of.spread + of.expected * of.expected);
+  return settings_.colours * std::sqrt(of.spread * of.spread + of.expected * of.expected);
 }
 
 void RowRegression::chooseDetails(const Row& row) {

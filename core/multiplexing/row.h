@@ -30,10 +30,9 @@ struct Row {
 
 /// Numbers that say how a row is modelled. They hold for all venues that were tried.
 struct RowSettings {
-  int nearLevels = 2;         // light of the finest levels is near: it comes straight from the projector
-  float nearColours = 0.12f;  // relative deviation of a near leaf's nine values from the row's mixing
-  float farColours = 0.35f;   // of a far one's
-  float anyColour = 0.02f;    // added to the mixing where that deviation is relative to it
+  int nearLevels = 2;       // light of the finest levels is near: it comes straight from the projector
+  float colours = 0.12f;    // relative deviation of a leaf's nine values from the row's mixing
+  float anyColour = 0.02f;  // added to the mixing where that deviation is relative to it
   int details = 8;  // leaves whose nine values are unknowns of their own; for the others they are noise
   float leastExcess = 0.002f;  // standard deviation of what the model lacks, at least ...
   float mostExcess = 0.05f;    // ... and at most

@@ -68,6 +68,8 @@ class Watch {
 
   /// The next one's number.
   int shots() const { return shots_.shots(); }
+  /// Those before this one have been confirmed by a check.
+  int confirmed() const { return trusted_; }
   /// Tells the observer that patterns from `shot` on, whose light does not add up, are photographed again.
   void contradicted(int shot, int patterns);
 

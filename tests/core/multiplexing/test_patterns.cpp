@@ -40,15 +40,28 @@ class TestPatterns : public QObject {
     QVERIFY(std::abs(lit / static_cast<double>(pattern.size()) - 0.5) < 0.09);
   }
 
+  void meansAreThoseOfTheLayout_data() {
+    QTest::addColumn<int>("kept");
+    for (int kept : {9, 6, 4, 2}) QTest::addRow("%d of 9", kept) << kept;
+  }
+  /// Of patterns in blocks of every size, also those that are larger than a projector.
   void meansAreThoseOfTheLayout() {
+    QFETCH(int, kept);
     Rasters projectors({{13, 7}, {1, 5}});
     NodeLayout layout(projectors);
     PatternMeans means(layout);
     std::vector<ProjectorStack> patterns;
-    for (int number = 0; number < 5; ++number)
-      patterns.push_back(blockPattern(projectors, number % 2, number, 1));
-    means.add({patterns[0], patterns[1]});
-    means.add({patterns[2], patterns[3], patterns[4]});
+    int next = 0;
+    for (int level : {3, 1, 0, 4}) {
+      std::vector<ProjectorStack> some;
+      for (int i = 0; i < (level == 1 ? 3 : 2); ++i)
+        some.push_back(blockPattern(projectors, level, next++, 1));
+      means.add(level, some);
+      patterns.insert(patterns.end(), some.begin(), some.end());
+    }
+    QCOMPARE(means.patterns(), patterns.size());
+    means.keep(static_cast<std::size_t>(kept));
+    patterns.resize(static_cast<std::size_t>(kept));
     QCOMPARE(means.patterns(), patterns.size());
     std::array<std::vector<float>, 3> read;
     for (std::vector<float>& channel : read) channel.resize(patterns.size());

@@ -27,7 +27,7 @@ struct Scene {
     mixing << 0.7f, 0.2f, 0.1f, 0.1f, 0.8f, 0.1f, 0.05f, 0.15f, 0.8f;
     for (int number = 0; number < count; ++number)
       patterns.push_back(blockPattern(layout.projectors(), number % 3, number, 5));
-    means.add(patterns);
+    means.add(0, patterns);
     row.leaves = startingLeaves(layout, 2, 0.2f);
     row.mixing.assign(4, mixing);
     row.excess = 4e-6f;

@@ -68,11 +68,17 @@ void DensePhotographs::add(const hdr::LampLight& seen) {
   photographs_.push_back(std::move(photograph));
 }
 
+void DensePhotographs::reject(std::size_t photograph, std::size_t row) {
+  for (std::size_t c = 0; c < 3; ++c)
+    photographs_[photograph].deviation[3 * row + c] = std::numeric_limits<Eigen::half>::infinity();
+}
+
 std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::shown(std::size_t photograph,
                                                                   std::size_t row) const {
   const Photograph& of = photographs_[photograph];
   using Halves = Eigen::Map<const Eigen::Array<Eigen::half, 3, 1>>;
-  return {Halves(&of.light[3 * row]).cast<float>(), Halves(&of.deviation[3 * row]).cast<float>().square()};
+  return {of.scale * Halves(&of.light[3 * row]).cast<float>(),
+          (of.scale * Halves(&of.deviation[3 * row]).cast<float>()).square()};
 }
 
 void DensePhotographs::read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const {

@@ -29,6 +29,11 @@ class DensePhotographs {
   /// Forgets all but the first ones.
   void keep(std::size_t count) { photographs_.resize(count); }
 
+  /// Takes what a photograph shows of a camera pixel for unseen.
+  void reject(std::size_t photograph, std::size_t row);
+  /// Divides all light of a photograph.
+  void divide(std::size_t photograph, float gain) { photographs_[photograph].scale /= gain; }
+
   /// A camera pixel's equations.  The last `heldOut` photographs count as not seen.
   void read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const;
   /// What a photograph showed of a camera pixel, and its variance: infinite where it was saturated.
@@ -40,6 +45,7 @@ class DensePhotographs {
   struct Photograph {
     std::vector<Eigen::half> light;
     std::vector<Eigen::half> deviation;  // infinite: saturated
+    float scale = 1.0f;                  // of both
   };
 
   const photography::References& references_;

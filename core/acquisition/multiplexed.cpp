@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
 
 #include "relucent/acquisition/dense_photographs.h"
 #include "relucent/acquisition/exposure_cycle.h"
+#include "relucent/acquisition/photograph_review.h"
 #include "relucent/base/message.h"
 #include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
@@ -42,6 +46,7 @@ constexpr int fewUnconfirmed = 20;
 // Thresholds of dim pixels are raised by at most this.
 constexpr float mostDimming = 10.0f;
 // Rows that are solved one after the other with the same memory, and that wait to be written.
+constexpr std::size_t reviewParts = 256;
 constexpr std::size_t rowsAtOnce = 64, rowsWritten = 8192;
 
 std::size_t partsOf(std::size_t rows) {
@@ -58,6 +63,13 @@ struct Prediction {
     variance += other.variance;
     light += other.light;
   }
+};
+
+/// A pattern that was photographed.
+struct Taken {
+  int level = 0, number = 0;
+  int shot = 0;        // those before this one include it
+  bool again = false;  // what an earlier photograph of it showed had been spoilt
 };
 
 /// From the coarsest level to the finest.
@@ -102,7 +114,7 @@ class Measurement {
         break;
       }
       solve();
-      solve();
+      if (auto interrupted = settle(part)) return interrupted;
       multiplexing::divide(rows_, references_.cameras, layout, level, thresholds_, {});
     }
     return confirm(progress);
@@ -116,12 +128,14 @@ class Measurement {
   std::optional<sentinels::Interruption> interrupted(sentinels::Interruption how);
   int patternsFor(int level) const;
   std::optional<sentinels::Interruption> photograph(int level, int patterns, Progress& part);
+  std::optional<sentinels::Interruption> take(const std::vector<Taken>& wanted, Progress& part);
   std::optional<sentinels::Interruption> refine(Progress& part);
-  enum class Which { all, notJudged };
+  std::optional<sentinels::Interruption> settle(Progress& part);
   bool isJudged(std::size_t row) const;
-  void solve(Which which = Which::all);
+  void solve();
+  PhotographReview review();
   Prediction predict();
-  Prediction predicted(std::size_t row, const RowRegression& regression) const;
+  Prediction predicted(std::size_t row, const Eigen::ArrayX3f& predictions) const;
   void finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
                  MeasuredTransport& measured) const;
 
@@ -135,7 +149,7 @@ class Measurement {
   std::vector<Row> rows_;
   std::vector<float> thresholds_;  // relative to F
   std::vector<int> levels_;        // patterns of the levels that have begun
-  std::vector<int> shots_;         // numbers of the shots after each photograph
+  std::vector<Taken> taken_;       // a photograph each
 };
 
 void Measurement::begin(int level, float spread) {
@@ -168,12 +182,19 @@ int Measurement::patternsFor(int level) const {
 std::optional<sentinels::Interruption> Measurement::photograph(int level, int patterns, Progress& part) {
   if (context_.watch.shots() - context_.watch.confirmed() >= fewUnconfirmed)
     if (auto disturbed = confirm(part)) return disturbed;
+  std::vector<Taken> wanted;
+  for (int number = levels_.back() - patterns; number < levels_.back(); ++number)
+    wanted.push_back({level, number});
+  return take(wanted, part);
+}
+
+/// Photographs patterns of one level.
+std::optional<sentinels::Interruption> Measurement::take(const std::vector<Taken>& wanted, Progress& part) {
   std::optional<sentinels::Interruption> disturbed;
   std::vector<ProjectorStack> shown;
-  int first = levels_.back() - patterns;
-  for (int number = first; number < levels_.back(); ++number) {
+  for (Taken what : wanted) {
     ProjectorStack pattern =
-        multiplexing::blockPattern(references_.projectors, level, number, settings_.seed);
+        multiplexing::blockPattern(references_.projectors, what.level, what.number, settings_.seed);
     auto seen = context_.watch.lightAt(pattern, {cycle_[photographs_.size() % cycle_.size()]}, part);
     if (!seen) {
       disturbed = seen.interruption();
@@ -181,12 +202,14 @@ std::optional<sentinels::Interruption> Measurement::photograph(int level, int pa
     }
     shown.push_back(std::move(pattern));
     photographs_.add(*seen);
-    shots_.push_back(context_.watch.shots());
-    part.report(static_cast<double>(number + 1) /
-                static_cast<double>(level > 0 ? levels_.back() : mostFinest));
-    context_.observer.grew(levels_, number + 1);
+    what.shot = context_.watch.shots();
+    taken_.push_back(what);
+    if (what.again) continue;
+    part.report(static_cast<double>(what.number + 1) /
+                static_cast<double>(what.level > 0 ? levels_.back() : mostFinest));
+    context_.observer.grew(levels_, what.number + 1);
   }
-  means_.add(level, shown);
+  means_.add(wanted.front().level, shown);
   return disturbed ? interrupted(*disturbed) : std::nullopt;
 }
 
@@ -198,10 +221,9 @@ std::optional<sentinels::Interruption> Measurement::confirm(const Progress& prog
 
 /// T is to follow from the photographs that a check has confirmed.
 std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Interruption how) {
-  auto doubtful = std::upper_bound(shots_.begin(), shots_.end(), context_.watch.confirmed());
-  shots_.erase(doubtful, shots_.end());
-  photographs_.keep(shots_.size());
-  means_.keep(shots_.size());
+  std::erase_if(taken_, [&](const Taken& taken) { return taken.shot > context_.watch.confirmed(); });
+  photographs_.keep(taken_.size());
+  means_.keep(taken_.size());
   return how;
 }
 
@@ -215,7 +237,7 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     if (error < settings_.relativeThreshold || (before > 0.0 && error > (1.0 - worthMore) * before)) break;
     before = error;
   }
-  solve(Which::notJudged);
+  if (auto interrupted = settle(part)) return interrupted;
   multiplexing::divide(rows_, references_.cameras, means_.layout(), 0, thresholds_, {});
   return std::nullopt;
 }
@@ -226,18 +248,58 @@ bool Measurement::isJudged(std::size_t row) const {
   return apart < 2 || Random{row}.below(apart) == 0;
 }
 
-void Measurement::solve(Which which) {
+void Measurement::solve() {
   parallelChunks(0, rows_.size(), partsOf(rows_.size()),
                  [&](std::size_t, std::size_t begin, std::size_t end) {
                    RowRegression regression(means_, model_);
                    RowLight seen;
                    for (std::size_t row = begin; row < end; ++row) {
-                     if (rows_[row].leaves.empty() || (which == Which::notJudged && isJudged(row))) continue;
+                     if (rows_[row].leaves.empty()) continue;
                      photographs_.read(row, 0, seen);
                      const RowFit& fit = regression.solve(rows_[row], seen);
                      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
                    }
                  });
+}
+
+/// Solves once more, leaves out what contradicts the rest, and photographs again what was spoilt.
+std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
+  PhotographReview found = review();
+  std::vector<float> gains = found.gains();
+  for (std::size_t number = 0; number < gains.size(); ++number) photographs_.divide(number, gains[number]);
+  std::vector<std::size_t> spoilt = found.spoilt();
+  if (spoilt.empty()) return std::nullopt;
+  for (auto [row, number] : found.contradictions())
+    if (std::binary_search(spoilt.begin(), spoilt.end(), number)) photographs_.reject(number, row);
+  std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
+  for (std::size_t number : spoilt) {
+    Taken& taken = taken_[number];
+    if (std::exchange(taken.again, true)) continue;
+    context_.watch.contradicted(taken.shot - 1, 1);
+    wanted[taken.level].push_back(taken);
+  }
+  for (const auto& [level, patterns] : wanted)
+    if (auto interrupted = take(patterns, part)) return interrupted;
+  solve();
+  return std::nullopt;
+}
+
+PhotographReview Measurement::review() {
+  std::vector<PhotographReview> parts(reviewParts, PhotographReview(photographs_.size()));
+  parallelChunks(0, rows_.size(), parts.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    RowRegression regression(means_, model_);
+    RowLight seen;
+    for (std::size_t row = begin; row < end; ++row) {
+      if (rows_[row].leaves.empty()) continue;
+      photographs_.read(row, 0, seen);
+      const RowFit& fit = regression.solve(rows_[row], seen);
+      parts[part].add(row, seen, regression.predict(), rows_[row].excess);
+      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
+    }
+  });
+  PhotographReview all(photographs_.size());
+  for (const PhotographReview& part : parts) all.add(part);
+  return all;
 }
 
 Prediction Measurement::predict() {
@@ -249,7 +311,7 @@ Prediction Measurement::predict() {
       if (rows_[row].leaves.empty() || !isJudged(row)) continue;
       photographs_.read(row, predictedPatterns, seen);
       const RowFit& fit = regression.solve(rows_[row], seen);
-      parts[part].add(predicted(row, regression));
+      parts[part].add(predicted(row, regression.predict()));
       multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
     }
   });
@@ -258,12 +320,12 @@ Prediction Measurement::predict() {
   return all;
 }
 
-Prediction Measurement::predicted(std::size_t row, const RowRegression& regression) const {
+Prediction Measurement::predicted(std::size_t row, const Eigen::ArrayX3f& predictions) const {
   Prediction prediction;
   Eigen::Array3d flood = photographs_.flood(row).cast<double>();
   for (std::size_t number = photographs_.size() - predictedPatterns; number < photographs_.size(); ++number) {
     auto [light, variance] = photographs_.shown(number, row);
-    Eigen::Array3f off = light - regression.predicted(number);
+    Eigen::Array3f off = light - predictions.row(static_cast<Eigen::Index>(number)).transpose();
     for (Eigen::Index c = 0; c < 3; ++c) {
       if (!std::isfinite(variance[c])) continue;
       double unit = flood[c] * flood[c];

@@ -59,14 +59,17 @@ const RowFit& RowRegression::solve(Row& row, const RowLight& seen) {
   return fit_;
 }
 
-Eigen::Array3f RowRegression::predicted(std::size_t pattern) const {
-  Eigen::Array3f light;
-  for (std::size_t c = 0; c < 3; ++c)
-    light[at(c)] = channels_[c].amplitude.tail<1>()[0] * channels_[c].colours.tail<1>()[0];
-  for (std::size_t j = 0; j < fit_.blocks.size(); ++j)
-    for (std::size_t k = 0; k < 3; ++k)
-      light += design_[k](floods_ + at(pattern), at(j)) * fit_.blocks[j].col(at(k)).array();
-  return light;
+const Eigen::ArrayX3f& RowRegression::predict() {
+  Eigen::Index patterns = equations_ - floods_;
+  predictions_.resize(patterns, 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    auto light = predictions_.col(at(c));
+    light.setConstant(channels_[c].amplitude.tail<1>()[0] * channels_[c].colours.tail<1>()[0]);
+    for (std::size_t j = 0; j < fit_.blocks.size(); ++j)
+      for (std::size_t k = 0; k < 3; ++k)
+        light += fit_.blocks[j](at(c), at(k)) * design_[k].col(at(j)).segment(floods_, patterns).array();
+  }
+  return predictions_;
 }
 
 void RowRegression::readDesign(const Row& row) {

@@ -48,8 +48,8 @@ class RowRegression {
   /// Solves for `row`, whose leaves get their light and its deviation. Valid until the next call.
   /// Contract: `seen` has a row for each flood and each pattern.
   const RowFit& solve(Row& row, const RowLight& seen);
-  /// What the last fit says that a pattern shows, the offset of e included, seen or not.
-  Eigen::Array3f predicted(std::size_t pattern) const;
+  /// What the last fit says that the patterns show, the offset of e included, seen or not: a row each.
+  const Eigen::ArrayX3f& predict();
 
  private:
   using Columns = Eigen::MatrixXf;  // a row an equation, of which there is a multiple of `lanes`
@@ -94,6 +94,7 @@ class RowRegression {
   double determined_ = 0.0;
   std::vector<float> noise_;
   RowFit fit_;
+  Eigen::ArrayX3f predictions_;
 };
 
 }  // namespace relucent::multiplexing

@@ -2,6 +2,7 @@
 #include <QtTest>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "acquisition_run.h"
 #include "relucent/base/error.h"
@@ -25,7 +26,8 @@ constexpr const char* stage = "acquisition";
 /// Runs of acquisition in a traced venue whose devices can be given faults.
 class FaultyVenue {
  public:
-  FaultyVenue() : venue_(settings(), {}, progress_) {
+  explicit FaultyVenue(AcquisitionMode mode)
+      : venue_(settings(), {}, progress_), acquisition_(settingsOf(mode)) {
     const DeviceModelSettings& devices = venue_.settings().devices;
     double rounding = 1.0 / 4095.0;
     linearization_.exposures = {1.0 / 8.0, 1.0 / 75.0};
@@ -33,7 +35,7 @@ class FaultyVenue {
     linearization_.cameras[0].gain = 1.0 / devices.fullWell;
     linearization_.cameras[0].readNoise =
         std::hypot(devices.readElectrons / devices.fullWell, rounding / std::sqrt(12.0));
-    acquisition_.relativeThreshold = 0.05;
+    acquisition_.relativeThreshold = mode == AcquisitionMode::adaptive ? 0.05 : 0.02;
     acquisition_.references = 3;
     acquisition_.verificationPatterns = 4;
   }
@@ -116,7 +118,8 @@ class TestSentinels : public QObject {
 
  private slots:
   void initTestCase() {
-    venue_ = std::make_unique<FaultyVenue>();
+    venue_ = std::make_unique<FaultyVenue>(AcquisitionMode::adaptive);
+    dense_ = std::make_unique<FaultyVenue>(AcquisitionMode::multiplexed);
     // Shot 12 on is after the floods of 3 rounds, shot 60 amid the tree.
     QVERIFY2(venue_->sound().patterns > 100, qPrintable(QString::number(venue_->sound().patterns)));
     qInfo("%d patterns, %d exposures, verification %.4f", venue_->sound().patterns, venue_->sound().exposures,
@@ -385,8 +388,46 @@ class TestSentinels : public QObject {
     QVERIFY(a.verificationError < std::hypot(before, std::sqrt(0.06) * 0.1) + 0.1 * before);
   }
 
+  void whatPassedByDensePatternsIsMeasuredAgain_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    for (int first : {20, 60, 90})
+      for (int photographs : {1, 4}) {
+        DeviceFault hand = handOver(first);
+        hand.last = first + photographs - 1;
+        QTest::addRow("hand, %d from %d on", photographs, first) << hand;
+        DeviceFault flash = hand;
+        flash.kind = FaultKind::flash;
+        flash.amount = 20.0;
+        if (photographs == 1) QTest::addRow("flash at %d", first) << flash;
+      }
+  }
+  /// Nobody is asked: a check sees no hand that has gone.
+  void whatPassedByDensePatternsIsMeasuredAgain() {
+    QFETCH(DeviceFault, fault);
+    dense_->faults->faults = {fault};
+    const Acquisition& sound = dense_->sound();
+    NoShotLog log;
+    Listening observer;
+    Acquisition a = dense_->run([](const Alarm&) { return Answer::skip; }, log, observer);
+    qInfo("%d patterns for %d, verification %.4f for %.4f, %zu flagged for %zu", a.patterns, sound.patterns,
+          a.verificationError, sound.verificationError, flaggedIn(a), flaggedIn(sound));
+    int others = 0;
+    std::set<int> again;
+    for (const Retake& retake : observer.retakes) {
+      QCOMPARE(retake.reason, RetakeReason::contradiction);
+      if (retake.shot >= fault.first && retake.shot <= fault.last)
+        again.insert(retake.shot);
+      else
+        ++others;
+    }
+    QCOMPARE(static_cast<int>(again.size()), fault.last - fault.first + 1);
+    QVERIFY2(others <= 2, qPrintable(QString::number(others)));
+    QVERIFY(flaggedIn(a) <= flaggedIn(sound) + 2);
+    QVERIFY(a.verificationError < 1.1 * sound.verificationError);
+  }
+
  private:
-  std::unique_ptr<FaultyVenue> venue_;
+  std::unique_ptr<FaultyVenue> venue_, dense_;
 };
 
 QTEST_APPLESS_MAIN(TestSentinels)

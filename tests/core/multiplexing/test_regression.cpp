@@ -169,7 +169,9 @@ class TestRegression : public QObject {
     regression.solve(scene.row, without);
     for (std::size_t pattern = 56; pattern < 60; ++pattern) {
       Eigen::Array3f light = seen.light.row(static_cast<Eigen::Index>(6 + pattern)).transpose();
-      QVERIFY((regression.predicted(pattern) - light).abs().maxCoeff() < 0.02f);
+      QVERIFY((regression.predict().row(static_cast<Eigen::Index>(pattern)).transpose() - light)
+                  .abs()
+                  .maxCoeff() < 0.02f);
     }
   }
 

@@ -39,10 +39,27 @@ double unresolvedEnergy(const transport::TransportMatrix& transport, const Camer
   return all > 0.0 ? missing / all : 0.0;
 }
 
+/// The side of the finest leaves; 0 if there are single pixels among them: nothing is missing.
+int stoppedBlocks(const transport::TransportMatrix& transport) {
+  const transport::NodeLayout& layout = transport.layout();
+  const transport::BlockSparse& leaves = transport.leaves();
+  int finest = layout.levels() - 1;
+  for (std::size_t entry = 0; entry < leaves.blocks() && finest > 0; ++entry)
+    finest = std::min(finest, layout.node(leaves.column(entry)).level);
+  return finest > 0 ? 1 << finest : 0;
+}
+
 /// What the user should know of a measurement.
-std::vector<Message> findingsOf(double drift, double unusable, double flagged,
+std::vector<Message> findingsOf(double drift, double unusable, double flagged, int stoppedAt,
                                 const sentinels::Supervision& supervision) {
   std::vector<Message> findings;
+  if (stoppedAt > 0)
+    findings.push_back(
+        RELUCENT_MESSAGE(
+            "acquisition.stopped-early",
+            "Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are "
+            "compensated less sharply; go on measuring any time as long as nothing has moved")
+            .with(as::label(stoppedAt)));
   if (std::abs(drift) > driftLimit)
     findings.push_back(
         RELUCENT_MESSAGE("acquisition.light-drifted",
@@ -135,7 +152,8 @@ class Measurement {
     }
     for (std::size_t row = 0; row < verified.flagged.size(); ++row)
       if (!references.usable[row] || unknown[row]) verified.flagged[row] = 1;
-    transport::Acquisition acquisition = finished(std::move(verified), std::move(floods), watch);
+    const bool stopped = interrupted || dropped || progress.stopAndKeep();
+    transport::Acquisition acquisition = finished(std::move(verified), std::move(floods), stopped, watch);
     progress.report(1.0);
     return acquisition;
   }
@@ -179,28 +197,30 @@ class Measurement {
     return context.watch.check(progress);
   }
 
-  transport::Acquisition finished(VerifiedTransport verified, Floods better,
+  transport::Acquisition finished(VerifiedTransport verified, Floods better, bool stopped,
                                   const sentinels::Watch& watch) const {
     const photography::References& references = watch.references();
     Floods floods = floodsOf(references);
     double unresolved = unresolvedEnergy(verified.transport, floods.light);
     if (!better.light.empty()) floods = std::move(better);
     double flagged = shareOf(verified.flagged);
-    return {
-        .transport = std::move(verified.transport),
-        .black = watch.black().radiance,
-        .blackVariance = watch.black().variance,
-        .flood = std::move(floods.light),
-        .floodVariance = std::move(floods.variance),
-        .flagged = std::move(verified.flagged),
-        .residual = std::move(verified.residual),
-        .leafVariance = std::move(verified.leafVariance),
-        .remeasured = verified.remeasured,
-        .unresolvedEnergy = unresolved,
-        .verificationError = verified.error,
-        .patterns = run_.shots.shots() - shotsBefore_,
-        .exposures = run_.shots.exposures() - exposuresBefore_,
-        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_)};
+    const int stoppedAt = stopped ? stoppedBlocks(verified.transport) : 0;
+    return {.transport = std::move(verified.transport),
+            .black = watch.black().radiance,
+            .blackVariance = watch.black().variance,
+            .flood = std::move(floods.light),
+            .floodVariance = std::move(floods.variance),
+            .flagged = std::move(verified.flagged),
+            .residual = std::move(verified.residual),
+            .leafVariance = std::move(verified.leafVariance),
+            .remeasured = verified.remeasured,
+            .unresolvedEnergy = unresolved,
+            .verificationError = verified.error,
+            .patterns = run_.shots.shots() - shotsBefore_,
+            .exposures = run_.shots.exposures() - exposuresBefore_,
+            .stoppedAt = stoppedAt,
+            .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, stoppedAt,
+                                   supervision_)};
   }
 
   const AcquisitionRun& run_;

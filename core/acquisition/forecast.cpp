@@ -22,6 +22,11 @@ constexpr int enoughShots = 40;
 constexpr struct {
   PatternRange first, middle, finest;
 } densePatterns{{32.0, 32.0, 64.0}, {8.0, 12.0, 40.0}, {16.0, 40.0, 96.0}};
+// How they grow with the threshold, and the fewest of a level.
+constexpr double densePower = -0.5;
+constexpr double fewestDense = 8.0;
+// A check is made after 20 to 40 of them.
+constexpr double denseCheckInterval = 30.0;
 // Of four dense patterns one at most has another exposure; references and checks have all of them.
 constexpr double denseExposures = 1.2;
 
@@ -44,6 +49,29 @@ double blocksOf(const transport::NodeLayout& layout, int level) {
 /// first, as Watch does.
 double checksWithin(double patterns, int interval) {
   return 2.0 * std::max(0.0, std::floor((patterns - 1.0) / std::max(1, interval)));
+}
+
+std::vector<PatternRange> densePatternsOf(const Rasters& projectors, double threshold,
+                                          std::span<const int> known) {
+  static const double usual = settingsOf(AcquisitionMode::multiplexed).relativeThreshold;
+  double factor = threshold > 0.0 ? std::pow(threshold / usual, densePower) : 1.0;
+  auto scaled = [&](const PatternRange& range) {
+    return PatternRange{range.least, std::max(fewestDense, factor * range.likely),
+                        std::max(fewestDense, factor * range.most)};
+  };
+  transport::NodeLayout layout(projectors);
+  std::vector<PatternRange> patterns;
+  for (int level = multiplexing::startingLevel(layout); level >= 0; --level) {
+    if (patterns.size() < known.size()) {
+      double count = known[patterns.size()];
+      patterns.push_back({count, count, count});
+    } else {
+      patterns.push_back(patterns.empty() ? densePatterns.first
+                         : level > 0      ? scaled(densePatterns.middle)
+                                          : scaled(densePatterns.finest));
+    }
+  }
+  return patterns;
 }
 
 }  // namespace
@@ -79,20 +107,8 @@ double colourFactor(double relativeThreshold) {
 
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, const AcquisitionSettings& settings,
                                         std::span<const int> known) {
-  if (settings.scheme == AcquisitionScheme::multiplexed) {
-    transport::NodeLayout layout(projectors);
-    std::vector<PatternRange> patterns;
-    for (int level = multiplexing::startingLevel(layout); level >= 0; --level) {
-      if (patterns.size() < known.size())
-        patterns.push_back(
-            {1.0 * known[patterns.size()], 1.0 * known[patterns.size()], 1.0 * known[patterns.size()]});
-      else
-        patterns.push_back(patterns.empty() ? densePatterns.first
-                           : level > 0      ? densePatterns.middle
-                                            : densePatterns.finest);
-    }
-    return patterns;
-  }
+  if (settings.scheme == AcquisitionScheme::multiplexed)
+    return densePatternsOf(projectors, settings.relativeThreshold, known);
   std::size_t lights = settings.colours == LitColours::white ? 1 : 3;
   return levelPatterns(projectors, lights, known, colourFactor(settings.relativeThreshold));
 }
@@ -119,6 +135,11 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   auto total = [&](auto member) {
     // One check before every level but the first, one before the test patterns and one after them.
     double all = references + testing + pair;
+    if (settings.scheme == AcquisitionScheme::multiplexed) {
+      double patterns = 0.0;
+      for (const PatternRange& level : levels) patterns += level.*member;
+      return all + patterns + pair * std::floor(patterns / denseCheckInterval);
+    }
     for (const PatternRange& level : levels)
       if (level.*member > 0.0)
         all += pair + level.*member + checksWithin(level.*member, settings.checkInterval);
@@ -157,6 +178,10 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
                                                 framesInMemory * 27.0 * pixels +
                                                 60.0 * static_cast<double>(projectors.count()));
   return work;
+}
+
+double expectedError(const AcquisitionSettings& settings) {
+  return 0.0045 + 0.35 * settings.relativeThreshold;
 }
 
 }  // namespace relucent::acquisition

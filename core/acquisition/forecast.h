@@ -62,4 +62,11 @@ ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& 
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
                   const rig::ShotTimes& benchmark, const AcquisitionState& state);
 
+/// How far test patterns are about to differ from what T of dense patterns predicts, as a share of their
+/// light:
+///   0.0045 + 0.35 threshold
+/// within a fifth for corner and statue at 256x192 / 160x120 and thresholds from 0.006 to 0.05, sensors of
+/// 15 000 electrons; depth has half as much again, glass twice as much (README).
+double expectedError(const AcquisitionSettings& settings);
+
 }  // namespace relucent::acquisition

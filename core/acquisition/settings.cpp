@@ -26,6 +26,10 @@ std::vector<Message> problems(const AcquisitionSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.dim-share-out-of-range",
                                              "the share for dim pixels must lie between 0 and 1, not at {}")
                         .with(settings.dimShare));
+  if (settings.scheme == AcquisitionScheme::multiplexed && settings.colours == LitColours::white)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "acquisition.dense-patterns-not-white",
+        "dense patterns have colours by chance: leave out white, or measure in the mode adaptive or sen"));
   if (settings.references < 1)
     found.push_back(RELUCENT_ENGLISH_MESSAGE("acquisition.no-reference-shots",
                                              "at least one reference shot is needed, not {}")

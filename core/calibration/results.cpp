@@ -181,6 +181,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"remeasured", acquisition.remeasured},
               {"patterns", acquisition.patterns},
               {"exposures", acquisition.exposures},
+              {"stopped_at", acquisition.stoppedAt},
               {"findings", acquisition.findings},
               {"cost", toJson(cost)}};
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
@@ -225,6 +226,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     acquisition.verificationError = values.at("verification_error");
     acquisition.patterns = values.at("patterns");
     acquisition.exposures = values.at("exposures");
+    acquisition.stoppedAt = values.value("stopped_at", 0);
     acquisition.findings = values.at("findings").get<std::vector<Message>>();
     return acquisition;
   });

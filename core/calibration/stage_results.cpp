@@ -119,6 +119,7 @@ void read(const StageResult& stored, AcquisitionResult& result) {
     if (values.contains("projectors")) result.projectors = sizesFrom(values.at("projectors"));
     if (values.contains("cameras")) result.cameras = sizesFrom(values.at("cameras"));
     take(values, "verification_error", result.verificationError);
+    take(values, "stopped_at", result.stoppedAt);
     take(values, "findings", result.findings);
     take(values, result.cost);
   });

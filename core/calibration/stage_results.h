@@ -49,6 +49,7 @@ struct AcquisitionResult {
   std::vector<Size> projectors;
   std::vector<Size> cameras;
   std::optional<double> verificationError;  // on held-out patterns, relative
+  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: complete
   std::vector<Message> findings;
   std::optional<StageCost> cost;
 };

@@ -49,7 +49,7 @@ void addMeasurement(CLI::App* sub, pipeline::CalibrateSettings& settings) {
       "How the light transport is measured: " + listOfNames<acquisition::AcquisitionMode>(),
       [&settings](acquisition::AcquisitionMode mode) { settings.acquisition = settingsOf(mode); })
       ->type_name("MODE")
-      ->default_str("adaptive");
+      ->default_str("multiplexed");
   addNamed<acquisition::LitColours>(
       sub, "--colour",
       "Colours of the patterns: " + listOfNames<acquisition::LitColours>() + "; fast uses white",

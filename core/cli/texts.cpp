@@ -163,15 +163,17 @@ std::string textOf(const pipeline::InverseBenchResult& result) {
 }
 
 std::string textOf(const pipeline::AcquisitionBenchResult& result) {
-  std::string text = fmt::format("{:<8} {:<9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>10} {:>9} {:>9} {:>8}\n",
-                                 "venue", "mode", "threshold", "patterns", "exposures", "s", "frobenius",
-                                 "median row", "natural %", "random %", "energy");
+  std::string text =
+      fmt::format("{:<8} {:<11} {:>9} {:<6} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>8} {:>8} {:>8}\n",
+                  "venue", "mode", "threshold", "light", "exposures", "response", "s", "frobenius",
+                  "natural %", "random %", "energy", "windows", "refined");
   for (const pipeline::AcquisitionBenchRun& run : result.runs)
     text += fmt::format(
-        "{:<8} {:<9} {:>9.3g} {:>9} {:>9} {:>8.1f} {:>10.4f} {:>10.4f} {:>9.2f} {:>9.2f} {:>8.4f}\n",
-        run.venue, nameOf(run.mode), run.threshold, run.patterns, run.exposures, run.seconds,
-        run.transport.frobenius, run.transport.rowMedian, 100.0 * run.transport.relightNatural,
-        100.0 * run.transport.relightRandom, run.transport.energy);
+        "{:<8} {:<11} {:>9.3g} {:<6} {:>9} {:>9} {:>8.1f} {:>10.4f} {:>9.2f} {:>9.2f} {:>8.4f} {:>8.2f} "
+        "{:>8.2f}\n",
+        run.venue, nameOf(run.mode), run.threshold, nameOf(run.colours), run.exposures, run.linearization,
+        run.seconds, run.transport.frobenius, 100.0 * run.transport.relightNatural,
+        100.0 * run.transport.relightRandom, run.transport.energy, run.windows, run.refined);
   return text;
 }
 

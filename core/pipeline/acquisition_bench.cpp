@@ -7,7 +7,7 @@
 
 #include "relucent/devices/temporary_folder.h"
 #include "relucent/pipeline/calibrate.h"
-#include "relucent/pipeline/evaluation.h"
+#include "relucent/pipeline/evaluate.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -15,13 +15,28 @@ namespace {
 struct Trial {
   acquisition::AcquisitionMode mode;
   double threshold;
+  acquisition::LitColours colours = acquisition::LitColours::rgb;
 };
 // sen spends several times the patterns at the same threshold, so that it is tried at looser ones too.
-constexpr Trial trials[] = {
-    {acquisition::AcquisitionMode::adaptive, 0.006}, {acquisition::AcquisitionMode::adaptive, 0.008},
-    {acquisition::AcquisitionMode::adaptive, 0.02},  {acquisition::AcquisitionMode::sen, 0.008},
-    {acquisition::AcquisitionMode::sen, 0.02},       {acquisition::AcquisitionMode::sen, 0.05},
-    {acquisition::AcquisitionMode::fast, 0.02},      {acquisition::AcquisitionMode::multiplexed, 0.012}};
+constexpr Trial trials[] = {{acquisition::AcquisitionMode::adaptive, 0.006},
+                            {acquisition::AcquisitionMode::adaptive, 0.008},
+                            {acquisition::AcquisitionMode::adaptive, 0.02},
+                            {acquisition::AcquisitionMode::adaptive, 0.02, acquisition::LitColours::white},
+                            {acquisition::AcquisitionMode::sen, 0.008},
+                            {acquisition::AcquisitionMode::sen, 0.02},
+                            {acquisition::AcquisitionMode::sen, 0.05},
+                            {acquisition::AcquisitionMode::fast, 0.02, acquisition::LitColours::white},
+                            {acquisition::AcquisitionMode::multiplexed, 0.03},
+                            {acquisition::AcquisitionMode::multiplexed, 0.012},
+                            {acquisition::AcquisitionMode::multiplexed, 0.006}};
+
+double meanPsnr(const EvaluateResult& result, compensation::Method method) {
+  double sum = 0.0;
+  for (const ImageScore& image : result.images)
+    for (const MethodScore& score : image.methods)
+      if (score.method == method) sum += score.psnrReachable;
+  return sum / static_cast<double>(result.images.size());
+}
 
 AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& trial,
                              const std::filesystem::path& cache, Progress& progress) {
@@ -31,22 +46,26 @@ AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& tri
   settings.rig = venue;
   settings.acquisition = settingsOf(trial.mode);
   settings.acquisition.relativeThreshold = trial.threshold;
-  settings.chooseRidge = false;  // only T is judged
+  settings.acquisition.colours = trial.colours;
   Progress calibrating = progress.part(0.9, progress.stage());
   CalibrateResult spent = calibrate(path, settings, cache, calibrating);
 
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress judging = progress.part(0.1, progress.stage());
-  TransportScore score = transportScore(loadCalibration(folder, judging), cache, judging);
-  return {venue.name,
-          trial.mode,
-          trial.threshold,
-          spent.patterns,
-          spent.exposures,
-          spent.seconds.acquisition,
-          spent.unresolvedEnergy,
-          score};
+  EvaluateSettings judged;
+  judged.methods = {compensation::Method::windows, compensation::Method::refined};
+  EvaluateResult result = evaluate(path, judged, cache, judging);
+  return {.venue = venue.name,
+          .mode = trial.mode,
+          .threshold = trial.threshold,
+          .colours = trial.colours,
+          .patterns = spent.patterns,
+          .exposures = spent.exposures,
+          .linearization = spent.linearizationExposures,
+          .seconds = spent.seconds.acquisition,
+          .unresolvedEnergy = spent.unresolvedEnergy,
+          .transport = result.transport,
+          .windows = meanPsnr(result, compensation::Method::windows),
+          .refined = meanPsnr(result, compensation::Method::refined)};
 }
 
 std::vector<std::string> venueNames(const AcquisitionBenchSettings& settings) {

@@ -27,11 +27,14 @@ struct AcquisitionBenchRun {
   std::string venue;
   acquisition::AcquisitionMode mode = acquisition::AcquisitionMode::adaptive;
   double threshold = 0.0;  // as a share of the flood image
-  int patterns = 0;        // linearization, references and verification included
+  acquisition::LitColours colours = acquisition::LitColours::rgb;
+  int patterns = 0;  // linearization, references and verification included
   int exposures = 0;
-  double seconds = 0.0;  // of acquisition; simulated photographs take no exposure time but some computing
+  int linearization = 0;  // exposures of it
+  double seconds = 0.0;   // of acquisition; simulated photographs take no exposure time but some computing
   double unresolvedEnergy = 0.0;
   TransportScore transport;
+  double windows = 0.0, refined = 0.0;  // PSNR of the reachable pixels with these methods, mean of images, dB
 };
 
 struct AcquisitionBenchResult {
@@ -40,8 +43,9 @@ struct AcquisitionBenchResult {
   std::vector<AcquisitionBenchRun> runs;
 };
 
-/// Measures simulated venues in every mode, `adaptive` and `sen` at several thresholds, and holds T against
-/// the truth: what each mode costs and what it is worth. Takes minutes a venue at rehearsal size.
+/// Measures simulated venues in every mode at several thresholds, holds T against the truth, and compensates
+/// the product's test pictures with it: what each mode costs and what is seen of it. Takes minutes a venue at
+/// rehearsal size.
 /// Throws: as calibrate() and evaluate().
 AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings,
                                         const std::filesystem::path& cache, Progress& progress);

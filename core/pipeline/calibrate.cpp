@@ -42,8 +42,9 @@ class Calibrating {
  private:
   /// The acquisition itself is let go of: there is no room for two T beside the inverse.
   void measureVenue(MeasuredCalibration& measured, Progress& progress) {
+    sentinels::AcquisitionObserver nobody;
     const transport::Acquisition acquisition =
-        measureAcquisition(folder_, devices_.rig, measured.linearization, handler_, progress);
+        goOnMeasuring(folder_, devices_.rig, measured.linearization, handler_, nobody, progress);
     measured.acquisition = figuresOf(acquisition);
     measured.venue = measuredVenueOf(acquisition, settings_.threshold);
   }

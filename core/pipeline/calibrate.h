@@ -15,7 +15,8 @@ namespace relucent::pipeline {
 struct CalibrateResult {
   int patterns = 0;   // shown, all stages
   int exposures = 0;  // photographed, all stages
-  struct Seconds {    // wall time of each stage, earlier runs of a resumed calibration included
+  int linearizationExposures = 0;
+  struct Seconds {  // wall time of each stage, earlier runs of a resumed calibration included
     double linearization = 0.0;
     double acquisition = 0.0;
     double inverse = 0.0;
@@ -41,8 +42,8 @@ CalibrateResult calibrate(const std::filesystem::path& folder, const CalibrateSe
                           const std::filesystem::path& cache, const sentinels::AlarmHandler& handler,
                           Progress& progress);
 
-/// Goes on where an interrupted calibration stopped, with the settings it was begun with. A finished one is
-/// reported as it is. Ends in the same bits as an uninterrupted run.
+/// Goes on where an interrupted calibration stopped, or with one that was stopped and kept, with the settings
+/// it was begun with. A finished one is reported as it is. Ends in the same bits as an uninterrupted run.
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,
                        Progress& progress);
 CalibrateResult resume(const std::filesystem::path& folder, const std::filesystem::path& cache,

@@ -19,7 +19,7 @@ namespace relucent::pipeline {
 struct CalibrateSettings {
   RigSettings rig;
   linearization::LinearizationSettings linearization;
-  acquisition::AcquisitionSettings acquisition;
+  acquisition::AcquisitionSettings acquisition = settingsOf(acquisition::AcquisitionMode::multiplexed);
   transport::ThresholdSettings threshold;  // none by default: every leaf that was measured counts
   inverse::WindowSettings windows;
   bool chooseRidge = true;  // windows.ridge is where the search for the best one starts

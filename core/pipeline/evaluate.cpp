@@ -191,12 +191,6 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   return evaluation;
 }
 
-TransportScore transportScore(const MeasuredCalibration& measured, const fs::path& cache,
-                              Progress& progress) {
-  OpenedRig devices = openedVenue(measured, cache, progress);
-  return scoreOf(measured.venue.transport, devices.venue.value());
-}
-
 EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
                         Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())

@@ -36,9 +36,4 @@ struct Evaluation {
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
                      const std::filesystem::path& cache, Progress& progress);
 
-/// How near the measured T is to the venue's own.
-/// Throws: Error{input} if the calibration is of a real venue.
-TransportScore transportScore(const MeasuredCalibration& measured, const std::filesystem::path& cache,
-                              Progress& progress);
-
 }  // namespace relucent::pipeline

@@ -182,7 +182,11 @@ calibration::Json toJson(const AcquisitionBenchResult& result) {
                     {"mode", nameOf(run.mode)},
                     {"threshold", run.threshold},
                     {"patterns", run.patterns},
+                    {"colours", nameOf(run.colours)},
                     {"exposures", run.exposures},
+                    {"linearization_exposures", run.linearization},
+                    {"windows", run.windows},
+                    {"refined", run.refined},
                     {"seconds", run.seconds},
                     {"unresolved_energy", run.unresolvedEnergy},
                     {"transport", transportToJson(run.transport)}});

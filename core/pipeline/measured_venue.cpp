@@ -111,6 +111,7 @@ CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const Me
                                acquiring = costOf<calibration::Stage::acquisition>(folder);
   result.patterns = linearization.patterns + acquiring.patterns;
   result.exposures = linearization.exposures + acquiring.exposures;
+  result.linearizationExposures = linearization.exposures;
   result.seconds.linearization = linearization.seconds;
   result.seconds.acquisition = acquiring.seconds;
   result.seconds.inverse = costOf<calibration::Stage::inverse>(folder).seconds;

@@ -29,6 +29,21 @@ fs::path unusedFolder(const fs::path& parent) {
   }
 }
 
+/// Measured on shots of the journal, as far as there are any, and stored.
+transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                const linearization::Linearization& linearization,
+                                const sentinels::AlarmHandler& handler,
+                                sentinels::AcquisitionObserver& observer, Progress& progress) {
+  Stopwatch watch;
+  calibration::ShotJournal journal(folder.shotFolder());
+  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::acquisition)));
+  transport::Acquisition acquisition = acquisition::acquire(
+      {shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
+  calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
+  return acquisition;
+}
+
 }  // namespace
 
 calibration::CalibrationFolder beginCalibration(const fs::path& path, const CalibrateSettings& settings) {
@@ -67,13 +82,18 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   if (auto done = folder.find(calibration::Stage::acquisition, inputs))
     return calibration::loadAcquisition(*done);
-  Stopwatch watch;
-  calibration::ShotJournal journal(folder.shotFolder());
-  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::acquisition)));
-  transport::Acquisition acquisition = acquisition::acquire(
-      {shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
-  calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
-  return acquisition;
+  return acquired(folder, rig, linearization, handler, observer, progress);
+}
+
+transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                     const linearization::Linearization& linearization,
+                                     const sentinels::AlarmHandler& handler,
+                                     sentinels::AcquisitionObserver& observer, Progress& progress) {
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
+  auto done = folder.find(calibration::Stage::acquisition, inputs);
+  if (done && calibration::resultFrom<calibration::Stage::acquisition>(*done).stoppedAt == 0)
+    return calibration::loadAcquisition(*done);
+  return acquired(folder, rig, linearization, handler, observer, progress);
 }
 
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,

@@ -30,6 +30,12 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
                                           const linearization::Linearization& linearization,
                                           const sentinels::AlarmHandler& handler,
                                           sentinels::AcquisitionObserver& observer, Progress& progress);
+/// Goes on with a measurement that was stopped and kept, as if it had not been; another is as above. Until it
+/// is finished, what was kept stays the result.
+transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                     const linearization::Linearization& linearization,
+                                     const sentinels::AlarmHandler& handler,
+                                     sentinels::AcquisitionObserver& observer, Progress& progress);
 /// Chooses the windows' ridge and keeps it, unless that is done. Throws: as invert(); Error{disk}.
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                     Progress& progress);

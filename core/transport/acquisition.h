@@ -25,6 +25,7 @@ struct Acquisition {
   double verificationError = 0.0;  // relative error of held-out patterns over all pixels
   int patterns = 0;
   int exposures = 0;
+  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: complete
   std::vector<Message> findings;  // sentences
 };
 

@@ -260,12 +260,18 @@ Choice::Choice(const QString& name, const QString& sentence, QWidget* parent) : 
   auto* texts = new QVBoxLayout;
   texts->setSpacing(0);
   texts->addWidget(labelOf(name, "strong"));
-  texts->addWidget(labelOf(sentence, "note"));
+  sentence_ = labelOf(sentence, "note");
+  texts->addWidget(sentence_);
   row->addLayout(texts, 1);
   remark_ = labelOf({}, "secondary");
   remark_->setWordWrap(false);
   row->addWidget(remark_);
   for (QLabel* label : findChildren<QLabel*>()) label->setAttribute(Qt::WA_TransparentForMouseEvents);
+}
+
+void Choice::setSentence(const QString& text) {
+  sentence_->setText(text);
+  setAccessibleDescription(text);
 }
 
 void Choice::setRemark(const QString& text) {

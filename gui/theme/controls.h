@@ -148,10 +148,11 @@ class Choice : public QPushButton {
 
  public:
   Choice(const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  void setSentence(const QString& text);
   void setRemark(const QString& text);
 
  private:
-  QLabel* remark_;
+  QLabel *sentence_, *remark_;
 };
 
 /// A small button with an icon that follows the theme; `name` is its accessible name and its tooltip.

@@ -19,7 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double fineThreshold = 0.006;
+constexpr double fastThreshold = 0.05, fineThreshold = 0.006;
+constexpr int fastVerification = 4;
 constexpr int photographsBeforeTime = 20;
 constexpr std::chrono::seconds beforeRetry{5};
 
@@ -79,6 +80,7 @@ void AcquirePage::makeCommands() {
       Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
   again_ = addCommand(Icon::retry, begins);
   goOn_ = addCommand(Icon::play, begins);
+  goOnMeasuring_ = addCommand(Icon::play, begins);
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
@@ -99,6 +101,8 @@ StepStatus AcquirePage::status() const {
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
   switch (session_.progress(calibration::Stage::acquisition)) {
     case calibration::StageProgress::done:
+      if (const int blocks = stoppedAt(); blocks > 0)
+        return {StepState::outOfDate, tr("Stopped at %1 px").arg(blocks)};
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
@@ -145,6 +149,7 @@ void AcquirePage::updateCommands() {
   keep_->show(tr("Stop and keep"), !isStopping());
   again_->show(tr("Measure again"), session_.areDevicesFree());
   goOn_->show(tr("Resume"), mayStart);
+  goOnMeasuring_->show(tr("Go on measuring"), mayStart);
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
@@ -173,12 +178,31 @@ std::optional<Banner> AcquirePage::banner() const {
   if (progress == calibration::StageProgress::stale)
     return Banner{Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
                   tr("It still works and stays until the new one is ready."), again_};
+  if (progress == calibration::StageProgress::done && stoppedAt() > 0) return stoppedBanner();
   if (progress == calibration::StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
                      nullptr, kept_),
                   goOn_};
   return std::nullopt;
+}
+
+Banner AcquirePage::stoppedBanner() const {
+  const QString title = tr("Measuring was stopped at blocks of %1 px").arg(stoppedAt());
+  const std::optional<WorkLeft> whole = expected();
+  const calibration::StageCost spent = cost().value_or(calibration::StageCost());
+  if (!whole || whole->exposures <= spent.exposures)
+    return {Banner::Kind::amber, title, tr("Finer light is missing. Go on any time, if nothing has moved."),
+            goOnMeasuring_};
+  const int more = whole->exposures - spent.exposures;
+  const double seconds = whole->seconds * more / whole->exposures;
+  return {Banner::Kind::amber, title,
+          groupedText(
+              tr("Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.",
+                 nullptr, more),
+              more)
+              .arg(text(roundedDuration(seconds))),
+          goOnMeasuring_};
 }
 
 int AcquirePage::photographs() const {
@@ -192,7 +216,7 @@ std::optional<double> AcquirePage::secondsLeft() const {
 
 Fineness AcquirePage::fineness() const {
   const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
-  if (settings.singleExposure) return Fineness::fast;
+  if (settings.singleExposure || settings.relativeThreshold >= fastThreshold) return Fineness::fast;
   return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
 }
 
@@ -216,22 +240,18 @@ void AcquirePage::keep(const acquisition::AcquisitionSettings& acquisition) {
 acquisition::AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
   if (fineness == this->fineness()) return session_.settings().acquisition;
   acquisition::AcquisitionSettings settings =
-      acquisition::settingsOf(fineness == Fineness::fast ? acquisition::AcquisitionMode::fast
-                                                         : acquisition::AcquisitionMode::adaptive);
+      acquisition::settingsOf(acquisition::AcquisitionMode::multiplexed);
   if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
+  if (fineness == Fineness::fast) {
+    settings.relativeThreshold = fastThreshold;
+    settings.verificationPatterns = fastVerification;
+  }
   return settings;
 }
 
 void AcquirePage::setFineness(Fineness fineness) {
   if (isMeasuring() || fineness == this->fineness()) return;
   change(tr("Fineness"), settingsOf(fineness));
-}
-
-void AcquirePage::setWhite(bool white) {
-  if (isMeasuring() || white == isWhite()) return;
-  acquisition::AcquisitionSettings settings = session_.settings().acquisition;
-  settings.colours = white ? acquisition::LitColours::white : acquisition::LitColours::rgb;
-  change(tr("Colours"), settings);
 }
 
 QString AcquirePage::watching() const {
@@ -250,6 +270,11 @@ std::optional<calibration::StageCost> AcquirePage::cost() const {
 std::optional<double> AcquirePage::verificationError() const {
   const auto& measured = session_.figures<calibration::Stage::acquisition>();
   return measured ? measured->verificationError : std::nullopt;
+}
+
+int AcquirePage::stoppedAt() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  return measured ? measured->stoppedAt : 0;
 }
 
 QStringList AcquirePage::findings() const {
@@ -332,7 +357,7 @@ void AcquirePage::begin() {
     linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, reading);
     Progress measuring = progress.part(
         0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
-    pipeline::measureAcquisition(folder, rig, linearization, handler, *retrying, measuring);
+    pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, measuring);
   });
   tellProgress();
   tellResult();

@@ -70,8 +70,6 @@ class AcquirePage : public DevicePage {
 
   Fineness fineness() const;
   void setFineness(Fineness fineness);
-  bool isWhite() const { return session_.settings().acquisition.colours == acquisition::LitColours::white; }
-  void setWhite(bool white);
   /// What the checks of this measurement said, or of the last one.
   const AcquisitionTrace& trace() const { return trace_; }
   /// How often light and view are compared, and what follows.
@@ -80,12 +78,16 @@ class AcquirePage : public DevicePage {
   std::optional<calibration::StageCost> cost() const;
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
+  /// Side of the finest blocks if it was stopped and kept, projector pixels; 0: nothing is missing.
+  int stoppedAt() const;
   /// What is worth knowing of the measurement, in sentences.
   QStringList findings() const;
   /// What measuring with these settings will about take, by what the response took; none before that.
   std::optional<WorkLeft> expected() const { return expected(session_.settings().acquisition); }
   /// The same at another fineness.
   std::optional<WorkLeft> expected(Fineness fineness) const { return expected(settingsOf(fineness)); }
+  /// How far test patterns are then about to differ from what is predicted, relative.
+  double expectedError(Fineness fineness) const { return acquisition::expectedError(settingsOf(fineness)); }
   /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
   std::vector<BlockLevel> levels() const;
   std::uint64_t freeBytes() const;
@@ -122,6 +124,7 @@ class AcquirePage : public DevicePage {
   void start();
   void begin();
   void stay();
+  Banner stoppedBanner() const;
   std::optional<WorkLeft> expected(const acquisition::AcquisitionSettings& settings) const;
   acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
   void change(const QString& what, const acquisition::AcquisitionSettings& settings);
@@ -133,7 +136,7 @@ class AcquirePage : public DevicePage {
   void lookAtResponse();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
-  PageCommand *again_, *goOn_;                                    // of the banner
+  PageCommand *again_, *goOn_, *goOnMeasuring_;                   // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;

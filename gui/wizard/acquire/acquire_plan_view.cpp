@@ -156,11 +156,11 @@ QWidget* planOf(AcquirePage& model) {
   column->addWidget(labelOf(AcquirePage::tr("How finely"), "section"));
   auto* group = new QButtonGroup(part);
   std::vector<Choice*> choices;
-  for (auto [name, sentence] :
-       {std::pair(AcquirePage::tr("Fast"), AcquirePage::tr("a first look; misses weak bounces")),
-        std::pair(AcquirePage::tr("Usual"), AcquirePage::tr("suits most surfaces")),
-        std::pair(AcquirePage::tr("Fine"), AcquirePage::tr("glass, gloss, deep corners"))}) {
-    auto* choice = new Choice(name, sentence);
+  const QStringList sentences{AcquirePage::tr("a first look; misses weak bounces"),
+                              AcquirePage::tr("suits most surfaces"),
+                              AcquirePage::tr("glass, gloss, deep corners")};
+  for (const QString& name : {AcquirePage::tr("Fast"), AcquirePage::tr("Usual"), AcquirePage::tr("Fine")}) {
+    auto* choice = new Choice(name, sentences[std::ssize(choices)]);
     group->addButton(choice, static_cast<int>(choices.size()));
     choices.push_back(choice);
     column->addWidget(choice);
@@ -168,26 +168,24 @@ QWidget* planOf(AcquirePage& model) {
   QObject::connect(group, &QButtonGroup::idClicked, &model,
                    [&model](int id) { model.setFineness(static_cast<Fineness>(id)); });
   column->addSpacing(8);
-  column->addWidget(lineOf());
-  column->addWidget(labelOf(AcquirePage::tr("Colours"), "section"));
-  auto* colour = new Segmented({AcquirePage::tr("Red, green, blue"), AcquirePage::tr("White only")});
-  column->addWidget(colour);
-  column->addWidget(
-      labelOf(AcquirePage::tr("White only is three times faster, with colours a few percent off."), "note"));
-  QObject::connect(colour, &Segmented::chosen, &model, [&model](int index) { model.setWhite(index == 1); });
   QWidget* start = startPart(model);
   column->addWidget(start);
   column->addWidget(readyPart(model));
   column->addWidget(resultPart(model));
-  auto refresh = [&model, group, choices, colour, start] {
+  auto refresh = [&model, group, choices, sentences, start] {
     if (model.isMeasuring()) return;
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     for (Fineness fineness : {Fineness::fast, Fineness::usual, Fineness::fine}) {
       const std::optional<WorkLeft> work = model.expected(fineness);
-      choices[static_cast<std::size_t>(fineness)]->setRemark(work ? text(roundedDuration(work->seconds))
-                                                                  : QString());
+      const auto at = static_cast<std::size_t>(fineness);
+      choices[at]->setSentence(
+          AcquirePage::tr("%1; error about %2")
+              .arg(sentences[static_cast<int>(fineness)], percentText(model.expectedError(fineness))));
+      choices[at]->setRemark(
+          work ? groupedText(AcquirePage::tr("%n photograph(s)", nullptr, work->exposures), work->exposures) +
+                     "\n" + text(roundedDuration(work->seconds))
+               : QString());
     }
-    colour->setCurrent(model.isWhite() ? 1 : 0);
     start->setVisible(!model.isDone());
   };
   refreshOn(model, part, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);

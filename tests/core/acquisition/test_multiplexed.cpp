@@ -118,10 +118,40 @@ class TestMultiplexed : public QObject {
     rig::NoShotLog log;
     Acquisition kept = run(log, Progress(sink, stop));
     QVERIFY(kept.patterns < whole.patterns);
+    QCOMPARE(whole.stoppedAt, 0);
+    QCOMPARE(kept.stoppedAt, 1 << finestLevel(kept.transport));
     QVERIFY(finestLevel(kept.transport) > finestLevel(whole.transport));
     QVERIFY2(std::abs(kept.unresolvedEnergy) < 0.01, qPrintable(shown(kept, run.truth)));
     QVERIFY(difference(kept.transport, run.truth).frobenius >
             difference(whole.transport, run.truth).frobenius);
+  }
+
+  /// Law: stopping costs nothing but the test patterns that were taken for it.
+  void goingOnEndsAsIfItHadNotStopped_data() {
+    QTest::addColumn<int>("shot");
+    for (int shot : {12, 40, 70}) QTest::addRow("stopped at %d", shot) << shot;
+  }
+  void goingOnEndsAsIfItHadNotStopped() {
+    QFETCH(int, shot);
+    Venue venue = denseVenue();
+    venue.synthetic.projectors = {{61, 45}};
+    Acquisition whole = Run(venue)();
+    struct Sink : ProgressSink {
+      void progressed(double, const Message&) override {}
+    } sink;
+    StopRequest stop;
+    Venue stopped = venue;
+    stopped.beforeCapture = [&](const rig::CaptureRequest& request) {
+      if (request.shot.number == shot) stop.ask(StopRequest::Kind::keep);
+    };
+    MemoryLog log;
+    Run first(stopped);
+    Acquisition kept = first(log, Progress(sink, stop));
+    QVERIFY(kept.stoppedAt > 0 && kept.patterns < whole.patterns);
+    Acquisition again = Run(venue)(log);
+    QVERIFY(again.transport.leaves() == whole.transport.leaves());
+    QVERIFY(again.flood == whole.flood);
+    QCOMPARE(again.stoppedAt, 0);
   }
 
   void whatIsOverexposedIsFlaggedAndNeverStored() {

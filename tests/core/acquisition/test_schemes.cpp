@@ -29,9 +29,17 @@ class TestSchemes : public QObject {
     QTest::addColumn<QString>("mode");
     QTest::addColumn<bool>("white");
     for (const std::string& mode : allNames<AcquisitionMode>())
-      for (bool white : {false, true})
+      for (bool white : {false, true}) {
+        if (white && mode == nameOf(AcquisitionMode::multiplexed)) continue;  // its colours are by chance
         QTest::addRow("%s %s", mode.c_str(), white ? "white" : "rgb")
             << QString::fromStdString(mode) << white;
+      }
+  }
+  void densePatternsAreNotWhite() {
+    AcquisitionSettings settings = settingsOf(AcquisitionMode::multiplexed);
+    QVERIFY(problems(settings).empty());
+    settings.colours = LitColours::white;
+    QCOMPARE(problems(settings).size(), std::size_t{1});
   }
   /// Without far field or noise all of them end with what their threshold leaves: as for adaptive, 160 times
   /// it. Sen's threshold is the same for all pixels, so dim rows lose more; where rows hold a fifth of the

@@ -64,7 +64,9 @@ class TestArguments : public QObject {
     QVERIFY((venue.projector == Size{256, 192}));
     QVERIFY((venue.camera == Size{160, 120}));
     QCOMPARE(venue.devices.cameraBits, DeviceModelSettings().cameraBits);
-    QCOMPARE(command.settings.acquisition.relativeThreshold, AcquisitionSettings().relativeThreshold);
+    QCOMPARE(command.settings.acquisition.scheme, AcquisitionScheme::multiplexed);
+    QCOMPARE(command.settings.acquisition.relativeThreshold,
+             settingsOf(AcquisitionMode::multiplexed).relativeThreshold);
     QCOMPARE(command.cache, defaultCache());
   }
 

@@ -93,9 +93,9 @@ class TestAcquirePage : public QObject {
     page.setSecondsToLeave(60);
     QVERIFY(!page.expected(Fineness::usual) && page.floodlightNumber() == 0);
     std::vector<BlockLevel> plan = page.levels();
-    QCOMPARE(plan.size(), std::size_t{6});  // 64 pixels hold 48: halves from 32 down
+    QCOMPARE(plan.size(), std::size_t{3});  // from 48 blocks on
     for (std::size_t i = 0; i < plan.size(); ++i) {
-      QCOMPARE(plan[i].block, 32 >> i);
+      QCOMPARE(plan[i].block, 4 >> i);
       QVERIFY(!plan[i].isKnown && plan[i].patterns.likely > 0.0);
     }
     page.primary()->trigger();
@@ -113,6 +113,37 @@ class TestAcquirePage : public QObject {
     QVERIFY(patterns > 0.0 && patterns < page.cost().value().patterns);
     QVERIFY(page.floodlightNumber() > 0);
     QCOMPARE(page.floodlight().size(), (Size{40, 30}));
+  }
+
+  /// What was stopped and kept is no plain tick, and is gone on with.
+  void whatWasStoppedIsGoneOnWith() {
+    CalibrateSettings settings = simulated();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    AcquirePage page(*session_);
+    const QMetaObject::Connection stopping =
+        connect(&page.trace(), &AcquisitionTrace::changed, &page, [&page] {
+          if (page.isMeasuring() && !page.isStopping() && !page.trace().growth().levels.empty())
+            page.stopAndKeep();
+        });
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(page.isDone());
+    QVERIFY2(page.stoppedAt() > 1, qPrintable(QString::number(page.stoppedAt())));
+    QCOMPARE(page.status().state, StepState::outOfDate);
+    QVERIFY(page.status().result.contains(QString::number(page.stoppedAt())));
+    QVERIFY(!page.findings().isEmpty());
+    const std::optional<Banner> banner = page.banner();
+    QVERIFY(banner && banner->primary && banner->primary->isEnabled());
+    const int before = page.cost().value().patterns;
+    disconnect(stopping);
+    banner->primary->trigger();
+    QVERIFY(page.isMeasuring());
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QCOMPARE(page.stoppedAt(), 0);
+    QCOMPARE(page.status().state, StepState::done);
+    QVERIFY(!page.banner());
+    QVERIFY(page.cost().value().patterns > before);
   }
 
   /// Law: finer takes longer.

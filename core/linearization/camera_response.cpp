@@ -13,9 +13,11 @@ namespace relucent::linearization {
 namespace {
 
 constexpr int knots = 20;
-constexpr double timeDeviation = 0.03;       // a priori, of ln t
-constexpr double curvatureDeviation = 0.05;  // a priori, of second differences of ln response
-constexpr double slopeDeviation = 1.0;       // a priori, of d ln response / d ln signal around 1
+constexpr double timeDeviation = 0.03;          // a priori, of ln t
+constexpr double curvatureDeviation = 0.05;     // a priori, of second differences of ln response, ...
+constexpr double fewCurvatureDeviation = 0.01;  // ... with few exposures
+constexpr std::size_t fewExposures = 5;
+constexpr double slopeDeviation = 1.0;  // a priori, of d ln response / d ln signal around 1
 constexpr double exponentLimit = 0.04;
 constexpr double shapeLimit = 0.03;
 constexpr std::size_t pixelsPerChannel = 4000;
@@ -64,6 +66,7 @@ class Estimate {
   };
 
   void addPriors() {
+    const double curvature = frames_.size() <= fewExposures ? fewCurvatureDeviation : curvatureDeviation;
     for (int c = 0; c < 3; ++c) {
       int first = c * knots;
       add({{first + knots - 1, first, first}, {1.0, 0.0, 0.0}, 0.0, 1e8});
@@ -71,7 +74,7 @@ class Estimate {
         add({{first + i - 1, first + i, first + i + 1},
              {1.0, -2.0, 1.0},
              0.0,
-             1.0 / (curvatureDeviation * curvatureDeviation)});
+             1.0 / (curvature * curvature)});
       for (int i = 1; i < knots; ++i)
         add({{first + i - 1, first + i, first},
              {-1.0, 1.0, 0.0},

@@ -27,7 +27,7 @@ struct ProjectorResponse {
 struct LinearizationSettings {
   int levels = 33;                 // ramp levels per channel
   double shadowPower = 2.0;        // level k at (k / (levels - 1))^shadowPower: denser in the shadows
-  int noisePairs = 4;              // pairs of equal shots for the camera noise model
+  int noisePairs = 2;              // pairs of equal shots for the camera noise model; two are shot anyway
   double additivityLimit = 0.025;  // larger relative deviations are a finding
   std::uint64_t seed = 1;          // order of the ramp and the halves that test superposition
 };
@@ -59,7 +59,7 @@ struct Linearization {
 ///  3. additivity: white against red + green + blue, flood against two random halves;
 ///  4. projector ramps: levels of each channel in random order, drift compensated by black and white
 ///     references between, isotonic regression, monotone cubic.
-/// About 3 * levels + 60 shots for one projector.  Source: core/linearization/README.md.
+/// Some 30 photographs for one projector and a linear camera.  Source: core/linearization/README.md.
 /// Throws: Error{input} if a camera sees no difference between black and white, or no camera sees a
 /// projector's channel; Error{device, disk}; Cancelled.
 Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& settings, Progress& progress);

@@ -16,7 +16,7 @@ constexpr double largestStep = 16.0;  // between neighbouring exposures
 constexpr double saturationMargin = 0.97;
 constexpr double clipping = 0.98;   // share of saturation that counts as clipped
 constexpr double blindStep = 16.0;  // from an exposure that is all saturated or all dark
-constexpr double wideStep = 6.0;    // between neighbouring exposures: another one between tells the response
+constexpr double wideStep = 9.0;    // between neighbouring exposures: another one between tells the response
 constexpr double leastStep = 1.4;   // between exposures, for clipping to be told from light
 constexpr int mostPhotographs = 24;
 
@@ -325,16 +325,15 @@ class Exposing {
   /// camera's response.
   void photographRest(const std::vector<double>& seconds) {
     std::vector<double> open;
-    auto taken = [&](double low, double high) {
-      const rig::Shot all = joined(whites_);
-      return std::ranges::any_of(all.exposuresAsked,
-                                 [&](double asked) { return asked >= low && asked <= high; });
-    };
+    const rig::Shot before = joined(whites_);
     for (double wanted : seconds)
-      if (!taken(wanted, wanted)) open.push_back(wanted);
-    for (std::size_t i = 0; i + 1 < seconds.size(); ++i)
-      if (seconds[i] > wideStep * seconds[i + 1] && !taken(1.4 * seconds[i + 1], seconds[i] / 1.4))
-        open.push_back(seconds[i] / std::sqrt(wideStep));
+      if (std::ranges::count(before.exposuresAsked, wanted) == 0) open.push_back(wanted);
+    std::vector<double> all = before.exposuresAsked;
+    all.insert(all.end(), open.begin(), open.end());
+    std::erase_if(all, [&](double asked) { return asked > seconds.front() || asked < seconds.back(); });
+    all = unique(std::move(all));
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      if (all[i] > wideStep * all[i + 1]) open.push_back(all[i] / std::sqrt(1.3 * all[i] / all[i + 1]));
     if (seconds.size() == 1)
       for (double shorter : {1.5, 3.0})
         if (seconds[0] / shorter >= range_.shortest) open.push_back(seconds[0] / shorter);

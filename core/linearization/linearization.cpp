@@ -41,7 +41,7 @@ rig::Shot allWhites(const ExposureChoice& choice) {
 /// Response and true times of every camera; noise is not known yet. Few photographs say whether a camera is
 /// linear. One that is not gets more, which say what it is.
 std::vector<hdr::CameraModel> respondingCameras(rig::ShotTaker& shots, const ExposureChoice& choice,
-                                                Progress& progress) {
+                                                const LinearizationSettings& settings, Progress& progress) {
   const rig::Rig& rig = shots.rig();
   const rig::Shot whites = allWhites(choice), bracket = whiteBracket(choice);
   std::optional<rig::Shot> dense;
@@ -50,10 +50,9 @@ std::vector<hdr::CameraModel> respondingCameras(rig::ShotTaker& shots, const Exp
     progress.checkpoint();
     hdr::CameraModel model;
     model.saturation = choice.saturation[camera];
-    model.response = cameraResponse(whites, camera, model.saturation).curves;
-    if (!model.response[0].isIdentity()) {
+    if (!looksLinear(whites, camera, model.saturation)) {
       if (!dense)
-        dense = shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(commonRange(rig), choice.seconds),
+        dense = shots.take(randomGreys(rig, settings.seed), responseBracket(commonRange(rig), choice.seconds),
                            progress);
       model.response = cameraResponse(*dense, camera, model.saturation).curves;
     }
@@ -152,7 +151,7 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
 
   Progress calibrating =
       progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
-  std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, calibrating);
+  std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, settings, calibrating);
 
   const Thinning thinning(rig.cameraRasters());
   rig::Shot black = blackOf(shots, choice, progress);

@@ -18,6 +18,7 @@ constexpr double leastLight = 0.02;         // of the 99th percentile of white, 
 constexpr double mostDim = 0.9;             // of flood light, over what longer exposures gain
 constexpr double mostEarly = 0.6;           // of that, of levels that are shown before
 constexpr double leastGain = 1.5;           // of longer exposures, to be worth it
+constexpr int coarseBits = 8;               // of a linear camera
 constexpr double fewestInRegion = 60.0;     // values
 constexpr double certain = 6.0;             // deviations
 
@@ -257,15 +258,30 @@ class Photographer {
       keep(white(), *taken);
     else
       take(white(), choice_.flood);
+    // Where a light does not fall, there is hardly more than black: less than a code of a coarse camera,
+    // which rounds all of it down. Longer exposures tell.
+    const bool coarse = isCoarse();
+    std::vector<double> floodAndDim = choice_.dim;
+    for (double seconds : choice_.flood)
+      if (std::ranges::count(floodAndDim, seconds) == 0) floodAndDim.push_back(seconds);
     for (std::size_t q = 0; q < mosaicLights; ++q) {
       MosaicShot light;
       light.level[q] = full();
-      take(light, choice_.flood);
+      take(light, coarse ? floodAndDim : choice_.flood);
     }
     MosaicShot group;
     group.white = true;
     std::fill_n(group.level.begin(), 3, full());
     take(group, choice_.flood);
+  }
+
+  bool isCoarse() const {
+    const std::vector<rig::RawFrame>& frames = choice_.whites.front().frames.front();
+    for (std::size_t camera = 0; camera < frames.size(); ++camera)
+      if (frames[camera].bits > 0 && frames[camera].bits <= coarseBits &&
+          cameras_[camera].response[0].isIdentity())
+        return true;
+    return false;
   }
 
   void requireAllChannels() const {

@@ -232,7 +232,6 @@ class Photographer {
   MosaicShot white() const {
     MosaicShot shot;
     shot.level.fill(full());
-    shot.white = true;
     return shot;
   }
 
@@ -270,7 +269,6 @@ class Photographer {
       take(light, coarse ? floodAndDim : choice_.flood);
     }
     MosaicShot group;
-    group.white = true;
     std::fill_n(group.level.begin(), 3, full());
     take(group, choice_.flood);
   }
@@ -376,17 +374,13 @@ hdr::ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<
   return hdr::curveFromRamp(x, y, weights);
 }
 
-Additivity additivityIn(const MosaicPhotographs& photographs, const Lights& lights) {
+Additivity additivityIn(const MosaicPhotographs& photographs, const Lights& lights, double drift) {
   std::vector<ChannelSums> sums(lights.light.size(), ChannelSums{});
   for (std::size_t m = 0; m < sums.size(); ++m)
     for (std::size_t i = 0; i < lights.at.size(); ++i) sums[m][lights.at[i] % 3] += lights.light[m][i];
-  // The lamp's drift, even from the first white to the last.
-  auto total = [&](std::size_t m) { return sums[m][0] + sums[m][1] + sums[m][2]; };
-  double begin = photographs.what.front().time, end = photographs.what.back().time;
-  double change = total(sums.size() - 1) / total(0) - 1.0;
   for (std::size_t m = 0; m < sums.size(); ++m)
     for (double& sum : sums[m])
-      sum /= 1.0 + change * (photographs.what[m].time - begin) / std::max(1.0, end - begin);
+      sum /= 1.0 + drift * (photographs.what[m].time - photographs.what.front().time);
   std::array<ChannelSums, mosaicLights> single{};
   std::copy_n(sums.begin() + 1, mosaicLights, single.begin());
   return additivityOf(sums.front(), single, sums[1 + mosaicLights]);
@@ -456,10 +450,10 @@ MosaicResult evaluate(const MosaicPhotographs& photographs, const std::vector<hd
   };
 
   MosaicResult result;
-  result.additivity = additivityIn(photographs, lights);
   const Shown shown = shownBy(photographs);
   const ResponseFit fit =
       fitResponse(shown.drives, shown.what, sumOf(0, regions.size()), usualLights(shown.drives));
+  result.additivity = additivityIn(photographs, lights, fit.drift);
   for (std::size_t c = 0; c < 3; ++c)
     result.response.channels[c] = curveOf(shown.drives, fit.light[c], fit.deviation[c]);
 

@@ -97,7 +97,7 @@ struct Prior {
 };
 
 /// Parameters: the light of the levels between dark and full, channel after channel; the logarithms of the
-/// photographs' powers; the logarithm of white's excess.
+/// photographs' powers; the white segment.
 class Fit {
  public:
   Fit(const std::vector<double>& drives, const std::vector<MosaicShot>& shots, const LightProducts& products,
@@ -159,10 +159,10 @@ class Fit {
   /// Powers less the straight line through the start of time that is closest to them.
   void makeLine() {
     Index count = toIndex(shots_.size());
-    VectorXd time(count);
-    for (std::size_t m = 0; m < shots_.size(); ++m) time[toIndex(m)] = shots_[m].time - shots_.front().time;
+    time_.resize(count);
+    for (std::size_t m = 0; m < shots_.size(); ++m) time_[toIndex(m)] = shots_[m].time - shots_.front().time;
     aboutLine_ = MatrixXd::Identity(count, count);
-    if (time.squaredNorm() > 0.0) aboutLine_ -= time * time.transpose() / time.squaredNorm();
+    if (time_.squaredNorm() > 0.0) aboutLine_ -= time_ * time_.transpose() / time_.squaredNorm();
   }
 
   Prior prior(double flicker) const {
@@ -185,28 +185,44 @@ class Fit {
     return level > levels_ ? 1.0 : x[toIndex(channel * levels_ + level - 1)];
   }
   double powerOf(const VectorXd& x, std::size_t shot) const {
-    double excess = shots_[shot].white ? x[x.size() - 1] : 0.0;
-    return scales_[toIndex(shot)] * std::exp(x[powerAt(shot)] + excess);
+    return scales_[toIndex(shot)] * std::exp(x[powerAt(shot)]);
+  }
+  double whiteSegment(const VectorXd& x) const { return x[x.size() - 1]; }
+
+  /// The channel in which a light's group is darkest.
+  std::size_t darkest(const VectorXd& x, const MosaicShot& shot, std::size_t light) const {
+    std::size_t first = light / 3 * 3, found = 0;
+    for (std::size_t c = 1; c < 3; ++c)
+      if (lightOf(x, c, shot.level[first + c]) < lightOf(x, found, shot.level[first + found])) found = c;
+    return found;
   }
 
   MatrixXd patternsOf(const VectorXd& x) const {
     MatrixXd patterns(toIndex(mosaicLights), toIndex(shots_.size()));
     for (std::size_t m = 0; m < shots_.size(); ++m)
-      for (std::size_t q = 0; q < mosaicLights; ++q)
-        patterns(toIndex(q), toIndex(m)) = powerOf(x, m) * lightOf(x, q % 3, shots_[m].level[q]);
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        std::size_t least = darkest(x, shots_[m], q);
+        double added = whiteSegment(x) * lightOf(x, least, shots_[m].level[q / 3 * 3 + least]);
+        patterns(toIndex(q), toIndex(m)) = powerOf(x, m) * (lightOf(x, q % 3, shots_[m].level[q]) + added);
+      }
     return patterns;
   }
 
   MatrixXd derivatives() const {
     MatrixXd u = MatrixXd::Zero(toIndex(mosaicLights * shots_.size()), x_.size());
+    const MatrixXd patterns = patternsOf(x_);
     for (std::size_t m = 0; m < shots_.size(); ++m)
       for (std::size_t q = 0; q < mosaicLights; ++q) {
-        std::size_t level = shots_[m].level[q];
         Index row = toIndex(q * shots_.size() + m);
-        double light = powerOf(x_, m) * lightOf(x_, q % 3, level);
-        u(row, powerAt(m)) = light;
-        if (shots_[m].white) u(row, x_.size() - 1) = light;
-        if (level > 0 && level <= levels_) u(row, toIndex(q % 3 * levels_ + level - 1)) = powerOf(x_, m);
+        double power = powerOf(x_, m);
+        u(row, powerAt(m)) = patterns(toIndex(q), toIndex(m));
+        auto enter = [&](std::size_t channel, double factor) {
+          std::size_t level = shots_[m].level[q / 3 * 3 + channel];
+          if (level > 0 && level <= levels_) u(row, toIndex(channel * levels_ + level - 1)) += factor * power;
+          return lightOf(x_, channel, level);
+        };
+        enter(q % 3, 1.0);
+        u(row, x_.size() - 1) = power * enter(darkest(x_, shots_[m], q), whiteSegment(x_));
       }
     return u;
   }
@@ -266,13 +282,15 @@ class Fit {
     }
     for (std::size_t m = 0; m < shots_.size(); ++m) fit.power.push_back(powerOf(x_, m) / scales_[toIndex(m)]);
     fit.flicker = flicker;
+    fit.whiteSegment = whiteSegment(x_);
+    fit.drift = time_.squaredNorm() > 0.0 ? time_.dot(powers()) / time_.squaredNorm() : 0.0;
     return fit;
   }
 
   const std::vector<MosaicShot>& shots_;
   std::size_t levels_;  // between dark and full
   MatrixXd products_, curvature_, aboutLine_;
-  VectorXd scales_, x_;
+  VectorXd scales_, time_, x_;
   std::vector<VectorXd> smoothness_;
   std::vector<double> constants_;
 };
@@ -316,10 +334,14 @@ RegionDeviation deviationOf(const ResponseFit& fit, const std::vector<MosaicShot
     for (std::size_t m = 0; m < shots.size(); ++m)
       for (std::size_t q = 0; q < mosaicLights; ++q) {
         std::size_t c = q % 3, level = shots[m].level[q];
-        double light = level > 0 ? fit.light[c][level - 1] : 0.0;
+        double light = level > 0 ? fit.light[c][level - 1] : 0.0, least = 1.0;
+        for (std::size_t other = 0; other < 3; ++other) {
+          std::size_t beside = shots[m].level[q / 3 * 3 + other];
+          least = std::min(least, beside > 0 ? fit.light[other][beside - 1] : 0.0);
+        }
         double bend = light > 0.0 ? -std::exp(1.0) * light * std::log(light) : 0.0;
         double power = scales[toIndex(m)] * fit.power[m];
-        x(toIndex(q), toIndex(m)) = power * (light + amplitude[toIndex(c)] * bend);
+        x(toIndex(q), toIndex(m)) = power * (light + amplitude[toIndex(c)] * bend + fit.whiteSegment * least);
         u(toIndex(q * shots.size() + m), toIndex(c)) = power * bend;
       }
     Projection here(products, x);

@@ -13,9 +13,8 @@ namespace relucent::linearization {
 /// What a photograph of a mosaic shows.
 struct MosaicShot {
   std::array<std::size_t, mosaicLights>
-      level{};         // of every light: 0 dark, k the k-th drive; the last is full
-  double time = 0.0;   // when, counted in shots: for the drift of the lamp
-  bool white = false;  // red, green and blue are full together, to which a white segment would add
+      level{};        // of every light: 0 dark, k the k-th drive; the last is full
+  double time = 0.0;  // when, counted in shots: for the drift of the lamp
 };
 
 /// Weighted products of the photographs' light: all that the fit needs to know of the pixels.
@@ -46,6 +45,8 @@ struct ResponseFit {
   LevelLights deviation;      // standard deviations
   std::vector<double> power;  // of the lamp in every photograph, relative to a straight line's start
   double flicker = 0.0;       // relative standard deviation of that power about the line
+  double drift = 0.0;         // relative change of power per shot: the line
+  double whiteSegment = 0.0;  // light added where all channels are lit: this times their smallest
 };
 
 /// The response that a projector's whole picture has in common, from photographs of mosaics. Light is linear,
@@ -53,13 +54,13 @@ struct ResponseFit {
 ///   L_im = power_m sum_q a_iq f_channel(q)(drive_qm) + noise
 /// whatever of it is direct, scattered or blurred. The lights a_i are eliminated (variable projection); what
 /// is left to minimise depends on products of photographs only:
-///   chi^2 = trace(C (I - X^+ X)),  C = LightProducts over the noise,  X_qm = power_m f(drive_qm)
-/// over f, the powers (about a straight line in time, as far off as the photographs say they are) and an
-/// excess of white. Fourth differences of f are 7e-4 a priori, with the tails of a Cauchy distribution: what
-/// is smooth becomes smoother, kinks and steps remain.
-/// `drives` ascend and end with 1. `start`: where the search begins.
-/// Source: core/linearization/README.md, [GOL], [KAU].  Throws: Error{numerics} if the lights cannot be told
-/// apart.
+///   chi^2 = trace(C (I - X^+ X)),  C = LightProducts over the noise,
+///   X_qm = power_m (f(drive_qm) + w min over the group's channels of f)
+/// over f, the powers (about a straight line in time, as far off as the photographs say they are) and the
+/// light w of a white segment. Fourth differences of f are 7e-4 a priori, with the tails of a Cauchy
+/// distribution: what is smooth becomes smoother, kinks and steps remain. `drives` ascend and end with 1.
+/// `start`: where the search begins. Source: core/linearization/README.md, [GOL], [KAU].  Throws:
+/// Error{numerics} if the lights cannot be told apart.
 ResponseFit fitResponse(const std::vector<double>& drives, const std::vector<MosaicShot>& shots,
                         const LightProducts& products, const LevelLights& start);
 

@@ -108,9 +108,8 @@ void addFindings(Linearization& result, const MosaicResult& measured, const rig:
     result.findings.push_back(
         RELUCENT_MESSAGE(
             "linearization.response-uneven",
-            "{}: the brightness curves are not the same everywhere in its picture, by up to {} % "
-            "of white; switch off uniformity correction, local dimming and edge blending in the "
-            "projector, and check that it is warm")
+            "{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; "
+            "switch off uniformity correction, local dimming and edge blending in the projector")
             .with(name, as::share(measured.unevenness, as::decimals(0))));
 }
 
@@ -189,6 +188,16 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   progress.report(1.0);
   result.times = shots.times();
   return result;
+}
+
+int usualShots(const LinearizationSettings& settings, std::size_t projectors) {
+  constexpr int ofAll = 5;    // exposures and black
+  constexpr int ofEach = 12;  // the lights of a mosaic, one group in white, white, black
+  constexpr int levels = 8;   // in a mosaic
+  const int mosaics = (3 * (settings.levels - 2) + levels - 1) / levels;
+  const int whites =
+      projectors > 1 ? static_cast<int>(projectors) : 0;  // of one alone, that all took already
+  return ofAll + static_cast<int>(projectors) * (ofEach + mosaics) + whites;
 }
 
 }  // namespace relucent::linearization

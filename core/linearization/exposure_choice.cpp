@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "relucent/base/error.h"
 #include "relucent/linearization/test_light.h"
@@ -34,16 +35,33 @@ double quantile(std::vector<float> values, double share) {
   return static_cast<double>(*place);
 }
 
+/// One exposure by all cameras.
+struct Photograph {
+  double asked;
+  const std::vector<rig::RawFrame>* frames;
+  const image::Image& signal(std::size_t camera) const { return (*frames)[camera].signal; }
+};
+
+/// Of all shots, the longest exposure first.
+std::vector<Photograph> photographsOf(const std::vector<rig::Shot>& shots) {
+  std::vector<Photograph> photographs;
+  for (const rig::Shot& shot : shots)
+    for (std::size_t exposure = 0; exposure < shot.frames.size(); ++exposure)
+      photographs.push_back({shot.exposuresAsked[exposure], &shot.frames[exposure]});
+  std::ranges::stable_sort(photographs, std::ranges::greater(), &Photograph::asked);
+  return photographs;
+}
+
 /// The signal at which a camera clips: some deliver less than full scale. It shows as many equal values at
 /// the top of an exposure that a shorter one reaches as well.
-double saturationOf(const rig::Shot& white, std::size_t camera) {
-  for (std::size_t exposure = 0; exposure + 1 < white.frames.size(); ++exposure) {
-    std::vector<float> longer = brightest(white.frames[exposure][camera].signal);
-    std::vector<float> shorter = brightest(white.frames[exposure + 1][camera].signal);
+double saturationOf(const std::vector<Photograph>& whites, std::size_t camera) {
+  for (std::size_t exposure = 0; exposure + 1 < whites.size(); ++exposure) {
+    std::vector<float> longer = brightest(whites[exposure].signal(camera));
+    std::vector<float> shorter = brightest(whites[exposure + 1].signal(camera));
     float most = *std::max_element(longer.begin(), longer.end());
     auto clipped =
         std::count_if(longer.begin(), longer.end(), [&](float value) { return value > most - 0.002f; });
-    bool much = white.exposuresAsked[exposure] > leastStep * white.exposuresAsked[exposure + 1];
+    bool much = whites[exposure].asked > leastStep * whites[exposure + 1].asked;
     bool reachedEarlier = *std::max_element(shorter.begin(), shorter.end()) > most - 0.002f;
     if (much && reachedEarlier && static_cast<double>(clipped) >= 0.005 * static_cast<double>(longer.size()))
       return saturationMargin * std::min(static_cast<double>(most), 1.0);
@@ -70,10 +88,10 @@ struct Search {
   }
 
   /// The exposure at which the brightest of what is lit comes to the wanted level.
-  void findHighlights(const rig::Shot& whites, std::size_t camera) {
-    for (std::size_t exposure = 0; exposure < whites.frames.size(); ++exposure) {
-      double most = brightestLit(whites.frames[exposure][camera].signal);
-      highlights = whites.exposuresAsked[exposure];
+  void findHighlights(const std::vector<Photograph>& whites, std::size_t camera) {
+    for (const Photograph& white : whites) {
+      double most = brightestLit(white.signal(camera));
+      highlights = white.asked;
       clips = most > clipping * saturation;
       if (clips) continue;
       highlights *= std::clamp(wantedShare * saturation / most, 0.25, 4.0);
@@ -192,26 +210,6 @@ std::vector<Message> remarks(const std::vector<Search>& searches) {
   return findings;
 }
 
-/// All photographs of `shots` as one shot, the longest exposure first.
-rig::Shot joined(const std::vector<rig::Shot>& shots) {
-  struct Photograph {
-    double asked;
-    const std::vector<rig::RawFrame>* frames;
-  };
-  std::vector<Photograph> photographs;
-  for (const rig::Shot& shot : shots)
-    for (std::size_t exposure = 0; exposure < shot.frames.size(); ++exposure)
-      photographs.push_back({shot.exposuresAsked[exposure], &shot.frames[exposure]});
-  std::stable_sort(photographs.begin(), photographs.end(),
-                   [](const Photograph& a, const Photograph& b) { return a.asked > b.asked; });
-  rig::Shot result{shots.back().id, shots.back().fingerprint, {}, {}};
-  for (const Photograph& photograph : photographs) {
-    result.frames.push_back(*photograph.frames);
-    result.exposuresAsked.push_back(photograph.asked);
-  }
-  return result;
-}
-
 /// The search for the exposures of all cameras.
 class Exposing {
  public:
@@ -255,7 +253,7 @@ class Exposing {
   void photographWhite() {
     std::vector<double> seconds = wantedBy(searches_, true);
     take(seconds);
-    const rig::Shot all = joined(whites_);
+    const std::vector<Photograph> all = photographsOf(whites_);
     for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
       Search& search = searches_[camera];
       search.saturation = saturationOf(all, camera);
@@ -266,23 +264,23 @@ class Exposing {
 
   /// At the exposures of the last photographs of white that tell what is lit.
   void photographBlack() {
-    const rig::Shot all = joined(whites_);
+    const std::vector<Photograph> all = photographsOf(whites_);
     std::vector<std::size_t> exposures;
     std::vector<double> seconds;
     for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
       const Search& search = searches_[camera];
       std::size_t exposure = 0;
-      while (exposure + 1 < all.frames.size() &&
-             search.levelOf(all.frames[exposure][camera].signal) > clipping * search.saturation)
+      while (exposure + 1 < all.size() &&
+             search.levelOf(all[exposure].signal(camera)) > clipping * search.saturation)
         ++exposure;
       exposures.push_back(exposure);
-      seconds.push_back(all.exposuresAsked[exposure]);
+      seconds.push_back(all[exposure].asked);
     }
     const std::vector<double> asked = unique(seconds);
     black_ = shots_.take(evenPatterns(shots_.rig(), {0, 0, 0}), asked, progress_);
     for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
       Search& search = searches_[camera];
-      const rig::RawFrame& lit = all.frames[exposures[camera]][camera];
+      const rig::RawFrame& lit = (*all[exposures[camera]].frames)[camera];
       search.lit =
           litPixels(lit.signal, black_.frames[indexIn(asked, seconds[camera])][camera].signal, lit.bits);
       if (static_cast<double>(search.lit.size()) <
@@ -306,7 +304,7 @@ class Exposing {
   /// Ever shorter, until nothing clips.
   void findHighlights() {
     auto clips = [&] {
-      const rig::Shot all = joined(whites_);
+      const std::vector<Photograph> all = photographsOf(whites_);
       bool any = false;
       for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
         searches_[camera].findHighlights(all, camera);
@@ -315,7 +313,7 @@ class Exposing {
       return any;
     };
     while (clips() && mayGoOn()) {
-      double shortest = joined(whites_).exposuresAsked.back();
+      double shortest = photographsOf(whites_).back().asked;
       if (shortest <= range_.shortest) return;
       take({std::max(range_.shortest, shortest / 4.0)});
     }
@@ -325,10 +323,10 @@ class Exposing {
   /// camera's response.
   void photographRest(const std::vector<double>& seconds) {
     std::vector<double> open;
-    const rig::Shot before = joined(whites_);
+    std::vector<double> all;
+    for (const Photograph& photograph : photographsOf(whites_)) all.push_back(photograph.asked);
     for (double wanted : seconds)
-      if (std::ranges::count(before.exposuresAsked, wanted) == 0) open.push_back(wanted);
-    std::vector<double> all = before.exposuresAsked;
+      if (std::ranges::count(all, wanted) == 0) open.push_back(wanted);
     all.insert(all.end(), open.begin(), open.end());
     std::erase_if(all, [&](double asked) { return asked > seconds.front() || asked < seconds.back(); });
     all = unique(std::move(all));
@@ -388,12 +386,12 @@ ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress) {
 
 std::optional<rig::Shot> atExposures(const std::vector<rig::Shot>& shots, std::vector<double> seconds) {
   if (shots.empty()) return std::nullopt;
-  const rig::Shot all = joined(shots);
-  rig::Shot result{all.id, all.fingerprint, {}, {}};
+  const std::vector<Photograph> all = photographsOf(shots);
+  rig::Shot result{shots.back().id, shots.back().fingerprint, {}, {}};
   for (double wanted : unique(std::move(seconds))) {
-    auto found = std::find(all.exposuresAsked.begin(), all.exposuresAsked.end(), wanted);
-    if (found == all.exposuresAsked.end()) return std::nullopt;
-    result.frames.push_back(all.frames[static_cast<std::size_t>(found - all.exposuresAsked.begin())]);
+    auto found = std::ranges::find(all, wanted, &Photograph::asked);
+    if (found == all.end()) return std::nullopt;
+    result.frames.push_back(*found->frames);
     result.exposuresAsked.push_back(wanted);
   }
   return result;

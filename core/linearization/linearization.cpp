@@ -41,6 +41,7 @@ rig::Shot allWhites(const ExposureChoice& choice) {
 /// Response and true times of every camera; noise is not known yet. Few photographs say whether a camera is
 /// linear. One that is not gets more, which say what it is.
 std::vector<hdr::CameraModel> respondingCameras(rig::ShotTaker& shots, const ExposureChoice& choice,
+                                                const Thinning& thinning,
                                                 const LinearizationSettings& settings, Progress& progress) {
   const rig::Rig& rig = shots.rig();
   const rig::Shot whites = allWhites(choice), bracket = whiteBracket(choice);
@@ -52,8 +53,8 @@ std::vector<hdr::CameraModel> respondingCameras(rig::ShotTaker& shots, const Exp
     model.saturation = choice.saturation[camera];
     if (!looksLinear(whites, camera, model.saturation)) {
       if (!dense)
-        dense = shots.take(randomGreys(rig, settings.seed), responseBracket(commonRange(rig), choice.seconds),
-                           progress);
+        dense = thinning.of(shots.take(randomGreys(rig, settings.seed),
+                                       responseBracket(commonRange(rig), choice.seconds), progress));
       model.response = cameraResponse(*dense, camera, model.saturation).curves;
     }
     cameras.push_back(withMeasuredTimes(std::move(model), {{bracket, bracket}}, camera));
@@ -77,8 +78,9 @@ std::vector<ShotPair> takePairs(rig::ShotTaker& shots, const Thinning& thinning,
 }
 
 /// Black at the exposures for dim light, and as it was photographed to choose them.
-rig::Shot blackOf(rig::ShotTaker& shots, const ExposureChoice& choice, Progress& progress) {
-  rig::Shot black = shots.take(evenPatterns(shots.rig(), {0, 0, 0}), choice.dim, progress);
+rig::Shot blackOf(rig::ShotTaker& shots, const ExposureChoice& choice, const Thinning& thinning,
+                  Progress& progress) {
+  rig::Shot black = thinning.of(shots.take(evenPatterns(shots.rig(), {0, 0, 0}), choice.dim, progress));
   for (std::size_t exposure = 0; exposure < choice.black.frames.size(); ++exposure) {
     const double asked = choice.black.exposuresAsked[exposure];
     if (std::ranges::count(black.exposuresAsked, asked) > 0) continue;
@@ -146,14 +148,16 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   Progress exposing = progress.part(0.1, RELUCENT_MESSAGE("stage.finding-exposure", "Finding the exposure"));
   ExposureChoice choice = chooseExposures(shots, exposing);
   result.exposures = choice.seconds;
+  const Thinning thinning(rig.cameraRasters());
+  for (rig::Shot& white : choice.whites) white = thinning.of(white);
+  choice.black = thinning.of(choice.black);
   result.findings = choice.findings;
 
   Progress calibrating =
       progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
-  std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, settings, calibrating);
+  std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, thinning, settings, calibrating);
 
-  const Thinning thinning(rig.cameraRasters());
-  rig::Shot black = blackOf(shots, choice, progress);
+  rig::Shot black = blackOf(shots, choice, thinning, progress);
   std::vector<MosaicPhotographs> photographs;
   std::vector<ShotPair> pairs;
   const double share = 0.75 / static_cast<double>(rig.projectors.size());

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t mostPixels = 100000;  // of all cameras, that are evaluated
 constexpr double leastLight = 0.02;         // of the 99th percentile of white, of values that are evaluated
+constexpr double leastShare = 0.01;         // of white, of a channel that cameras see
 constexpr double mostDim = 0.9;             // of flood light, over what longer exposures gain
 constexpr double mostEarly = 0.6;           // of that, of levels that are shown before
 constexpr double leastGain = 1.5;           // of longer exposures, to be worth it
@@ -217,7 +218,7 @@ class Photographer {
   }
 
   MosaicPhotographs run(rig::Shot blackBefore) {
-    result_.blackBefore = thinning_.of(blackBefore);
+    result_.blackBefore = std::move(blackBefore);
     photographLights();
     requireAllChannels();
     photographLevels();
@@ -241,12 +242,12 @@ class Photographer {
     for (std::size_t q = 0; q < mosaicLights; ++q)
       drive[q] = what.level[q] > 0 ? result_.drives[what.level[q] - 1] : 0.0;
     patterns[projector_] = mosaic_.pattern(drive);
-    keep(what, shots_.take(patterns, exposures, progress_));
+    keep(what, thinning_.of(shots_.take(patterns, exposures, progress_)));
   }
-  void keep(MosaicShot what, const rig::Shot& shot) {
+  void keep(MosaicShot what, rig::Shot shot) {
     what.time = shot.id.number;
     result_.what.push_back(what);
-    result_.shots.push_back(thinning_.of(shot));
+    result_.shots.push_back(std::move(shot));
     progress_.report(std::min(1.0, static_cast<double>(result_.what.size()) / expected_));
   }
 
@@ -254,7 +255,7 @@ class Photographer {
     std::optional<rig::Shot> taken;
     if (shots_.rig().projectors.size() == 1) taken = atExposures(choice_.whites, choice_.flood);
     if (taken)
-      keep(white(), *taken);
+      keep(white(), *std::move(taken));
     else
       take(white(), choice_.flood);
     // Where a light does not fall, there is hardly more than black: less than a code of a coarse camera,
@@ -304,7 +305,7 @@ class Photographer {
           variance += weight * weight * lights.variance[1 + 3 * group + c][i];
         }
       }
-      if (light > 0.01 * all && light > 5.0 * std::sqrt(variance)) continue;
+      if (light > leastShare * all && light > 5.0 * std::sqrt(variance)) continue;
       static constexpr std::array<const char*, 3> names{"red", "green", "blue"};
       throw Error(ErrorKind::input,
                   RELUCENT_ENGLISH_MESSAGE("linearization.colour-not-seen",

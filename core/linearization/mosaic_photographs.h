@@ -42,8 +42,8 @@ struct MosaicPhotographs {
 ///     highest down: with the exposures for flood images, and with those for dim ones as soon as what has
 ///     been photographed says that all are that dim;
 ///  3. white and black again.
-/// `cameras` as far as they are known; `choice` from chooseExposures(). `blackBefore`: black at the exposures
-/// for dim light, in bright rooms at others as well.
+/// `cameras` as far as they are known; `choice` from chooseExposures(), its photographs thinned;
+/// `blackBefore`: black at the exposures for dim light and, for bright rooms, at others as well, thinned.
 /// Throws: Error{input} if no camera sees one of the projector's channels.
 MosaicPhotographs photographMosaics(rig::ShotTaker& shots, std::size_t projector,
                                     const std::vector<hdr::CameraModel>& cameras,

@@ -1955,6 +1955,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>⁨{}⁩: منحنيات السطوع ليست واحدةً في كل أنحاء الصورة، والفرق يصل إلى ⁨{} %⁩ من الأبيض؛ أوقف في جهاز العرض تصحيح التجانس والتعتيم الموضعي ودمج الحواف</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3356,18 +3363,18 @@
         <translation>ضوء كل مستوى، ثلاثة ألوان</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>أثناء القياس، بترتيب عشوائي</translation>
+        <source>as it is measured</source>
+        <translation>أثناء القياس</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>لا مستويات، ترتيب عشوائي، أُزيل الانحراف</numerusform>
-            <numerusform>مستوى واحد لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
-            <numerusform>مستويان لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
-            <numerusform>%n مستويات لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
-            <numerusform>%n مستوى لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
-            <numerusform>%n مستوى لكل لون، ترتيب عشوائي، أُزيل الانحراف</numerusform>
+            <numerusform>لا مستويات، أُزيل الانحراف</numerusform>
+            <numerusform>مستوى واحد لكل لون، أُزيل الانحراف</numerusform>
+            <numerusform>مستويان لكل لون، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستويات لكل لون، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستوى لكل لون، أُزيل الانحراف</numerusform>
+            <numerusform>%n مستوى لكل لون، أُزيل الانحراف</numerusform>
         </translation>
     </message>
     <message>

@@ -1943,6 +1943,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: die Helligkeitskurven sind nicht überall im Bild gleich, sondern weichen um bis zu {} % von Weiß ab; schalten Sie Gleichmäßigkeitskorrektur, lokales Dimmen und Randüberblendung am Projektor aus</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3276,14 +3283,14 @@
         <translation>Licht jeder Stufe, drei Farben</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>während der Messung, in zufälliger Folge</translation>
+        <source>as it is measured</source>
+        <translation>während der Messung</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>%n Stufe je Farbe, zufällige Folge, ohne Drift</numerusform>
-            <numerusform>%n Stufen je Farbe, zufällige Folge, ohne Drift</numerusform>
+            <numerusform>%n Stufe je Farbe, ohne Drift</numerusform>
+            <numerusform>%n Stufen je Farbe, ohne Drift</numerusform>
         </translation>
     </message>
     <message>

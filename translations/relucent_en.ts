@@ -167,10 +167,10 @@
 <context>
     <name>relucent::gui::LinearizePage</name>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>%n level a colour, random order, drift removed</numerusform>
-            <numerusform>%n levels a colour, random order, drift removed</numerusform>
+            <numerusform>%n level a colour, drift removed</numerusform>
+            <numerusform>%n levels a colour, drift removed</numerusform>
         </translation>
     </message>
     <message numerus="yes">

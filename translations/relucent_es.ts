@@ -1943,6 +1943,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: las curvas de brillo no son iguales en toda la imagen, con diferencias de hasta un {} % del blanco; desactive la corrección de uniformidad, la atenuación local y la fusión de bordes en el proyector</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3276,14 +3283,14 @@
         <translation>Luz de cada nivel, tres colores</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>según se mide, en orden aleatorio</translation>
+        <source>as it is measured</source>
+        <translation>según se mide</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>%n nivel por color, orden aleatorio, sin deriva</numerusform>
-            <numerusform>%n niveles por color, orden aleatorio, sin deriva</numerusform>
+            <numerusform>%n nivel por color, sin deriva</numerusform>
+            <numerusform>%n niveles por color, sin deriva</numerusform>
         </translation>
     </message>
     <message>

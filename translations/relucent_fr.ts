@@ -1943,6 +1943,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}&#x202f;: les courbes de luminosité ne sont pas les mêmes partout dans l’image, avec des écarts allant jusqu’à {}&#x202f;% du blanc&#x202f;; désactivez la correction d’uniformité, la gradation locale et la fusion des bords du projecteur</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3276,14 +3283,14 @@
         <translation>Lumière de chaque niveau, trois couleurs</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>pendant la mesure, ordre aléatoire</translation>
+        <source>as it is measured</source>
+        <translation>pendant la mesure</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>%n niveau par couleur, ordre aléatoire, dérive retirée</numerusform>
-            <numerusform>%n niveaux par couleur, ordre aléatoire, dérive retirée</numerusform>
+            <numerusform>%n niveau par couleur, dérive retirée</numerusform>
+            <numerusform>%n niveaux par couleur, dérive retirée</numerusform>
         </translation>
     </message>
     <message>

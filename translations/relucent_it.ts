@@ -1943,6 +1943,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: le curve di luminosità non sono uguali in tutta l’immagine, con differenze fino al {} % del bianco; disattivare la correzione di uniformità, l’attenuazione locale e la fusione dei bordi nel proiettore</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3276,14 +3283,14 @@
         <translation>Luce di ogni livello, tre colori</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>durante la misura, in ordine casuale</translation>
+        <source>as it is measured</source>
+        <translation>durante la misura</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>%n livello per colore, ordine casuale, deriva rimossa</numerusform>
-            <numerusform>%n livelli per colore, ordine casuale, deriva rimossa</numerusform>
+            <numerusform>%n livello per colore, deriva rimossa</numerusform>
+            <numerusform>%n livelli per colore, deriva rimossa</numerusform>
         </translation>
     </message>
     <message>

@@ -1940,6 +1940,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}：明るさの曲線が画像のどこでも同じではなく、白の最大 {} % の差があります。プロジェクターの均一性補正、ローカルディミング、エッジブレンディングをオフにしてください</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3256,13 +3263,13 @@
         <translation>各レベルの光、3 色</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>測定順（ランダム）</translation>
+        <source>as it is measured</source>
+        <translation>測定順</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>各色 %n レベル、ランダム順、ドリフト除去済み</numerusform>
+            <numerusform>各色 %n レベル、ドリフト除去済み</numerusform>
         </translation>
     </message>
     <message>

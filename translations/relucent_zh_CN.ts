@@ -1940,6 +1940,13 @@
     </message>
 </context>
 <context>
+    <name>linearization.response-uneven</name>
+    <message>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}：亮度曲线在画面各处不一致，相差最多为白色的 {} %。请在投影机中关闭均匀性校正、局部调光和边缘融合</translation>
+    </message>
+</context>
+<context>
     <name>linearization.overexposed</name>
     <message>
         <source>{}: the projection is overexposed even at {} s, the shortest exposure; close the aperture, lower the gain or add a grey filter</source>
@@ -3256,13 +3263,13 @@
         <translation>三种颜色各色阶的光量</translation>
     </message>
     <message>
-        <source>as it is measured, in random order</source>
-        <translation>按测量时的随机顺序</translation>
+        <source>as it is measured</source>
+        <translation>测量过程中</translation>
     </message>
     <message numerus="yes">
-        <source>%n level(s) a colour, random order, drift removed</source>
+        <source>%n level(s) a colour, drift removed</source>
         <translation>
-            <numerusform>每色 %n 个色阶，随机顺序，已去除漂移</numerusform>
+            <numerusform>每色 %n 个色阶，已去除漂移</numerusform>
         </translation>
     </message>
     <message>

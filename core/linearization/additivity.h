@@ -2,26 +2,26 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string>
+#include <vector>
 
-#include "relucent/base/progress.h"
-#include "relucent/linearization/test_light.h"
+#include "relucent/base/message.h"
+#include "relucent/linearization/mosaic.h"
 
 namespace relucent::linearization {
 
-/// Deviations of a projector's light from additivity, and the weights for its ramps.
+/// Deviations of a projector's light from additivity.
 struct Additivity {
-  double white = 0.0;          // (W-K) / ((R-K) + (G-K) + (B-K)) - 1, worst camera channel by magnitude
-  double superposition = 0.0;  // (H-K + H'-K) / (W-K) - 1 for a random half H and its complement H'
-  std::array<LightWeights, 3> channelWeights;  // for light of each projector channel
-  LightWeights whiteWeights;
+  double white = 0.0;          // of one group: (H-K) / ((R-K) + (G-K) + (B-K)) - 1, worst camera channel
+  double superposition = 0.0;  // all nine lights over white, if colours added up as they do in one group, - 1
 };
 
-/// Shots: black, white, red, green, blue, white, black, then two random halves and their complements.
-/// Throws: Error{input} if no camera sees one of the projector's channels.
-Additivity measureAdditivity(const LightMeter& meter, std::size_t projector, std::uint64_t seed,
-                             Progress& progress);
+/// Sums over well-lit camera values, less black and over the lamp's power, per camera channel.
+using ChannelSums = std::array<double, 3>;
+
+/// From white, the nine lights of a mosaic, and the first group in white.
+Additivity additivityOf(const ChannelSums& white, const std::array<ChannelSums, mosaicLights>& lights,
+                        const ChannelSums& groupInWhite);
 
 /// Findings about deviations above `limit`: the likely cause and what to switch off.
 std::vector<Message> additivityFindings(const Additivity& additivity, const std::string& projector,

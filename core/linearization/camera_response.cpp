@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "relucent/base/error.h"
 #include "relucent/hdr/isotonic.h"
@@ -198,6 +200,38 @@ PowerLaw closestPowerLaw(const Estimate& estimate, std::size_t channel) {
   return law;
 }
 
+/// What two exposures of the same light say of each other.
+struct Comparison {
+  double ratio = 1.0;      // of their signals
+  double bend = 0.0;       // logarithm of the brighter half's ratio over the darker one's
+  double times = 1.0;      // the ratio that it should be
+  std::size_t values = 0;  // compared
+};
+
+Comparison compared(const rig::RawFrame& longer, const rig::RawFrame& shorter, double saturation) {
+  double step = longer.bits > 0 ? 1.0 / (std::ldexp(1.0, longer.bits) - 1.0) : 0.0;
+  double times = longer.seconds / shorter.seconds, darkest = std::max(0.02, 6.0 * step);
+  std::vector<std::pair<double, double>> pairs;
+  for (std::size_t at = 0; at < longer.signal.data().size(); ++at) {
+    double bright = static_cast<double>(longer.signal.data()[at]);
+    // The expected signal decides what is dark: that of the shorter exposure would favour what noise raised.
+    if (bright < 0.9 * saturation && bright > darkest * times)
+      pairs.emplace_back(bright, static_cast<double>(shorter.signal.data()[at]));
+  }
+  Comparison result{1.0, 0.0, times, pairs.size()};
+  if (pairs.size() < 2) return result;
+  auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
+  std::nth_element(pairs.begin(), middle, pairs.end());
+  auto ratioOf = [](auto first, auto last) {
+    double bright = 0.0, dark = 0.0;
+    for (; first != last; ++first) bright += first->first, dark += first->second;
+    return bright / std::max(dark, 1e-9);
+  };
+  result.ratio = ratioOf(pairs.begin(), pairs.end());
+  result.bend = std::log(ratioOf(middle, pairs.end()) / ratioOf(pairs.begin(), middle));
+  return result;
+}
+
 /// Below the darkest knot the curve goes on as the power law that it has there.
 hdr::ResponseCurve curveOf(const Estimate& estimate, std::size_t channel) {
   double exponent = (estimate.logResponse(channel, 2) - estimate.logResponse(channel, 0)) /
@@ -225,6 +259,19 @@ std::vector<double> responseBracket(const rig::ExposureRange& range, const std::
        time /= seconds.size() % 2 == 1 ? 2.0 : 1.5)
     seconds.push_back(time);
   return seconds;
+}
+
+bool looksLinear(const rig::Shot& bracket, std::size_t camera, double saturation) {
+  constexpr std::size_t fewestValues = 100;
+  double products = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k + 1 < bracket.frames.size(); ++k) {
+    Comparison pair = compared(bracket.frames[k][camera], bracket.frames[k + 1][camera], saturation);
+    if (pair.values < fewestValues || pair.times < 1.2) continue;
+    if (std::abs(pair.bend) > shapeLimit) return false;
+    products += std::log(pair.ratio) * std::log(pair.times);
+    squares += std::log(pair.times) * std::log(pair.times);
+  }
+  return squares == 0.0 || std::abs(products / squares - 1.0) <= exponentLimit;
 }
 
 CameraResponse cameraResponse(const rig::Shot& bracket, std::size_t camera, double saturation) {

@@ -20,6 +20,12 @@ struct CameraResponse {
 /// from step to step, f(2 z) = 2 f(z), as likely as the straight line.
 std::vector<double> responseBracket(const rig::ExposureRange& range, const std::vector<double>& exposures);
 
+/// Whether few exposures, far apart, speak for a linear camera. Between neighbours, over values that are well
+/// exposed in both, the ratio of sums follows the nominal times, to 0.04 in the exponent over all of them,
+/// and is the same for the brighter half as for the darker one to 0.03. Ratios of sums are free of the bias
+/// that noise gives to slopes, which a scene of few different brightnesses would leave to cameraResponse().
+bool looksLinear(const rig::Shot& bracket, std::size_t camera, double saturation);
+
 /// Least squares over pixels i and exposures k, in logarithms, after Debevec & Malik 1997:
 ///   u(z_ik) - ln t_k - d_k = l_i,
 /// u = ln response, linear between knots that are even in ln z, so that a linear camera and every power law

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "relucent/base/error.h"
 #include "relucent/linearization/test_light.h"
@@ -14,8 +15,11 @@ constexpr double wantedShare = 0.8;   // of saturation, at the 99.5th percentile
 constexpr double longerBy = 12.0;     // for what is dim
 constexpr double largestStep = 16.0;  // between neighbouring exposures
 constexpr double saturationMargin = 0.97;
-constexpr double clipping = 0.98;  // share of saturation that counts as clipped
-constexpr int mostRefinements = 8;
+constexpr double clipping = 0.98;   // share of saturation that counts as clipped
+constexpr double blindStep = 16.0;  // from an exposure that is all saturated or all dark
+constexpr double wideStep = 9.0;    // between neighbouring exposures: another one between tells the response
+constexpr double leastStep = 1.4;   // between exposures, for clipping to be told from light
+constexpr int mostPhotographs = 24;
 
 /// The brightest channel of every pixel.
 std::vector<float> brightest(const image::Image& signal) {
@@ -31,31 +35,38 @@ double quantile(std::vector<float> values, double share) {
   return static_cast<double>(*place);
 }
 
-/// The whole range in steps of at most 4, longest first; at most 12.
-std::vector<double> sweep(const rig::ExposureRange& range) {
-  double ratio = range.longest / range.shortest;
-  int steps = std::clamp(static_cast<int>(std::ceil(std::log(ratio) / std::log(4.0) - 1e-9)), 0, 11);
-  std::vector<double> seconds;
-  for (int i = 0; i <= steps; ++i)
-    seconds.push_back(range.longest * std::pow(ratio, -static_cast<double>(i) / std::max(1, steps)));
-  return seconds;
+/// One exposure by all cameras.
+struct Photograph {
+  double asked;
+  const std::vector<rig::RawFrame>* frames;
+  const image::Image& signal(std::size_t camera) const { return (*frames)[camera].signal; }
+};
+
+/// Of all shots, the longest exposure first.
+std::vector<Photograph> photographsOf(const std::vector<rig::Shot>& shots) {
+  std::vector<Photograph> photographs;
+  for (const rig::Shot& shot : shots)
+    for (std::size_t exposure = 0; exposure < shot.frames.size(); ++exposure)
+      photographs.push_back({shot.exposuresAsked[exposure], &shot.frames[exposure]});
+  std::ranges::stable_sort(photographs, std::ranges::greater(), &Photograph::asked);
+  return photographs;
 }
 
 /// The signal at which a camera clips: some deliver less than full scale. It shows as many equal values at
-/// the top of an exposure that a much shorter one reaches as well.
-double saturationOf(const rig::Shot& white, std::size_t camera) {
-  double top = 1.0;
-  if (white.frames.size() > 1) {
-    std::vector<float> longest = brightest(white.frames[0][camera].signal);
-    std::vector<float> shorter = brightest(white.frames[1][camera].signal);
-    float most = *std::max_element(longest.begin(), longest.end());
+/// the top of an exposure that a shorter one reaches as well.
+double saturationOf(const std::vector<Photograph>& whites, std::size_t camera) {
+  for (std::size_t exposure = 0; exposure + 1 < whites.size(); ++exposure) {
+    std::vector<float> longer = brightest(whites[exposure].signal(camera));
+    std::vector<float> shorter = brightest(whites[exposure + 1].signal(camera));
+    float most = *std::max_element(longer.begin(), longer.end());
     auto clipped =
-        std::count_if(longest.begin(), longest.end(), [&](float value) { return value > most - 0.002f; });
+        std::count_if(longer.begin(), longer.end(), [&](float value) { return value > most - 0.002f; });
+    bool much = whites[exposure].asked > leastStep * whites[exposure + 1].asked;
     bool reachedEarlier = *std::max_element(shorter.begin(), shorter.end()) > most - 0.002f;
-    if (reachedEarlier && static_cast<double>(clipped) >= 0.005 * static_cast<double>(longest.size()))
-      top = static_cast<double>(most);
+    if (much && reachedEarlier && static_cast<double>(clipped) >= 0.005 * static_cast<double>(longer.size()))
+      return saturationMargin * std::min(static_cast<double>(most), 1.0);
   }
-  return saturationMargin * std::min(top, 1.0);
+  return saturationMargin;
 }
 
 /// The search for one camera's exposure.
@@ -76,11 +87,11 @@ struct Search {
     return quantile(lit.empty() ? all : values, 0.995);
   }
 
-  /// From the sweep: the exposure at which the brightest of what is lit comes to the wanted level.
-  void findHighlights(const rig::Shot& white, std::size_t camera, const std::vector<double>& sweepSeconds) {
-    for (std::size_t exposure = 0; exposure < sweepSeconds.size(); ++exposure) {
-      double most = brightestLit(white.frames[exposure][camera].signal);
-      highlights = sweepSeconds[exposure];
+  /// The exposure at which the brightest of what is lit comes to the wanted level.
+  void findHighlights(const std::vector<Photograph>& whites, std::size_t camera) {
+    for (const Photograph& white : whites) {
+      double most = brightestLit(white.signal(camera));
+      highlights = white.asked;
       clips = most > clipping * saturation;
       if (clips) continue;
       highlights *= std::clamp(wantedShare * saturation / most, 0.25, 4.0);
@@ -101,20 +112,24 @@ struct Search {
     highlightsClip = brightestLit(signal) > clipping * saturation;
     double wanted = wantedShare * saturation;
     bool good = level > 0.93 * wanted && level < 1.06 * wanted;
-    double next =
-        level > clipping * saturation ? 0.5 * seconds : seconds * std::clamp(wanted / level, 0.25, 4.0);
+    double step = lit.empty() ? blindStep : 4.0;
+    double next = level > clipping * saturation
+                      ? seconds / (lit.empty() ? blindStep : 2.0)
+                      : seconds * std::clamp(wanted / std::max(level, 1e-9), 1.0 / step, step);
     next = std::clamp(next, range.shortest, range.longest);
     settled = good || next == seconds;
     if (!settled) seconds = next;
   }
+
+  /// Whether the last photograph, well exposed or as well as can be, can tell what is lit.
+  bool tellsLight() const { return settled || (level > 0.2 * saturation && level <= clipping * saturation); }
 };
 
-/// Pixels that white makes brighter than two photographs of black differ from each other.
-std::vector<std::size_t> litPixels(const image::Image& white, const image::Image& black,
-                                   const image::Image& blackAgain, int bits) {
+/// Pixels that white makes brighter than noise could: where white is darker than black, that is noise.
+std::vector<std::size_t> litPixels(const image::Image& white, const image::Image& black, int bits) {
   std::vector<float> noise;
   for (std::size_t i = 0; i < black.data().size(); ++i)
-    noise.push_back(std::abs(black.data()[i] - blackAgain.data()[i]));
+    noise.push_back(std::max(0.0f, black.data()[i] - white.data()[i]));
   double step = bits > 0 ? 1.0 / (std::ldexp(1.0, bits) - 1.0) : 1e-6;
   double floor = 2.0 * std::max(quantile(noise, 0.999), step);
   std::vector<std::size_t> lit;
@@ -171,47 +186,6 @@ void addHighlights(std::vector<double>& seconds, const std::vector<Search>& sear
     seconds.push_back(shortest * std::pow(least / shortest, static_cast<double>(i) / steps));
 }
 
-/// What a sweep over the whole range tells about every camera: where it clips, and the longest exposure at
-/// which it does not.
-std::vector<Search> startSearches(const rig::Rig& rig, const rig::Shot& white,
-                                  const std::vector<double>& seconds) {
-  std::vector<Search> searches;
-  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
-    Search search;
-    search.name = rig.cameras[camera]->name();
-    search.saturation = saturationOf(white, camera);
-    std::size_t exposure = 0;
-    while (exposure + 1 < seconds.size() &&
-           search.levelOf(white.frames[exposure][camera].signal) > 0.9 * search.saturation)
-      ++exposure;
-    search.seconds = seconds[exposure];
-    searches.push_back(std::move(search));
-  }
-  return searches;
-}
-
-void findLight(std::vector<Search>& searches, const rig::Shot& white, const std::vector<double>& sweepSeconds,
-               const rig::Shot& black, const rig::Shot& blackAgain, const std::vector<double>& blackSeconds) {
-  for (std::size_t camera = 0; camera < searches.size(); ++camera) {
-    Search& search = searches[camera];
-    const rig::RawFrame& lit = white.frames[indexIn(sweepSeconds, search.seconds)][camera];
-    std::size_t exposure = indexIn(blackSeconds, search.seconds);
-    search.lit = litPixels(lit.signal, black.frames[exposure][camera].signal,
-                           blackAgain.frames[exposure][camera].signal, lit.bits);
-    if (static_cast<double>(search.lit.size()) <
-        std::max(8.0, 0.002 * static_cast<double>(lit.signal.pixels())))
-      throw Error(
-          ErrorKind::input,
-          RELUCENT_ENGLISH_MESSAGE("linearization.no-contrast",
-                                   "the camera sees no difference between a white and a black projection"),
-          RELUCENT_ENGLISH_MESSAGE("linearization.check-projector-cap-and-aim",
-                                   "check that the projector is on and shows the pictures, that the lens cap "
-                                   "is off, and that the camera looks at the projection"),
-          search.name);
-    search.findHighlights(white, camera, sweepSeconds);
-  }
-}
-
 std::vector<Message> remarks(const std::vector<Search>& searches) {
   std::vector<Message> findings;
   for (const Search& search : searches) {
@@ -236,6 +210,159 @@ std::vector<Message> remarks(const std::vector<Search>& searches) {
   return findings;
 }
 
+/// The search for the exposures of all cameras.
+class Exposing {
+ public:
+  Exposing(rig::ShotTaker& shots, Progress& progress)
+      : shots_(shots), progress_(progress), range_(commonRange(shots.rig())) {
+    for (const auto& camera : shots.rig().cameras) {
+      Search search;
+      search.name = camera->name();
+      search.seconds = std::sqrt(range_.shortest * range_.longest);
+      searches_.push_back(std::move(search));
+    }
+  }
+
+  ExposureChoice run() {
+    while (!std::ranges::all_of(searches_, &Search::tellsLight) && mayGoOn()) photographWhite();
+    photographBlack();
+    while (!std::ranges::all_of(searches_, &Search::settled) && mayGoOn()) photographWhite();
+    findHighlights();
+
+    ExposureChoice choice;
+    choice.seconds = spread(searches_, range_);
+    addHighlights(choice.seconds, searches_, range_);
+    choice.findings = remarks(searches_);
+    photographRest(choice.seconds);
+    for (const Search& search : searches_) choice.saturation.push_back(search.saturation);
+    chooseForLight(choice);
+    choice.whites = std::move(whites_);
+    choice.black = std::move(black_);
+    return choice;
+  }
+
+ private:
+  bool mayGoOn() const { return whites_.size() < mostPhotographs; }
+
+  void take(const std::vector<double>& seconds) {
+    whites_.push_back(shots_.take(evenPatterns(shots_.rig(), {1, 1, 1}), seconds, progress_));
+    progress_.report(std::min(0.9, 0.1 * static_cast<double>(whites_.size())));
+  }
+
+  /// At the exposures of the cameras that are still searching.
+  void photographWhite() {
+    std::vector<double> seconds = wantedBy(searches_, true);
+    take(seconds);
+    const std::vector<Photograph> all = photographsOf(whites_);
+    for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
+      Search& search = searches_[camera];
+      search.saturation = saturationOf(all, camera);
+      if (!search.settled)
+        search.learn(whites_.back().frames[indexIn(seconds, search.seconds)][camera].signal, range_);
+    }
+  }
+
+  /// At the exposures of the last photographs of white that tell what is lit.
+  void photographBlack() {
+    const std::vector<Photograph> all = photographsOf(whites_);
+    std::vector<std::size_t> exposures;
+    std::vector<double> seconds;
+    for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
+      const Search& search = searches_[camera];
+      std::size_t exposure = 0;
+      while (exposure + 1 < all.size() &&
+             search.levelOf(all[exposure].signal(camera)) > clipping * search.saturation)
+        ++exposure;
+      exposures.push_back(exposure);
+      seconds.push_back(all[exposure].asked);
+    }
+    const std::vector<double> asked = unique(seconds);
+    black_ = shots_.take(evenPatterns(shots_.rig(), {0, 0, 0}), asked, progress_);
+    for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
+      Search& search = searches_[camera];
+      const rig::RawFrame& lit = (*all[exposures[camera]].frames)[camera];
+      search.lit =
+          litPixels(lit.signal, black_.frames[indexIn(asked, seconds[camera])][camera].signal, lit.bits);
+      if (static_cast<double>(search.lit.size()) <
+          std::max(8.0, 0.002 * static_cast<double>(lit.signal.pixels())))
+        throw Error(
+            ErrorKind::input,
+            RELUCENT_ENGLISH_MESSAGE("linearization.no-contrast",
+                                     "the camera sees no difference between a white and a black projection"),
+            RELUCENT_ENGLISH_MESSAGE(
+                "linearization.check-projector-cap-and-aim",
+                "check that the projector is on and shows the pictures, that the lens cap "
+                "is off, and that the camera looks at the projection"),
+            search.name);
+      // The percentile of what is lit is not that of the whole view.
+      search.settled = false;
+      search.seconds = seconds[camera];
+      search.learn(lit.signal, range_);
+    }
+  }
+
+  /// Ever shorter, until nothing clips.
+  void findHighlights() {
+    auto clips = [&] {
+      const std::vector<Photograph> all = photographsOf(whites_);
+      bool any = false;
+      for (std::size_t camera = 0; camera < searches_.size(); ++camera) {
+        searches_[camera].findHighlights(all, camera);
+        any = any || (searches_[camera].highlightsClip && searches_[camera].clips);
+      }
+      return any;
+    };
+    while (clips() && mayGoOn()) {
+      double shortest = photographsOf(whites_).back().asked;
+      if (shortest <= range_.shortest) return;
+      take({std::max(range_.shortest, shortest / 4.0)});
+    }
+  }
+
+  /// White at the exposures that were chosen, and between those that are far apart: three or more tell a
+  /// camera's response.
+  void photographRest(const std::vector<double>& seconds) {
+    std::vector<double> open;
+    std::vector<double> all;
+    for (const Photograph& photograph : photographsOf(whites_)) all.push_back(photograph.asked);
+    for (double wanted : seconds)
+      if (std::ranges::count(all, wanted) == 0) open.push_back(wanted);
+    all.insert(all.end(), open.begin(), open.end());
+    std::erase_if(all, [&](double asked) { return asked > seconds.front() || asked < seconds.back(); });
+    all = unique(std::move(all));
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      if (all[i] > wideStep * all[i + 1]) open.push_back(all[i] / std::sqrt(1.3 * all[i] / all[i + 1]));
+    if (seconds.size() == 1)
+      for (double shorter : {1.5, 3.0})
+        if (seconds[0] / shorter >= range_.shortest) open.push_back(seconds[0] / shorter);
+    if (!open.empty()) take(unique(std::move(open)));
+  }
+
+  /// For every camera the longest of the exposures that does not overexpose.
+  void chooseForLight(ExposureChoice& choice) const {
+    choice.dimmerBy = 1.0;
+    for (const Search& search : searches_) {
+      auto longest = [&](double seconds) {
+        for (double exposure : choice.seconds)
+          if (exposure <= 1.01 * seconds) return exposure;
+        return choice.seconds.back();
+      };
+      choice.flood.push_back(longest(search.seconds));
+      choice.dim.push_back(longest(longerBy * search.seconds));
+      choice.dimmerBy = std::max(choice.dimmerBy, choice.dim.back() / choice.flood.back());
+    }
+    choice.flood = unique(std::move(choice.flood));
+    choice.dim = unique(std::move(choice.dim));
+  }
+
+  rig::ShotTaker& shots_;
+  Progress& progress_;
+  rig::ExposureRange range_;
+  std::vector<Search> searches_;
+  std::vector<rig::Shot> whites_;
+  rig::Shot black_;
+};
+
 }  // namespace
 
 rig::ExposureRange commonRange(const rig::Rig& rig) {
@@ -254,36 +381,20 @@ rig::ExposureRange commonRange(const rig::Rig& rig) {
 }
 
 ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress) {
-  const rig::Rig& rig = shots.rig();
-  rig::ExposureRange range = commonRange(rig);
-  std::vector<double> seconds = sweep(range);
-  rig::Shot white = shots.take(evenPatterns(rig, {1, 1, 1}), seconds, progress);
-  progress.report(0.4);
+  return Exposing(shots, progress).run();
+}
 
-  std::vector<Search> searches = startSearches(rig, white, seconds);
-  std::vector<double> dark = wantedBy(searches, false);
-  rig::Shot black = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
-  progress.report(0.5);
-  rig::Shot blackAgain = shots.take(evenPatterns(rig, {0, 0, 0}), dark, progress);
-  progress.report(0.6);
-  findLight(searches, white, seconds, black, blackAgain, dark);
-  for (std::size_t camera = 0; camera < searches.size(); ++camera)
-    searches[camera].learn(white.frames[indexIn(seconds, searches[camera].seconds)][camera].signal, range);
-
-  for (int round = 0; round < mostRefinements; ++round) {
-    std::vector<double> open = wantedBy(searches, true);
-    if (open.empty()) break;
-    rig::Shot closer = shots.take(evenPatterns(rig, {1, 1, 1}), open, progress);
-    for (std::size_t camera = 0; camera < searches.size(); ++camera)
-      if (!searches[camera].settled)
-        searches[camera].learn(closer.frames[indexIn(open, searches[camera].seconds)][camera].signal, range);
-    progress.report(0.6 + 0.4 * (round + 1) / mostRefinements);
+std::optional<rig::Shot> atExposures(const std::vector<rig::Shot>& shots, std::vector<double> seconds) {
+  if (shots.empty()) return std::nullopt;
+  const std::vector<Photograph> all = photographsOf(shots);
+  rig::Shot result{shots.back().id, shots.back().fingerprint, {}, {}};
+  for (double wanted : unique(std::move(seconds))) {
+    auto found = std::ranges::find(all, wanted, &Photograph::asked);
+    if (found == all.end()) return std::nullopt;
+    result.frames.push_back(*found->frames);
+    result.exposuresAsked.push_back(wanted);
   }
-
-  ExposureChoice choice{spread(searches, range), {}, remarks(searches)};
-  addHighlights(choice.seconds, searches, range);
-  for (const Search& search : searches) choice.saturation.push_back(search.saturation);
-  return choice;
+  return result;
 }
 
 }  // namespace relucent::linearization

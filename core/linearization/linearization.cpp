@@ -3,63 +3,116 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "relucent/base/error.h"
 #include "relucent/linearization/additivity.h"
 #include "relucent/linearization/camera_noise.h"
 #include "relucent/linearization/camera_response.h"
 #include "relucent/linearization/exposure_choice.h"
-#include "relucent/linearization/projector_ramp.h"
+#include "relucent/linearization/mosaic_photographs.h"
 #include "relucent/linearization/test_light.h"
 
 namespace relucent::linearization {
 namespace {
 
-constexpr double flickerLimit = 0.01;  // of the light between photographs, relative
+constexpr double flickerLimit = 0.01;     // of the light between photographs, relative
+constexpr double unevennessLimit = 0.02;  // of the response over the picture, of white
 
-std::vector<ShotPair> takePairs(rig::ShotTaker& shots, const LinearizationSettings& settings,
+/// White at the exposures from the longest to the shortest that were chosen: `times` are told by these.
+rig::Shot whiteBracket(const ExposureChoice& choice) {
+  std::vector<double> seconds;
+  for (const rig::Shot& shot : choice.whites)
+    for (double asked : shot.exposuresAsked)
+      if (asked <= choice.seconds.front() && asked >= choice.seconds.back()) seconds.push_back(asked);
+  std::optional<rig::Shot> bracket = atExposures(choice.whites, seconds);
+  require(bracket.has_value(), "white was not photographed at the exposures that were chosen");
+  return *std::move(bracket);
+}
+
+/// All photographs of white, for the cameras' responses.
+rig::Shot allWhites(const ExposureChoice& choice) {
+  std::vector<double> seconds;
+  for (const rig::Shot& shot : choice.whites)
+    seconds.insert(seconds.end(), shot.exposuresAsked.begin(), shot.exposuresAsked.end());
+  return atExposures(choice.whites, seconds).value();
+}
+
+/// Response and true times of every camera; noise is not known yet. Few photographs say whether a camera is
+/// linear. One that is not gets more, which say what it is.
+std::vector<hdr::CameraModel> respondingCameras(rig::ShotTaker& shots, const ExposureChoice& choice,
+                                                const Thinning& thinning,
+                                                const LinearizationSettings& settings, Progress& progress) {
+  const rig::Rig& rig = shots.rig();
+  const rig::Shot whites = allWhites(choice), bracket = whiteBracket(choice);
+  std::optional<rig::Shot> dense;
+  std::vector<hdr::CameraModel> cameras;
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
+    progress.checkpoint();
+    hdr::CameraModel model;
+    model.saturation = choice.saturation[camera];
+    if (!looksLinear(whites, camera, model.saturation)) {
+      if (!dense)
+        dense = thinning.of(shots.take(randomGreys(rig, settings.seed),
+                                       responseBracket(commonRange(rig), choice.seconds), progress));
+      model.response = cameraResponse(*dense, camera, model.saturation).curves;
+    }
+    cameras.push_back(withMeasuredTimes(std::move(model), {{bracket, bracket}}, camera));
+  }
+  return cameras;
+}
+
+/// Pairs of equal shots beyond those that the mosaics contain, for `noisePairs`.
+std::vector<ShotPair> takePairs(rig::ShotTaker& shots, const Thinning& thinning, int count,
                                 const std::vector<double>& exposures, Progress& progress) {
-  // Full and half light, and what lies in the dark, so that all signals occur.
-  constexpr std::array<float, 4> drives{1.0f, 0.75f, 0.5f, 0.0f};
+  constexpr std::array<float, 4> drives{0.75f, 0.5f, 0.25f, 0.1f};
   std::vector<ShotPair> pairs;
-  for (int i = 0; i < settings.noisePairs; ++i) {
+  for (int i = 0; i < count; ++i) {
     float drive = drives[static_cast<std::size_t>(i) % drives.size()];
     std::vector<image::Image> patterns = evenPatterns(shots.rig(), {drive, drive, drive});
-    rig::Shot first = shots.take(patterns, exposures, progress);
-    progress.report((i + 0.5) / settings.noisePairs);
-    pairs.emplace_back(std::move(first), shots.take(patterns, exposures, progress));
-    progress.report((i + 1.0) / settings.noisePairs);
+    rig::Shot first = thinning.of(shots.take(patterns, exposures, progress));
+    pairs.emplace_back(std::move(first), thinning.of(shots.take(patterns, exposures, progress)));
+    progress.report((i + 1.0) / count);
   }
   return pairs;
 }
 
-/// Step 2 of linearize().
-void calibrateCameras(rig::ShotTaker& shots, const LinearizationSettings& settings,
-                      const std::vector<double>& saturation, Linearization& result, Progress& progress) {
-  const rig::Rig& rig = shots.rig();
-  rig::Shot bracket =
-      shots.take(evenPatterns(rig, {1, 1, 1}), responseBracket(commonRange(rig), result.exposures), progress);
-  progress.report(0.3);
-  Progress rest = progress.part(0.7, progress.stage());
-  std::vector<ShotPair> pairs = takePairs(shots, settings, result.exposures, rest);
-
-  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
-    progress.checkpoint();
-    hdr::CameraModel model;
-    model.saturation = saturation[camera];
-    model.response = cameraResponse(bracket, camera, model.saturation).curves;
-    model = withMeasuredNoise(std::move(model), pairs, camera);
-    model = withMeasuredTimes(std::move(model), pairs, camera);
-    double flicker = flickerOf(model, pairs, camera);
-    if (flicker > flickerLimit)
-      result.findings.push_back(
-          RELUCENT_MESSAGE("linearization.light-flickers",
-                           "{}: the light changes by {} % from one photograph to the next; switch off the "
-                           "projector's dynamic lamp modes and other lamps nearby, and choose exposure times "
-                           "that are multiples of the mains period")
-              .with(rig.cameras[camera]->name(), as::share(flicker, as::decimals(1))));
-    result.cameras.push_back(std::move(model));
+/// Black at the exposures for dim light, and as it was photographed to choose them.
+rig::Shot blackOf(rig::ShotTaker& shots, const ExposureChoice& choice, const Thinning& thinning,
+                  Progress& progress) {
+  rig::Shot black = thinning.of(shots.take(evenPatterns(shots.rig(), {0, 0, 0}), choice.dim, progress));
+  for (std::size_t exposure = 0; exposure < choice.black.frames.size(); ++exposure) {
+    const double asked = choice.black.exposuresAsked[exposure];
+    if (std::ranges::count(black.exposuresAsked, asked) > 0) continue;
+    black.exposuresAsked.push_back(asked);
+    black.frames.push_back(choice.black.frames[exposure]);
   }
+  return black;
+}
+
+void addFindings(Linearization& result, const MosaicResult& measured, const rig::Rig& rig,
+                 std::size_t projector, double additivityLimit) {
+  const std::string name = rig.projectors[projector]->name();
+  const std::vector<Message> additivity = additivityFindings(measured.additivity, name, additivityLimit);
+  result.findings.insert(result.findings.end(), additivity.begin(), additivity.end());
+  for (std::size_t camera = 0; camera < measured.flicker.size(); ++camera) {
+    // Every projector's light falls into the same cameras: once is enough.
+    if (projector > 0 || measured.flicker[camera] <= flickerLimit) continue;
+    result.findings.push_back(
+        RELUCENT_MESSAGE("linearization.light-flickers",
+                         "{}: the light changes by {} % from one photograph to the next; switch off the "
+                         "projector's dynamic lamp modes and other lamps nearby, and choose exposure times "
+                         "that are multiples of the mains period")
+            .with(rig.cameras[camera]->name(), as::share(measured.flicker[camera], as::decimals(1))));
+  }
+  // Light that does not add up looks uneven as well.
+  if (additivity.empty() && measured.unevenness > unevennessLimit)
+    result.findings.push_back(
+        RELUCENT_MESSAGE(
+            "linearization.response-uneven",
+            "{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; "
+            "switch off uniformity correction, local dimming and edge blending in the projector")
+            .with(name, as::share(measured.unevenness, as::decimals(0))));
 }
 
 }  // namespace
@@ -95,33 +148,60 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   Progress exposing = progress.part(0.1, RELUCENT_MESSAGE("stage.finding-exposure", "Finding the exposure"));
   ExposureChoice choice = chooseExposures(shots, exposing);
   result.exposures = choice.seconds;
+  const Thinning thinning(rig.cameraRasters());
+  for (rig::Shot& white : choice.whites) white = thinning.of(white);
+  choice.black = thinning.of(choice.black);
   result.findings = choice.findings;
 
   Progress calibrating =
-      progress.part(0.1, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
-  calibrateCameras(shots, settings, choice.saturation, result, calibrating);
+      progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
+  std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, thinning, settings, calibrating);
 
-  LightMeter meter(shots, result.cameras, result.exposures);
-  double share = 0.8 / static_cast<double>(rig.projectors.size());
+  rig::Shot black = blackOf(shots, choice, thinning, progress);
+  std::vector<MosaicPhotographs> photographs;
+  std::vector<ShotPair> pairs;
+  const double share = 0.75 / static_cast<double>(rig.projectors.size());
+  for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
+    Progress mosaics = progress.part(
+        share, RELUCENT_MESSAGE("stage.measuring-brightness-curves", "Measuring the brightness curves of {}")
+                   .with(rig.projectors[projector]->name()));
+    photographs.push_back(photographMosaics(shots, projector, cameras, choice, black, settings, mosaics));
+    const MosaicPhotographs& taken = photographs.back();
+    pairs.emplace_back(taken.shots.front(), taken.shots.back());
+  }
+  pairs.emplace_back(*atExposures({photographs.front().blackBefore}, choice.dim),
+                     photographs.front().blackAfter);
+  Progress pairing = progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
+  for (ShotPair& pair : takePairs(shots, thinning, settings.noisePairs - 2, choice.seconds, pairing))
+    pairs.push_back(std::move(pair));
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera)
+    result.cameras.push_back(withMeasuredNoise(cameras[camera], pairs, camera));
+
   for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
     const std::string name = rig.projectors[projector]->name();
-    Progress adding = progress.part(
-        0.1 * share,
+    Progress checking = progress.part(
+        0.05 / static_cast<double>(rig.projectors.size()),
         RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up").with(name));
-    Additivity additivity = measureAdditivity(meter, projector, settings.seed, adding);
+    checking.checkpoint();
+    MosaicResult measured = evaluate(photographs[projector], result.cameras, thinning);
     result.additivityError.push_back(
-        std::max(std::abs(additivity.white), std::abs(additivity.superposition)));
-    for (Message& finding : additivityFindings(additivity, name, settings.additivityLimit))
-      result.findings.push_back(std::move(finding));
-
-    Progress ramps = progress.part(0.9 * share, RELUCENT_MESSAGE("stage.measuring-brightness-curves",
-                                                                 "Measuring the brightness curves of {}")
-                                                    .with(name));
-    result.projectors.push_back(measureRamps(meter, projector, additivity, settings, ramps));
+        std::max(std::abs(measured.additivity.white), std::abs(measured.additivity.superposition)));
+    addFindings(result, measured, rig, projector, settings.additivityLimit);
+    result.projectors.push_back(std::move(measured.response));
   }
   progress.report(1.0);
   result.times = shots.times();
   return result;
+}
+
+int usualShots(const LinearizationSettings& settings, std::size_t projectors) {
+  constexpr int ofAll = 5;    // exposures and black
+  constexpr int ofEach = 12;  // the lights of a mosaic, one group in white, white, black
+  constexpr int levels = 8;   // in a mosaic
+  const int mosaics = (3 * (settings.levels - 2) + levels - 1) / levels;
+  const int whites =
+      projectors > 1 ? static_cast<int>(projectors) : 0;  // of one alone, that all took already
+  return ofAll + static_cast<int>(projectors) * (ofEach + mosaics) + whites;
 }
 
 }  // namespace relucent::linearization

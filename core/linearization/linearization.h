@@ -27,9 +27,9 @@ struct ProjectorResponse {
 struct LinearizationSettings {
   int levels = 33;                 // ramp levels per channel
   double shadowPower = 2.0;        // level k at (k / (levels - 1))^shadowPower: denser in the shadows
-  int noisePairs = 4;              // pairs of equal shots for the camera noise model
+  int noisePairs = 2;              // pairs of equal shots for the camera noise model; two are shot anyway
   double additivityLimit = 0.025;  // larger relative deviations are a finding
-  std::uint64_t seed = 1;          // order of the ramp and the halves that test superposition
+  std::uint64_t seed = 1;          // of the mosaics
 };
 /// What is wrong with the settings; empty: nothing.
 std::vector<Message> problems(const LinearizationSettings& settings);
@@ -43,7 +43,7 @@ struct Linearization {
   /// dim interreflections above the noise at the longest. Only one if the camera has no longer one.
   std::vector<double> exposures;
   /// Per projector: largest relative deviation of white from red + green + blue, and of the flood image from
-  /// the sum of two halves.
+  /// the sum of its parts.
   std::vector<double> additivityError;
   /// Time that its shots took: a benchmark of the devices. Shots read from a log do not count.
   rig::ShotTimes times;
@@ -51,17 +51,22 @@ struct Linearization {
   std::vector<Message> findings;
 };
 
-/// Measures projectors and cameras with uniform patterns:
+/// Measures projectors and cameras:
 ///  1. exposures: the 99.5th percentile of the flood image at 0.8 of saturation; 12 times that for
 ///     what is dim; both within what the cameras can do;
-///  2. cameras: saturation, response (linear unless the bracket shows otherwise), noise from pairs of equal
-///     shots, true exposure times;
-///  3. additivity: white against red + green + blue, flood against two random halves;
-///  4. projector ramps: levels of each channel in random order, drift compensated by black and white
-///     references between, isotonic regression, monotone cubic.
-/// About 3 * levels + 60 shots for one projector.  Source: core/linearization/README.md.
+///  2. cameras: saturation, response (linear unless white at these exposures shows otherwise), true exposure
+///     times; noise at the end, from pairs of equal shots;
+///  3. projectors: mosaics that show nine levels at once, and each of their nine lights alone; the response
+///     that explains all of them, with the lamp's drift and flicker, by regression; isotonic regression,
+///     monotone cubic;
+///  4. from the same shots: white against red + green + blue, the whole against its parts, the response of
+///     parts of the picture against that of the whole.
+/// Some 30 photographs for one projector and a linear camera. Source: core/linearization/README.md.
 /// Throws: Error{input} if a camera sees no difference between black and white, or no camera sees a
 /// projector's channel; Error{device, disk}; Cancelled.
 Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& settings, Progress& progress);
+
+/// Patterns that linearize() usually shows: for what people are told before.
+int usualShots(const LinearizationSettings& settings, std::size_t projectors);
 
 }  // namespace relucent::linearization

@@ -82,7 +82,8 @@ QString LinearizePage::hint() const {
     if (auto took = seconds()) return tr("Measured in %1").arg(text(roundedDuration(*took)));
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
-  return tr("About %n test pattern(s)", nullptr, static_cast<int>(projectors()) * (3 * levels() + 60));
+  return tr("About %n test pattern(s)", nullptr,
+            linearization::usualShots(session_.settings().linearization, projectors()));
 }
 
 void LinearizePage::updateCommands() {

@@ -106,11 +106,11 @@ QWidget* stageOf(LinearizePage& model) {
   auto refresh = [&model, response, chart] {
     if (model.isMeasuring()) {
       chart->setCurves(measured(model.ramps()));
-      response->setSubtitle(LinearizePage::tr("as it is measured, in random order"));
+      response->setSubtitle(LinearizePage::tr("as it is measured"));
     } else if (const linearization::ProjectorResponse* known = model.response()) {
       chart->setCurves(fitted(*known));
       response->setSubtitle(
-          LinearizePage::tr("%n level(s) a colour, random order, drift removed", nullptr, model.levels()));
+          LinearizePage::tr("%n level(s) a colour, drift removed", nullptr, model.levels()));
     } else {
       chart->setCurves({});
       response->setSubtitle(LinearizePage::tr("not measured yet"));

@@ -191,6 +191,54 @@ class TestCameraCalibration : public QObject {
     }
   }
 
+  void fewExposuresTellLinearCameras_data() {
+    QTest::addColumn<int>("shape");
+    QTest::addColumn<int>("bits");
+    QTest::addColumn<double>("timeError");
+    QTest::addColumn<bool>("linear");
+    for (int bits : {0, 8, 12}) {
+      QTest::addRow("linear, %d bits", bits) << 0 << bits << 0.0 << true;
+      QTest::addRow("linear, times 2 %% off, %d bits", bits) << 0 << bits << 0.02 << true;
+      QTest::addRow("power law, %d bits", bits) << 1 << bits << 0.0 << false;
+      QTest::addRow("slight power law, %d bits", bits) << 2 << bits << 0.0 << false;
+      QTest::addRow("sRGB, %d bits", bits) << 3 << bits << 0.0 << false;
+      QTest::addRow("a shoulder, %d bits", bits) << 4 << bits << 0.0 << false;
+    }
+  }
+  void fewExposuresTellLinearCameras() {
+    QFETCH(int, shape);
+    QFETCH(int, bits);
+    QFETCH(double, timeError);
+    QFETCH(bool, linear);
+    ScriptedCamera camera;
+    camera.bits = bits;
+    camera.timeError = timeError;
+    if (shape > 0)
+      camera.response = [shape](double x) {
+        if (shape == 1) return std::pow(x, 1.0 / 2.2);
+        if (shape == 2) return std::pow(x, 1.0 / 1.1);
+        if (shape == 3) return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+        return 1.4 * x / (x + 0.4);
+      };
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      Shot bracket = take(venueWith(camera, seed), {1, 1, 1}, {0.48, 0.1, 0.04});
+      QCOMPARE(looksLinear(bracket, 0, 0.97), linear);
+    }
+  }
+
+  /// An even wall shows a camera few signals; noise must not make a response of them.
+  void anEvenWallLeavesALinearCameraLinear() {
+    SyntheticSettings scene;
+    TransportMatrix even = syntheticTransport(scene);
+    const CameraStack flood = even.floodlight();
+    Stack factor(flood.size(), 1.0f);
+    for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = 15.0f / std::max(flood[i], 1.0f);
+    TransportMatrix wall(even.cameras(), even.projectors(), even.leaves().withRowsScaled(factor));
+    CameraStack black = syntheticBlack(wall);
+    ScriptedVenue venue(std::move(wall), std::move(black));
+    QVERIFY(looksLinear(take(venue, {1, 1, 1}, {0.6, 0.1, 0.05, 0.006}), 0, 0.97));
+  }
+
   void trueTimesAreMeasured_data() {
     QTest::addColumn<quint64>("seed");
     for (quint64 seed = 1; seed <= 5; ++seed) QTest::addRow("seed %llu", seed) << seed;
@@ -236,6 +284,11 @@ class TestCameraCalibration : public QObject {
     QCOMPARE(choice.seconds.size(), std::size_t{2});
     QVERIFY(choice.seconds.front() > choice.seconds.back());
     QVERIFY(choice.seconds.front() <= 12.01 * choice.seconds.back());
+    QCOMPARE(choice.flood, std::vector{choice.seconds.back()});
+    QCOMPARE(choice.dim, std::vector{choice.seconds.front()});
+    QVERIFY(atExposures(choice.whites, choice.seconds).has_value());
+    QVERIFY(!atExposures(choice.whites, {7.0}).has_value());
+    QVERIFY2(taker.exposures() <= (shape == 0 ? 8 : 9), qPrintable(QString::number(taker.exposures())));
 
     Shot flood = take(venue, {1, 1, 1}, {choice.seconds.back()});
     std::vector<float> top;

@@ -3,7 +3,8 @@
 
 #include <QtTest>
 #include <cmath>
-#include <limits>
+
+#include "relucent/linearization/mosaic.h"
 
 using namespace relucent;
 using namespace relucent::image;
@@ -12,19 +13,36 @@ using namespace relucent::rig;
 
 namespace {
 
-Image even(float red, float green, float blue) {
-  Image pattern({4, 3}, 3);
-  for (std::size_t i = 0; i < pattern.pixels(); ++i) {
-    pattern.pixel(i)[0] = red;
-    pattern.pixel(i)[1] = green;
-    pattern.pixel(i)[2] = blue;
+constexpr Size size{40, 30};
+
+/// A camera that sees every projector pixel, its neighbours and a little of everything, in mixed colours.
+RawFrame photographOf(const Image& pattern, double seconds = 0.5) {
+  Image light(size, 3);
+  std::array<double, 3> mean{};
+  for (std::size_t i = 0; i < pattern.pixels(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double drive = static_cast<double>(pattern.pixel(i)[c]);
+      light.pixel(i)[c] = static_cast<float>(drive * drive);
+      mean[c] += drive * drive / static_cast<double>(size.count());
+    }
+  RawFrame frame{Image(size, 3), 0, seconds};
+  for (std::size_t i = 0; i < light.pixels(); ++i) {
+    const auto here = light.pixel(i), beside = light.pixel((i + 1) % light.pixels());
+    for (std::size_t c = 0; c < 3; ++c) {
+      double direct = 0.6 * here[c] + 0.2 * here[(c + 1) % 3] + 0.2 * beside[c] + 0.3 * mean[c];
+      frame.signal.pixel(i)[c] = static_cast<float>(seconds * (0.01 + 0.8 * direct));
+    }
   }
-  return pattern;
+  return frame;
 }
 
-RawFrame lit(float signal, double seconds = 0.5) {
-  return {Image({2, 2}, 3, signal), 12, seconds};
+MosaicDrive lightAlone(std::size_t light) {
+  MosaicDrive drive{};
+  drive[light] = 1.0;
+  return drive;
 }
+
+const MosaicDrive levels{0.25, 0.5, 1.0, 0.5, 0.75, 0.25, 0.125, 1.0, 0.5};
 
 }  // namespace
 
@@ -32,45 +50,67 @@ class TestRampPreview : public QObject {
   Q_OBJECT
 
  private slots:
-  void levelsAreRelativeToTheBrightestLessBlack() {
+  void aMosaicShowsItsLevels() {
+    const Mosaic mosaic(size, Random{3});
     RampPreview preview;
-    preview.add(even(0, 0, 0), lit(0.1f));
-    preview.add(even(1, 0, 0), lit(0.5f));
-    preview.add(even(0.5f, 0, 0), lit(0.2f));
-    preview.add(even(0, 0, 1), lit(0.3f, 0.25));  // twice as much per second
-    auto curves = preview.curves();
-    QVERIFY(std::abs(curves[0].at(0.5) - 0.25) < 1e-6);
-    QCOMPARE(curves[0].at(1.0), 1.0);
-    QCOMPARE(curves[2].at(1.0), 1.0);
-    QCOMPARE(curves[2].at(0.0), 0.0);
-    QVERIFY(curves[1].empty());
+    preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    for (std::size_t q = 0; q < mosaicLights; ++q) {
+      const Image pattern = mosaic.pattern(lightAlone(q));
+      preview.add(pattern, photographOf(pattern));
+      for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
+    }
+    // Other exposures are as good.
+    preview.add(mosaic.pattern(levels), photographOf(mosaic.pattern(levels), 0.25));
+    const auto curves = preview.curves();
+    for (std::size_t q = 0; q < mosaicLights; ++q)
+      QVERIFY(std::abs(curves[q % 3].at(levels[q]) - levels[q] * levels[q]) < 1e-4);
+    for (const auto& curve : curves) {
+      QCOMPARE(curve.at(0.0), 0.0);
+      QCOMPARE(curve.at(1.0), 1.0);
+    }
+  }
+
+  void anotherMosaicBeginsAnew() {
+    RampPreview preview;
+    preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    for (std::uint64_t seed : {1, 2}) {
+      const Mosaic mosaic(size, Random{seed});
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        const Image pattern = mosaic.pattern(lightAlone(q));
+        preview.add(pattern, photographOf(pattern));
+      }
+      if (seed == 2)
+        for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
+      preview.add(mosaic.pattern(levels), photographOf(mosaic.pattern(levels)));
+    }
+    QVERIFY(std::abs(preview.curves()[0].at(0.25) - 0.0625) < 1e-4);
   }
 
   void whatTellsNothingChangesNothing_data() {
-    QTest::addColumn<float>("signal");
-    QTest::addColumn<double>("seconds");
-    QTest::addColumn<bool>("single");
-    QTest::newRow("saturated") << 1.0f << 0.5 << true;
-    QTest::newRow("no exposure") << 0.5f << 0.0 << true;
-    QTest::newRow("two channels") << 0.5f << 0.5 << false;
+    QTest::addColumn<int>("what");
+    QTest::newRow("nothing known of the lights") << 0;
+    QTest::newRow("no black") << 1;
+    QTest::newRow("no exposure") << 2;
+    QTest::newRow("all saturated") << 3;
+    QTest::newRow("no mosaic") << 4;
+    QTest::newRow("no pattern") << 5;
   }
   void whatTellsNothingChangesNothing() {
-    QFETCH(float, signal);
-    QFETCH(double, seconds);
-    QFETCH(bool, single);
+    QFETCH(int, what);
+    const Mosaic mosaic(size, Random{3});
     RampPreview preview;
-    preview.add(even(0, 0, 0), lit(0.1f));
-    preview.add(even(1, single ? 0.0f : 0.5f, 0), lit(signal, seconds));
-    Image uneven = even(0, 1, 0);
-    uneven.at(1, 1, 1) = 0.5f;
-    preview.add(uneven, lit(0.4f));
-    preview.add(Image(), lit(0.4f));
-    for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
-  }
-
-  void nothingBeforeBlack() {
-    RampPreview preview;
-    preview.add(even(1, 0, 0), lit(0.5f));
+    if (what != 1) preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    if (what != 0)
+      for (std::size_t q = 0; q < mosaicLights; ++q)
+        preview.add(mosaic.pattern(lightAlone(q)), photographOf(mosaic.pattern(lightAlone(q))));
+    Image pattern = mosaic.pattern(levels);
+    RawFrame frame = photographOf(pattern);
+    if (what == 2) frame.seconds = 0.0;
+    if (what == 3) std::ranges::fill(frame.signal.data(), 1.0f);
+    if (what == 4)
+      for (std::size_t i = 0; i < pattern.data().size(); ++i)
+        pattern.data()[i] = static_cast<float>(i % 101) / 101.0f;
+    preview.add(what == 5 ? Image() : pattern, frame);
     for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
   }
 };

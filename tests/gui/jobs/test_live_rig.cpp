@@ -5,6 +5,8 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "relucent/linearization/mosaic.h"
+
 using namespace relucent;
 using namespace relucent::gui;
 using namespace relucent::image;
@@ -84,20 +86,33 @@ class TestLiveRig : public QObject {
 
   /// Black belongs to both; one that shines alone has the light; together it is no one's.
   void aRampIsOfTheProjectorThatShinesAlone() {
+    constexpr Size size{12, 12};
+    const linearization::Mosaic mosaic(size, Random{1});
     LiveRig live(0);
-    auto show = [&live](float first, float second, float signal) {
-      live.shown(0, even(first));
-      live.shown(1, even(second));
-      live.photographed(0, {}, lit(signal));
+    // A camera that sees the projectors' pixels side by side, the second one's half as bright at half drive.
+    auto show = [&live](const Image& first, const Image& second) {
+      live.shown(0, first);
+      live.shown(1, second);
+      RawFrame frame{Image({12, 24}, 3, 0.1f), 12, 0.5};
+      for (std::size_t i = 0; i < first.data().size(); ++i) {
+        frame.signal.data()[i] += 0.8f * first.data()[i] * first.data()[i];
+        frame.signal.data()[first.data().size() + i] += 0.8f * second.data()[i];
+      }
+      live.photographed(0, {}, frame);
     };
-    show(0.0f, 0.0f, 0.1f);
-    show(1.0f, 0.0f, 0.5f);
-    show(0.5f, 0.0f, 0.2f);
-    show(0.0f, 1.0f, 0.3f);
-    show(0.0f, 0.5f, 0.25f);
-    show(1.0f, 1.0f, 0.9f);
-    QVERIFY(std::abs(live.ramps(0)[0].at(0.5) - 0.25) < 1e-6);
-    QVERIFY(std::abs(live.ramps(1)[0].at(0.5) - 0.75) < 1e-6);
+    const Image black(size, 3), grey = mosaic.pattern({0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+    show(black, black);
+    for (std::size_t q = 0; q < linearization::mosaicLights; ++q) {
+      linearization::MosaicDrive drive{};
+      drive[q] = 1.0;
+      show(mosaic.pattern(drive), black);
+      show(black, mosaic.pattern(drive));
+    }
+    show(grey, black);
+    show(black, grey);
+    show(grey, grey);
+    QVERIFY(std::abs(live.ramps(0)[0].at(0.5) - 0.25) < 1e-5);
+    QVERIFY(std::abs(live.ramps(1)[0].at(0.5) - 0.5) < 1e-5);
     QCOMPARE(live.ramps(0)[0].at(1.0), 1.0);
     QVERIFY(live.ramps(2)[0].empty());
   }

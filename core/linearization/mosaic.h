@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "relucent/base/random.h"
+#include "relucent/image/image.h"
+
+namespace relucent::linearization {
+
+/// Into how many groups the cells of a mosaic fall. Three need the fewest photographs for the usual number of
+/// levels: a photograph tells 3 * groups of them, once 3 * groups lights are known.
+inline constexpr std::size_t mosaicGroups = 3;
+/// A light of a mosaic is one group's cells in one channel: light 3 * group + channel.
+inline constexpr std::size_t mosaicLights = 3 * mosaicGroups;
+/// Encoded drive of every light.
+using MosaicDrive = std::array<double, mosaicLights>;
+
+/// A projector's picture divided into square cells, each of a random group. Every group is spread evenly over
+/// the picture, so that cameras see all groups wherever they look.
+class Mosaic {
+ public:
+  Mosaic(Size projector, Random random);
+
+  /// Every cell in the colour of its group.
+  image::Image pattern(const MosaicDrive& drive) const;
+
+ private:
+  Size size_;
+  int side_ = 1, across_ = 1;
+  std::vector<std::size_t> groupOfCell_;
+};
+
+}  // namespace relucent::linearization

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "relucent/linearization/mosaic.h"
+
+namespace relucent::linearization {
+
+/// What a photograph of a mosaic shows.
+struct MosaicShot {
+  std::array<std::size_t, mosaicLights>
+      level{};        // of every light: 0 dark, k the k-th drive; the last is full
+  double time = 0.0;  // when, counted in shots: for the drift of the lamp
+};
+
+/// Weighted products of the photographs' light: all that the fit needs to know of the pixels.
+///   at(m, n) = sum_i w_i L_im L_in,   noise(m) = sum_i w_i variance_im,   i values of camera pixels
+class LightProducts {
+ public:
+  explicit LightProducts(std::size_t shots = 0) : products_(shots * shots, 0.0), noise_(shots, 0.0) {}
+
+  /// One value's light in every photograph, less black, and its variances.
+  void add(std::span<const double> light, std::span<const double> variance, double weight);
+  LightProducts& operator+=(const LightProducts& other);
+
+  std::size_t shots() const { return noise_.size(); }
+  double at(std::size_t m, std::size_t n) const { return products_[m * noise_.size() + n]; }
+  double noise(std::size_t m) const { return noise_[m]; }
+  double values() const { return values_; }
+
+ private:
+  std::vector<double> products_, noise_;
+  double values_ = 0.0;
+};
+
+/// Light of every drive but 0 relative to full drive, per channel; the last is 1.
+using LevelLights = std::array<std::vector<double>, 3>;
+
+struct ResponseFit {
+  LevelLights light;
+  LevelLights deviation;      // standard deviations
+  std::vector<double> power;  // of the lamp in every photograph, relative to a straight line's start
+  double flicker = 0.0;       // relative standard deviation of that power about the line
+  double drift = 0.0;         // relative change of power per shot: the line
+  double whiteSegment = 0.0;  // light added where all channels are lit: this times their smallest
+};
+
+/// The response that a projector's whole picture has in common, from photographs of mosaics. Light is linear,
+/// so each photograph, at every camera value i, is a sum of nine lights:
+///   L_im = power_m sum_q a_iq f_channel(q)(drive_qm) + noise
+/// whatever of it is direct, scattered or blurred. The lights a_i are eliminated (variable projection); what
+/// is left to minimise depends on products of photographs only:
+///   chi^2 = trace(C (I - X^+ X)),  C = LightProducts over the noise,
+///   X_qm = power_m (f(drive_qm) + w min over the group's channels of f)
+/// over f, the powers (about a straight line in time, as far off as the photographs say they are) and the
+/// light w of a white segment. Fourth differences of f are 7e-4 a priori, with the tails of a Cauchy
+/// distribution: what is smooth becomes smoother, kinks and steps remain. `drives` ascend and end with 1.
+/// `start`: where the search begins. Source: core/linearization/README.md, [GOL], [KAU].  Throws:
+/// Error{numerics} if the lights cannot be told apart.
+ResponseFit fitResponse(const std::vector<double>& drives, const std::vector<MosaicShot>& shots,
+                        const LightProducts& products, const LevelLights& start);
+
+/// How far one region's response is from `fit`, the whole picture's: for every channel the amplitude of
+///   f -> f - amplitude e f ln f,
+/// which is what another exponent does, at most `amplitude` of white; and its standard deviation.
+struct RegionDeviation {
+  std::array<double, 3> amplitude{}, deviation{};
+};
+RegionDeviation deviationOf(const ResponseFit& fit, const std::vector<MosaicShot>& shots,
+                            const LightProducts& region);
+
+}  // namespace relucent::linearization

@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} ث</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} د</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} س {} د</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -273,6 +252,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>أُوقف القياس عند كتل من {} px: ما هو أدق ناقص، وتُعوَّض الصور بحدّة أقل؛ تابع القياس في أي وقت ما دام شيء لم يتحرّك</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -427,27 +413,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>ملف بيان المعايرة تالف</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>تتعذّر قراءة محتويات المجلد (⁨{}⁩)</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>يتعذّر فتح المجلد (⁨{}⁩)</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -459,6 +424,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>تحقق من أن الكتابة في المجلد مسموحة، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>تتعذّر قراءة محتويات المجلد (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>يتعذّر نقل لقطة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>يتعذّر فتح المجلد (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>يتعذّر حذف لقطة (⁨{}⁩)</translation>
     </message>
 </context>
 <context>
@@ -483,24 +476,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>حجم أحد ملفات المعايرة في مرحلة «⁨{}⁩» هو ⁨{}⁩ بايت بدلًا من ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>أحد ملفات المعايرة في مرحلة «⁨{}⁩» مفقود</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>أخلِ بعض المساحة هناك أو افحص القرص، ثم حاول مجددًا</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>ملف بيان المعايرة تالف</translation>
     </message>
 </context>
 <context>
@@ -511,17 +490,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>يتعذّر نقل لقطة (⁨{}⁩)</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>أحد ملفات المعايرة في مرحلة «⁨{}⁩» مفقود</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>يتعذّر حذف لقطة (⁨{}⁩)</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>حجم أحد ملفات المعايرة في مرحلة «⁨{}⁩» هو ⁨{}⁩ بايت بدلًا من ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -639,17 +618,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>تحتاج الصورة الحية للشاشة إلى خادم X، ولا يستجيب أي خادم</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>صِل الجهاز، وأغلق البرامج الأخرى التي تستخدمه، ثم حاول مجددًا</translation>
     </message>
 </context>
 <context>
@@ -660,10 +632,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>صِل الجهاز، وأغلق البرامج الأخرى التي تستخدمه، ثم حاول مجددًا</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>تحتاج الصورة الحية للشاشة إلى خادم X، ولا يستجيب أي خادم</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
     </message>
 </context>
 <context>
@@ -671,6 +650,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>وجّه الكاميرا إلى الصورة المعروضة، وانزع غطاء عدستها، وأطِل التعريض</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>افحص الجهاز، أو امنح الأمر وقتًا أطول: ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -702,27 +688,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>طُلب منها كسب {} وبقيت على {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>طُلب منها ISO {} وبقيت على ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>فشلت محاولات التقاط لقطة، وعددها ⁨{}⁩: {}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -734,6 +699,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>لا يمكن إيقاف التركيز التلقائي في جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>لا يمكن إيقاف ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -765,13 +737,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>نسخة Relucent هذه لا تدعم كاميرات DSLR والكاميرات عديمة المرآة</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -779,17 +744,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>طُلب من الكاميرا تعريض مدته ⁨{}⁩ ث لكنها تبقى على ⁨{}⁩ ث</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>طُلبت من الكاميرا لقطة فلم تلتقطها</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>نسخة Relucent هذه لا تدعم كاميرات DSLR والكاميرات عديمة المرآة</translation>
     </message>
 </context>
 <context>
@@ -797,41 +755,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>الكاميرا موجودة لكنها لا تستجيب، وقد تكون في وضع السكون</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>الكاميرا غائبة منذ ⁨{}⁩ ث: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>عادت الكاميرا بحجم ⁨{}⁩ بكسل بدلًا من ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>المتاح في الكاميرا من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>تعلن الكاميرا عن تعريضات من ⁨{}⁩ إلى ⁨{}⁩ ث</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>مرشّح الألوان في الكاميرا ليس مرشّح Bayer</translation>
     </message>
 </context>
 <context>
@@ -849,31 +772,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>نسيت الكاميرا تنسيق البكسل الذي ضُبطت عليه</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>لم تتمكن الكاميرا من ضبط التركيز فلم تلتقط أي لقطة (⁨{}⁩)</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>فُصلت الكاميرا أو أُطفئت، أو دخلت في وضع السكون</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>تبقى الكاميرا على ⁨{}⁩ ث أيًا كان التعريض المطلوب</translation>
     </message>
 </context>
 <context>
@@ -884,24 +786,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>ليس في الكاميرا تنسيق بكسل ⁨{}⁩ يمكن قراءته</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>رفضت الكاميرا ما طُلب منها (⁨{}⁩)</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>الكاميرا غائبة منذ ⁨{}⁩ ث: {}</translation>
     </message>
 </context>
 <context>
@@ -912,20 +800,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>لا ترى الكاميرا فرقًا بين الأبيض والأسود</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -933,17 +807,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لكاميرا بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>ما زالت الكاميرا مشغولة</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>عدد الكاميرات الموصولة من هذا الطراز: ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -961,10 +835,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>لا يمكن إيقاف ⁨{}⁩</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>تتعذّر إعادة فتح جهاز الفيديو</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>يتعذّر بدء الأمر (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>تتعذّر كتابة التسجيل (⁨{}⁩)</translation>
     </message>
 </context>
 <context>
@@ -996,24 +884,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>افحص كابل الكاميرا وتغذيتها وعنوانها؛ يسرد ⁨`relucent-cli devices`⁩ الأجهزة الموجودة</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>افحص كابل الشاشة، وأوقف توفير الطاقة فيها</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>افحص كابل الكاميرا، وشغّلها، وأوقف إطفاءها التلقائي</translation>
     </message>
 </context>
 <context>
@@ -1024,17 +898,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>تحقق من أن مشهد الكاميرا ثابت وأن تعريضها قصير، وأوقف تنعيم الحركة في جهاز العرض</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>افحص الجهاز، أو امنح الأمر وقتًا أطول: ⁨{}⁩</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>افحص كابل الكاميرا وتغذيتها وعنوانها؛ يسرد ⁨`relucent-cli devices`⁩ الأجهزة الموجودة</translation>
     </message>
 </context>
 <context>
@@ -1045,6 +912,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>المتاح في الكاميرا من ⁨{}⁩ إلى ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>القيم المتاحة: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1052,17 +933,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>التنسيقات المتاحة: ⁨{}⁩؛ تُقرأ تنسيقات Mono وBayer وRGB غير المحزومة (unpacked) بعمق 8 إلى 16 بت</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>تعلن تعريضًا يصل إلى {} ث لكنها تلتزم {} ث</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>تعلن الكاميرا عن تعريضات من ⁨{}⁩ إلى ⁨{}⁩ ث</translation>
     </message>
 </context>
 <context>
@@ -1087,10 +968,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>يتعذّر بدء الأمر (⁨{}⁩)</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>مرشّح الألوان في الكاميرا ليس مرشّح Bayer</translation>
     </message>
 </context>
 <context>
@@ -1150,13 +1031,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>صِل الكاميرا التي بدأ بها القياس</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1178,10 +1052,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>يجب أن يكون أقصر تعريض أكبر من الصفر وألا يتجاوز أطوله</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>طُلب من الكاميرا تعريض مدته ⁨{}⁩ ث لكنها تبقى على ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>لا يمكن ضبط زمن التعريض في الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>تبقى الكاميرا على ⁨{}⁩ ث أيًا كان التعريض المطلوب</translation>
     </message>
 </context>
 <context>
@@ -1213,6 +1108,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>طُلب منها كسب {} وبقيت على {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1234,20 +1136,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>لا وجود لكاميرا بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>لا وجود لجهاز عرض بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1262,6 +1150,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>طُلب منها ISO {} وبقيت على ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1269,31 +1164,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>القيم المتاحة: ⁨{}⁩</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>أوقف التعريض التلقائي وحدّ معدل الإطارات في الكاميرا</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>اجعل الأمر يكتب بهذا الحجم، أو ابدأ من جديد بالحجم الذي تعطيه الكاميرا</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>حرّر الكاميرا من سطح المكتب بالأمر ⁨`gio mount -s gphoto2`⁩ (أو أخرجها من مدير الملفات) وأغلق برامج الصور</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>اجعل الأمر يكتب اللقطة في ⁨{output}⁩: ⁨{}⁩</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>تعلن تعريضًا يصل إلى {} ث لكنها تلتزم {} ث</translation>
     </message>
 </context>
 <context>
@@ -1325,13 +1206,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>حدّد هذه الكاميرا: ⁨gphoto2:{}⁩</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1339,17 +1213,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>لا تكتمل الصورة الجديدة حتى بعد هذا العدد من الإطارات: ⁨{}⁩</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>حدّد هذه الكاميرا: ⁨gphoto2:{}⁩</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>لا توجد كاميرا موصولة بهذا الاسم، بل ⁨{}⁩</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>لا تذكر متى التُقطت الصور: يُهمَل بعضها قبل كل صورة</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>لا ترى الكاميرا فرقًا بين الأبيض والأسود</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>لم تتمكن الكاميرا من ضبط التركيز فلم تلتقط أي لقطة (⁨{}⁩)</translation>
     </message>
 </context>
 <context>
@@ -1360,10 +1248,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>لم تصل أي لقطة خلال ⁨{}⁩ ث</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>طُلبت لقطة ولم تصل</translation>
     </message>
 </context>
 <context>
@@ -1381,20 +1269,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>ليس لها إطلاق برمجي: قد تنتظر كل صورة تعريضًا إضافيًا</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>لا يوجد جهاز فيديو موصول بهذا الاسم</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1402,10 +1276,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>لا تذكر متى التُقطت الصور: يُهمَل بعضها قبل كل صورة</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ليس لها إطلاق برمجي: قد تنتظر كل صورة تعريضًا إضافيًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>لا يرسل جهاز الفيديو أي صور</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>لا توجد كاميرا موصولة بهذا الاسم، بل ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>ترى الكاميرا ⁨{}⁩ وليس ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -1416,10 +1311,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>طُلبت لقطة ولم تصل</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>فشلت محاولات التقاط لقطة، وعددها ⁨{}⁩: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل وفي الكاميرا ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>حجم اللقطة ⁨{}⁩ بكسل بتنسيق ⁨{}⁩، والمتفق عليه ⁨{}⁩ بتنسيق ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -1437,10 +1346,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>حجم اللقطة ⁨{}⁩ بكسل بتنسيق ⁨{}⁩، والمتفق عليه ⁨{}⁩ بتنسيق ⁨{}⁩</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل وتعطي الكاميرا ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -1451,6 +1360,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>لم تصل أي لقطة خلال ⁨{}⁩ ث</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1458,31 +1374,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>المطلوب ⁨{}⁩ بكسل وفي الكاميرا ⁨{}⁩</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>لا تكتمل الصورة الجديدة حتى بعد هذا العدد من الإطارات: ⁨{}⁩</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>المطلوب ⁨{}⁩ بكسل وتعطي الكاميرا ⁨{}⁩</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>نسيت الكاميرا تنسيق البكسل الذي ضُبطت عليه</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>المطلوب ⁨{}⁩ بكسل ويعطي جهاز الفيديو ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>اضغط زر الغالق في الكاميرا حتى منتصفه أو أطفئها وشغّلها، وأوقف إطفاءها التلقائي</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>ليس في الكاميرا تنسيق بكسل ⁨{}⁩ يمكن قراءته</translation>
     </message>
 </context>
 <context>
@@ -1500,17 +1409,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>تفقد شاشة جهاز العرض صورتها مرارًا</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>تتعذّر قراءة الملف الخام (⁨{}⁩)</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>لا وجود لجهاز عرض بحجم ⁨{}⁩ بكسل: كل ضلع من ⁨{}⁩ إلى ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -1528,6 +1430,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>تتعذّر قراءة الملف الخام (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1535,10 +1444,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>تتعذّر كتابة التسجيل (⁨{}⁩)</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>صِل الكاميرا التي بدأ بها القياس</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>عادت الكاميرا بحجم ⁨{}⁩ بكسل بدلًا من ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>حرّر الكاميرا من سطح المكتب بالأمر ⁨`gio mount -s gphoto2`⁩ (أو أخرجها من مدير الملفات) وأغلق برامج الصور</translation>
     </message>
 </context>
 <context>
@@ -1549,59 +1472,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>شغّل الأمر في الطرفية لمعرفة السبب: ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>لا ترى الألوان: يمكن تعويض السطوع دون الألوان</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>اضبط وضع التعريض في الكاميرا على المؤقّت واليدوي، أو حدّث برنامجها الثابت</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>اضبط الكاميرا على ISO 100 يدويًا</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>يجب أن يكون أقصر تعريض أكبر من الصفر وألا يتجاوز أطوله</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>أوقف التعريض التلقائي وحدّ معدل الإطارات في الكاميرا</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>أوقف التعريض التلقائي في الكاميرا؛ لا يمكن استخدام كاميرا بلا تعريض يدوي</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>اضبط الكاميرا على RAW بالحجم الكامل (لا sRAW ولا mRAW ولا DNG خطي)</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>رفضت الكاميرا ما طُلب منها (⁨{}⁩)</translation>
     </message>
 </context>
 <context>
@@ -1612,17 +1486,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>اضبط عدسة الكاميرا على التركيز اليدوي</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>أطفئ الكاميرا وشغّلها، وحمّل إعداداتها الافتراضية ببرنامج الشركة المصنّعة، ثم حاول مجددًا</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>اضبط عدسة الكاميرا على التركيز اليدوي، وأغلق قوائمها، والتقط لقطة يدويًا لترى المشكلة التي تبلّغ عنها</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>شغّل الأمر في الطرفية لمعرفة السبب: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>تفقد شاشة جهاز العرض صورتها مرارًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>لا ترى الألوان: يمكن تعويض السطوع دون الألوان</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>اضبط الكاميرا على ISO 100 يدويًا</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>اضبط وضع التعريض في الكاميرا على المؤقّت واليدوي، أو حدّث برنامجها الثابت</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>عدد الكاميرات الموصولة من هذا الطراز: ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>تحقق من أن مشهد الكاميرا ثابت وأن تعريضها قصير، وأوقف تنعيم الحركة في جهاز العرض</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>أوقف التعريض التلقائي في الكاميرا؛ لا يمكن استخدام كاميرا بلا تعريض يدوي</translation>
     </message>
 </context>
 <context>
@@ -1633,17 +1570,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>أطفئ الكاميرا وشغّلها، وحمّل إعداداتها الافتراضية ببرنامج الشركة المصنّعة، ثم حاول مجددًا</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>أوقفه باستخدام ⁨v4l2-ctl⁩ (يسرد الخيار ⁨--list-ctrls⁩ ما هو متاح)، أو استخدم كاميرا أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>افحص كابل الكاميرا، وشغّلها، وأوقف إطفاءها التلقائي</translation>
     </message>
 </context>
 <context>
@@ -1654,10 +1591,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>اضبط الكاميرا على RAW بالحجم الكامل (لا sRAW ولا mRAW ولا DNG خطي)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>تنطفئ تلقائيًا بعد مدة: عطّل ذلك</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>اضبط عدسة الكاميرا على التركيز اليدوي، وأغلق قوائمها، والتقط لقطة يدويًا لترى المشكلة التي تبلّغ عنها</translation>
     </message>
 </context>
 <context>
@@ -1668,10 +1626,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>أدر القرص إلى M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>طُلبت من الكاميرا لقطة فلم تلتقطها</translation>
     </message>
 </context>
 <context>
@@ -1682,10 +1640,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>التنسيقات المتاحة: ⁨{}⁩؛ تُقرأ تنسيقات Mono وBayer وRGB غير المحزومة (unpacked) بعمق 8 إلى 16 بت</translation>
+        <source>turn it to M</source>
+        <translation>أدر القرص إلى M</translation>
     </message>
 </context>
 <context>
@@ -1703,24 +1661,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>فُصل جهاز الفيديو</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>تتعذّر إعادة فتح جهاز الفيديو</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>يتعذّر فتح جهاز الفيديو: قد يكون برنامج آخر يستخدمه</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>لا يوجد جهاز فيديو موصول بهذا الاسم</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>فُصل جهاز الفيديو</translation>
     </message>
 </context>
 <context>
@@ -1731,10 +1689,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>لا يرسل جهاز الفيديو أي صور</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>المطلوب ⁨{}⁩ بكسل ويعطي جهاز الفيديو ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>اضغط زر الغالق في الكاميرا حتى منتصفه أو أطفئها وشغّلها، وأوقف إطفاءها التلقائي</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>اجعل الأمر يكتب بهذا الحجم، أو ابدأ من جديد بالحجم الذي تعطيه الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>اجعل الأمر يكتب اللقطة في ⁨{output}⁩: ⁨{}⁩</translation>
     </message>
 </context>
 <context>
@@ -1794,6 +1773,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>أخلِ بعض المساحة هناك أو افحص القرص، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1801,24 +1787,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>لا يمكن استخدام بطاقة الرسومات</translation>
+        <source>{} h {} min</source>
+        <translation>{} س {} د</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>انقطع الاتصال ببطاقة الرسومات</translation>
+        <source>{} min</source>
+        <translation>{} د</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>لم يبقَ في بطاقة الرسومات ⁨{} MB⁩ من الذاكرة</translation>
+        <source>{} s</source>
+        <translation>{} ث</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>دع المعالج المركزي يتولى العمل</translation>
     </message>
 </context>
 <context>
@@ -1829,17 +1822,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>انقطع الاتصال ببطاقة الرسومات</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>لا يمكن استخدام بطاقة الرسومات</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>لم يبقَ في بطاقة الرسومات ⁨{} MB⁩ من الذاكرة</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>ثبّت برنامج تشغيل بطاقة الرسومات، أو دع المعالج المركزي يتولى العمل</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>دع المعالج المركزي يتولى العمل</translation>
     </message>
 </context>
 <context>
@@ -1920,10 +1927,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>لا يوجد زمن تعريض مشترك بين الكاميرات</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>اضبط الكاميرات على نطاقات متداخلة من أزمنة التعريض</translation>
     </message>
 </context>
 <context>
@@ -1955,10 +1962,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>⁨{}⁩: منحنيات السطوع ليست واحدةً في كل أنحاء الصورة، والفرق يصل إلى ⁨{} %⁩ من الأبيض؛ أوقف في جهاز العرض تصحيح التجانس والتعتيم الموضعي ودمج الحواف</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>لا يوجد زمن تعريض مشترك بين الكاميرات</translation>
     </message>
 </context>
 <context>
@@ -1969,10 +1976,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>اضبط الكاميرات على نطاقات متداخلة من أزمنة التعريض</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>⁨{}⁩: منحنيات السطوع ليست واحدةً في كل أنحاء الصورة، والفرق يصل إلى ⁨{} %⁩ من الأبيض؛ أوقف في جهاز العرض تصحيح التجانس والتعتيم الموضعي ودمج الحواف</translation>
     </message>
 </context>
 <context>
@@ -2123,10 +2130,6 @@
         <source>Fineness</source>
         <translation>الدقة</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>الألوان</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2193,18 +2196,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>زجاج، لمعان، زوايا عميقة</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>أحمر، أخضر، أزرق</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>أبيض فقط</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>الأبيض فقط أسرع بثلاث مرات، مع فرق بضعة بالمئة في الألوان.</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2458,6 +2449,48 @@
             <numerusform>%n أنماط</numerusform>
             <numerusform>%n نمطًا</numerusform>
             <numerusform>%n نمط</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>أُوقف عند %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>متابعة القياس</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>أُوقف القياس عند كتل من %1 px</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: بلا لقطات، %1.</numerusform>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو لقطة واحدة، %1.</numerusform>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو لقطتين، %1.</numerusform>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطات، %1.</numerusform>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطة، %1.</numerusform>
+            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطة، %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1؛ الخطأ نحو %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>لا لقطات</numerusform>
+            <numerusform>لقطة واحدة</numerusform>
+            <numerusform>لقطتان</numerusform>
+            <numerusform>%n لقطات</numerusform>
+            <numerusform>%n لقطة</numerusform>
+            <numerusform>%n لقطة</numerusform>
         </translation>
     </message>
 </context>
@@ -5147,17 +5180,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>أخلِ بعض المساحة</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>تتعذّر كتابة التقرير</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>أخلِ بعض المساحة</translation>
     </message>
 </context>
 <context>
@@ -5189,10 +5222,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>يتعذّر تفعيل الخدمة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>تتعذّر الإزالة (⁨{}⁩)</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>تتعذّر كتابة السجل (⁨{}⁩)</translation>
     </message>
 </context>
 <context>
@@ -5217,10 +5264,10 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>تتعذّر كتابة السجل (⁨{}⁩)</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>أعد دقة الشاشة إلى ما كانت عليه في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
     </message>
 </context>
 <context>
@@ -5235,20 +5282,6 @@ projector %2</source>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>حجم شاشة جهاز العرض الآن ⁨{}⁩ بكسل، وكان عند المعايرة ⁨{}⁩</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>يتعذّر تفعيل الخدمة (⁨{}⁩)</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>أعد دقة الشاشة إلى ما كانت عليه في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
     </message>
 </context>
 <context>
@@ -5294,6 +5327,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>تجمّعات مقيّدة الحجم</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>تقييد حجم التجمّعات</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5319,13 +5366,6 @@ projector %2</source>
     <message>
         <source>Clustering the light transport</source>
         <translation>تقسيم نقل الضوء إلى تجمّعات</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>تجمّعات مقيّدة الحجم</translation>
     </message>
 </context>
 <context>
@@ -5413,6 +5453,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>البحث عن صورة جهاز العرض</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>البحث عن الظلال</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5431,13 +5485,6 @@ projector %2</source>
     <message>
         <source>Forming patches</source>
         <translation>تكوين الرقع</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>تقييد حجم التجمّعات</translation>
     </message>
 </context>
 <context>
@@ -5505,20 +5552,6 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>البحث عن صورة جهاز العرض</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>البحث عن الظلال</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5537,21 +5570,6 @@ projector %2</source>
     <message>
         <source>Measuring the camera</source>
         <translation>قياس الكاميرا</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>إعادة قياس: لا بكسلات معلّمة</numerusform>
-            <numerusform>إعادة قياس بكسل معلّم واحد</numerusform>
-            <numerusform>إعادة قياس بكسلين معلّمين</numerusform>
-            <numerusform>إعادة قياس {} بكسلات معلّمة</numerusform>
-            <numerusform>إعادة قياس {} بكسلًا معلّمًا</numerusform>
-            <numerusform>إعادة قياس {} بكسل معلّم</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5695,6 +5713,21 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>إعادة قياس: لا بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس بكسل معلّم واحد</numerusform>
+            <numerusform>إعادة قياس بكسلين معلّمين</numerusform>
+            <numerusform>إعادة قياس {} بكسلات معلّمة</numerusform>
+            <numerusform>إعادة قياس {} بكسلًا معلّمًا</numerusform>
+            <numerusform>إعادة قياس {} بكسل معلّم</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5786,17 +5819,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>تعذّرت كتابة الصورة</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
     </message>
 </context>
 </TS>

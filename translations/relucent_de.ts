@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} s</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} min</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} h {} min</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -269,6 +248,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>Die Messung wurde bei Blöcken von {} px gestoppt: Was feiner ist, fehlt, und Bilder werden weniger scharf kompensiert; messen Sie jederzeit weiter, solange sich nichts bewegt hat</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -423,27 +409,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>Ordner kann nicht geöffnet werden ({})</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -455,6 +420,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>prüfen Sie, ob in den Ordner geschrieben werden darf, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>Inhalt des Ordners kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>ein Foto kann nicht verschoben werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>Ordner kann nicht geöffnet werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>ein Foto kann nicht gelöscht werden ({})</translation>
     </message>
 </context>
 <context>
@@ -479,24 +472,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
     </message>
 </context>
 <context>
@@ -507,17 +486,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>ein Foto kann nicht verschoben werden ({})</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>eine Datei der Kalibrierung ({}) fehlt</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>ein Foto kann nicht gelöscht werden ({})</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>eine Datei der Kalibrierung ({}) hat {} statt {} Bytes</translation>
     </message>
 </context>
 <context>
@@ -627,17 +606,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>das Aufnahmegerät liefert kein Bild</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
@@ -648,10 +620,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>schließen Sie es an, schließen Sie andere Programme, die es nutzen, und versuchen Sie es erneut</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>das Livebild eines Bildschirms braucht einen X-Server, und keiner antwortet</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>das Aufnahmegerät liefert kein Bild</translation>
     </message>
 </context>
 <context>
@@ -659,6 +638,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>richten Sie sie auf die Projektion, nehmen Sie den Objektivdeckel ab und belichten Sie länger</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
     </message>
 </context>
 <context>
@@ -690,27 +676,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -722,6 +687,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>der Autofokus des Videogeräts lässt sich nicht ausschalten</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} lässt sich nicht ausschalten</translation>
     </message>
 </context>
 <context>
@@ -753,13 +725,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -767,17 +732,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>dieser Build von Relucent kennt keine Spiegelreflex- und Systemkameras</translation>
     </message>
 </context>
 <context>
@@ -785,41 +743,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>die Kamera ist da, antwortet aber nicht, vielleicht schläft sie</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>die Kamera ist seit {} s weg: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>die Kamera kam mit {} statt {} Pixeln zurück</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>die Kamera kann {} bis {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
     </message>
 </context>
 <context>
@@ -837,31 +760,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>die Kamera wurde getrennt oder ausgeschaltet oder ist eingeschlafen</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
     </message>
 </context>
 <context>
@@ -872,24 +774,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>die Kamera hat das Verlangte verweigert ({})</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>die Kamera ist seit {} s weg: {}</translation>
     </message>
 </context>
 <context>
@@ -900,20 +788,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>die Kamera sieht {}, nicht {}</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -921,17 +795,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>eine Kamera mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>die Kamera bleibt beschäftigt</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>{} Kameras dieses Modells sind angeschlossen</translation>
     </message>
 </context>
 <context>
@@ -949,10 +823,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} lässt sich nicht ausschalten</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>der Befehl lässt sich nicht starten ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
     </message>
 </context>
 <context>
@@ -984,24 +872,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>prüfen Sie das Kabel und schalten Sie den Energiesparmodus aus</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
     </message>
 </context>
 <context>
@@ -1012,17 +886,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>prüfen Sie das Gerät oder geben Sie dem Befehl mehr Zeit: {}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>prüfen Sie Kabel, Stromversorgung und Adresse; `relucent-cli devices` zeigt, was vorhanden ist</translation>
     </message>
 </context>
 <context>
@@ -1033,6 +900,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>die Kamera kann {} bis {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>sie bietet {}</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1040,17 +921,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>die Kamera meldet Belichtungszeiten von {} bis {} s</translation>
     </message>
 </context>
 <context>
@@ -1075,10 +956,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>der Befehl lässt sich nicht starten ({})</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>der Farbfilter der Kamera ist kein Bayer-Filter</translation>
     </message>
 </context>
 <context>
@@ -1138,13 +1019,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1166,10 +1040,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>von der Kamera wurden {} s Belichtung verlangt, sie bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>die Belichtungszeit der Kamera lässt sich nicht einstellen</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>die Kamera bleibt bei {} s, welche Belichtung auch verlangt wird</translation>
     </message>
 </context>
 <context>
@@ -1201,6 +1096,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>soll eine Verstärkung von {} verwenden und bleibt bei {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1222,20 +1124,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>eine Kamera mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>einen Projektor mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1250,6 +1138,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>soll ISO {} verwenden und bleibt bei ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1257,31 +1152,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>sie bietet {}</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>gibt Belichtungen bis {} s an, bleibt aber bei {} s</translation>
     </message>
 </context>
 <context>
@@ -1313,13 +1194,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>geben Sie diese an: gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1327,17 +1201,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>geben Sie diese an: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>die Kamera sieht keinen Unterschied zwischen Weiß und Schwarz</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>die Kamera fand keinen Fokus und nahm kein Foto auf ({})</translation>
     </message>
 </context>
 <context>
@@ -1348,10 +1236,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>innerhalb von {} s kam kein Foto</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>ein Foto wurde angefordert, aber keines kam</translation>
     </message>
 </context>
 <context>
@@ -1369,20 +1257,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>kein solches Videogerät ist angeschlossen</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1390,10 +1264,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>sagt nicht, wann Bilder aufgenommen wurden: Vor jeder Aufnahme werden einige verworfen</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>hat keinen Software-Auslöser: Jede Aufnahme wartet eventuell eine Belichtung länger</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>das Videogerät sendet keine Bilder</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>keine Kamera dieses Namens ist angeschlossen, dafür aber {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>die Kamera sieht {}, nicht {}</translation>
     </message>
 </context>
 <context>
@@ -1404,10 +1299,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>ein Foto wurde angefordert, aber keines kam</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} Versuche, ein Foto aufzunehmen, sind gescheitert: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} Pixel sind verlangt, die Kamera hat {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>das Foto hat {} Pixel als {}, vereinbart waren {} als {}</translation>
     </message>
 </context>
 <context>
@@ -1425,10 +1334,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>das Foto hat {} Pixel als {}, vereinbart waren {} als {}</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} Pixel sind verlangt, die Kamera liefert {}</translation>
     </message>
 </context>
 <context>
@@ -1439,6 +1348,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>innerhalb von {} s kam kein Foto</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1446,31 +1362,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>{} Pixel sind verlangt, die Kamera hat {}</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>ein neues Bild ist nach {} Einzelbildern noch nicht vollständig da</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>{} Pixel sind verlangt, die Kamera liefert {}</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>die Kamera hat das eingestellte Pixelformat vergessen</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>{} Pixel sind verlangt, das Videogerät liefert {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>die Kamera hat kein lesbares Pixelformat {}</translation>
     </message>
 </context>
 <context>
@@ -1488,17 +1397,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>einen Projektor mit {} Pixeln gibt es nicht: Jede Seite hat {} bis {}</translation>
     </message>
 </context>
 <context>
@@ -1516,6 +1418,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>die RAW-Datei kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1523,10 +1432,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>die Aufzeichnung kann nicht geschrieben werden ({})</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>schließen Sie die Kamera an, mit der die Messung begonnen wurde</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>die Kamera kam mit {} statt {} Pixeln zurück</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>lösen Sie die Kamera mit `gio mount -s gphoto2` vom Desktop (oder werfen Sie sie im Dateimanager aus) und schließen Sie Fotoprogramme</translation>
     </message>
 </context>
 <context>
@@ -1537,59 +1460,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>stellen Sie sie von Hand auf ISO 100</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>die kürzeste Belichtung muss größer als null und nicht länger als die längste sein</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>schalten Sie ihre Belichtungsautomatik und die Begrenzung ihrer Bildrate aus</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>die Kamera hat das Verlangte verweigert ({})</translation>
     </message>
 </context>
 <context>
@@ -1600,17 +1474,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>führen Sie ihn in einem Terminal aus, um die Ursache zu finden: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>der Bildschirm des Projektors verliert immer wieder sein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>sieht keine Farben: Helligkeit kann ausgeglichen werden, Farben nicht</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>stellen Sie sie von Hand auf ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>stellen Sie ihren Belichtungsmodus auf „Timed“ und manuell oder aktualisieren Sie ihre Firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} Kameras dieses Modells sind angeschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>prüfen Sie, ob die Kamera ruhig steht und kurz belichtet, und schalten Sie die Bewegungsglättung des Projektors aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>schalten Sie ihre Belichtungsautomatik aus; eine Kamera ohne manuelle Belichtung ist nicht verwendbar</translation>
     </message>
 </context>
 <context>
@@ -1621,17 +1558,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>schalten Sie sie aus und wieder ein, laden Sie ihre Standardeinstellungen mit dem Programm des Herstellers und versuchen Sie es erneut</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>schalten Sie dies mit v4l2-ctl aus (--list-ctrls zeigt, was es bietet) oder verwenden Sie eine andere Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>prüfen Sie das Kabel, schalten Sie sie ein und ihre automatische Abschaltung aus</translation>
     </message>
 </context>
 <context>
@@ -1642,10 +1579,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>stellen Sie die Kamera auf RAW in voller Größe (kein sRAW, kein mRAW, kein lineares DNG)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>schaltet sich nach einer Weile selbst ab: Stellen Sie das ab</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>stellen Sie ihr Objektiv auf manuellen Fokus, schließen Sie ihre Menüs und nehmen Sie von Hand ein Foto auf, um zu sehen, was sie beanstandet</translation>
     </message>
 </context>
 <context>
@@ -1656,10 +1614,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>drehen Sie es auf M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>von der Kamera wurde ein Foto verlangt, sie nahm aber keines auf</translation>
     </message>
 </context>
 <context>
@@ -1670,10 +1628,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>sie bietet {}; gelesen werden ungepackte Formate Mono, Bayer und RGB mit 8 bis 16 Bit</translation>
+        <source>turn it to M</source>
+        <translation>drehen Sie es auf M</translation>
     </message>
 </context>
 <context>
@@ -1691,24 +1649,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>das Videogerät wurde getrennt</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>das Videogerät lässt sich nicht wieder öffnen</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>das Videogerät lässt sich nicht öffnen: Vielleicht nutzt es ein anderes Programm</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>kein solches Videogerät ist angeschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>das Videogerät wurde getrennt</translation>
     </message>
 </context>
 <context>
@@ -1719,10 +1677,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>das Videogerät sendet keine Bilder</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} Pixel sind verlangt, das Videogerät liefert {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>drücken Sie ihren Auslöser halb durch oder schalten Sie sie aus und wieder ein, und schalten Sie ihre automatische Abschaltung aus</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>lassen Sie den Befehl diese Größe schreiben oder beginnen Sie neu mit der Größe, die die Kamera liefert</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>lassen Sie ihn das Foto in {output} schreiben: {}</translation>
     </message>
 </context>
 <context>
@@ -1782,6 +1761,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>geben Sie dort Speicherplatz frei oder prüfen Sie das Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1789,24 +1775,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>die Grafikkarte ist nicht verwendbar</translation>
+        <source>{} h {} min</source>
+        <translation>{} h {} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>die Grafikkarte ging verloren</translation>
+        <source>{} min</source>
+        <translation>{} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
+        <source>{} s</source>
+        <translation>{} s</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>lassen Sie den Prozessor rechnen</translation>
     </message>
 </context>
 <context>
@@ -1817,17 +1810,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>die Grafikkarte ging verloren</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>die Grafikkarte ist nicht verwendbar</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>die Grafikkarte hat keine {} MB Speicher mehr frei</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>installieren Sie den Treiber der Grafikkarte oder lassen Sie den Prozessor rechnen</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>lassen Sie den Prozessor rechnen</translation>
     </message>
 </context>
 <context>
@@ -1908,10 +1915,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
     </message>
 </context>
 <context>
@@ -1943,10 +1950,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}: die Helligkeitskurven sind nicht überall im Bild gleich, sondern weichen um bis zu {} % von Weiß ab; schalten Sie Gleichmäßigkeitskorrektur, lokales Dimmen und Randüberblendung am Projektor aus</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>die Kameras haben keine gemeinsame Belichtungszeit</translation>
     </message>
 </context>
 <context>
@@ -1957,10 +1964,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>stellen Sie sie auf Bereiche von Belichtungszeiten ein, die sich überschneiden</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: die Helligkeitskurven sind nicht überall im Bild gleich, sondern weichen um bis zu {} % von Weiß ab; schalten Sie Gleichmäßigkeitskorrektur, lokales Dimmen und Randüberblendung am Projektor aus</translation>
     </message>
 </context>
 <context>
@@ -2099,10 +2106,6 @@
         <source>Fineness</source>
         <translation>Feinheit</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>Farben</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2165,18 +2168,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>Glas, Glanz, tiefe Ecken</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>Rot, Grün, Blau</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>Nur Weiß</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>Nur Weiß ist dreimal so schnell; die Farben weichen um einige Prozent ab.</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2406,6 +2397,40 @@
         <translation>
             <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
             <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>Gestoppt bei %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Weiter messen</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>Die Messung wurde bei Blöcken von %1 px gestoppt</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat: etwa %n Foto, %1.</numerusform>
+            <numerusform>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat: etwa %n Fotos, %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1; Fehler etwa %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n Foto</numerusform>
+            <numerusform>%n Fotos</numerusform>
         </translation>
     </message>
 </context>
@@ -5039,17 +5064,17 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>geben Sie Speicherplatz frei</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>der Bericht kann nicht geschrieben werden</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>geben Sie Speicherplatz frei</translation>
     </message>
 </context>
 <context>
@@ -5081,10 +5106,24 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>der Dienst lässt sich nicht einschalten ({})</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>die Datei kann nicht entfernt werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
     </message>
 </context>
 <context>
@@ -5109,10 +5148,10 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>das Protokoll kann nicht geschrieben werden ({})</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
@@ -5127,20 +5166,6 @@ Projektor %2</translation>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>der Bildschirm des Projektors hat jetzt {} Pixel, kalibriert wurden {}</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>der Dienst lässt sich nicht einschalten ({})</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>stellen Sie in den Einstellungen des Desktops wieder seine frühere Auflösung ein, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
@@ -5186,6 +5211,20 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster mit begrenzter Größe</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Begrenzung der Clustergröße</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5211,13 +5250,6 @@ Projektor %2</translation>
     <message>
         <source>Clustering the light transport</source>
         <translation>Clusterbildung im Lichttransport</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Cluster mit begrenzter Größe</translation>
     </message>
 </context>
 <context>
@@ -5305,6 +5337,20 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Suche nach dem Projektorbild</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Suche nach Schatten</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5323,13 +5369,6 @@ Projektor %2</translation>
     <message>
         <source>Forming patches</source>
         <translation>Bildung der Pixelbereiche</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Begrenzung der Clustergröße</translation>
     </message>
 </context>
 <context>
@@ -5393,20 +5432,6 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Suche nach dem Projektorbild</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Suche nach Schatten</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5425,17 +5450,6 @@ Projektor %2</translation>
     <message>
         <source>Measuring the camera</source>
         <translation>Messung der Kamera</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>Neumessung von {} markierten Pixel</numerusform>
-            <numerusform>Neumessung von {} markierten Pixeln</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5579,6 +5593,17 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>Neumessung von {} markierten Pixel</numerusform>
+            <numerusform>Neumessung von {} markierten Pixeln</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5670,17 +5695,17 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>das Bild konnte nicht geschrieben werden</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
     </message>
 </context>
 </TS>

@@ -105,6 +105,20 @@
             <numerusform>%n patterns expected; known exactly as each level begins</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>Finer light is missing. Go on any time, if nothing has moved: about %n photograph, %1.</numerusform>
+            <numerusform>Finer light is missing. Go on any time, if nothing has moved: about %n photographs, %1.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n photograph</numerusform>
+            <numerusform>%n photographs</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraPage</name>

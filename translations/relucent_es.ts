@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} s</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} min</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} h {} min</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -269,6 +248,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>La medición se detuvo en bloques de {} px: falta lo más fino y las imágenes se compensan con menos nitidez; siga midiendo en cualquier momento, mientras nada se haya movido</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -423,27 +409,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>el manifiesto de la calibración está dañado</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>no se puede ver el contenido de la carpeta ({})</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>no se puede abrir la carpeta ({})</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -455,6 +420,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>compruebe que se puede escribir en la carpeta e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>no se puede ver el contenido de la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>no se puede mover una fotografía ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>no se puede abrir la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>no se puede eliminar una fotografía ({})</translation>
     </message>
 </context>
 <context>
@@ -479,24 +472,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>falta un archivo de la calibración ({})</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>el manifiesto de la calibración está dañado</translation>
     </message>
 </context>
 <context>
@@ -507,17 +486,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>no se puede mover una fotografía ({})</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>falta un archivo de la calibración ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>no se puede eliminar una fotografía ({})</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un archivo de la calibración ({}) tiene {} bytes en lugar de {}</translation>
     </message>
 </context>
 <context>
@@ -627,17 +606,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>el dispositivo de captura no da ninguna imagen</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
@@ -648,10 +620,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>conéctelo, cierre otros programas que lo usen e inténtelo de nuevo</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>la imagen en directo de una pantalla necesita un servidor X y ninguno responde</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>el dispositivo de captura no da ninguna imagen</translation>
     </message>
 </context>
 <context>
@@ -659,6 +638,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>apúntela a la proyección, quite la tapa del objetivo y use una exposición más larga</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
     </message>
 </context>
 <context>
@@ -690,27 +676,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>se le pidió una ganancia de {} y se queda en {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>se le pidió ISO {} y se queda en ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -722,6 +687,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>no se puede desactivar el enfoque automático del dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>no se puede desactivar {}</translation>
     </message>
 </context>
 <context>
@@ -753,13 +725,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -767,17 +732,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>esta compilación de Relucent no admite cámaras réflex (DSLR) ni sin espejo</translation>
     </message>
 </context>
 <context>
@@ -785,41 +743,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>la cámara está presente pero no responde, puede que esté en reposo</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la cámara lleva {} s sin responder: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>la cámara ha vuelto con {} píxeles en lugar de {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>la cámara admite de {} a {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la cámara declara exposiciones de {} a {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
     </message>
 </context>
 <context>
@@ -837,31 +760,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>la cámara se ha desconectado, se ha apagado o ha entrado en reposo</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
     </message>
 </context>
 <context>
@@ -872,24 +774,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la cámara no ve lo que se muestra en {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la cámara lleva {} s sin responder: {}</translation>
     </message>
 </context>
 <context>
@@ -900,20 +788,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la cámara no ve diferencia entre blanco y negro</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la cámara ve {} y no {}</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -921,17 +795,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>una cámara de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>la cámara sigue ocupada</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>hay {} cámaras de este modelo conectadas</translation>
     </message>
 </context>
 <context>
@@ -949,10 +823,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>no se puede desactivar {}</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>no se puede iniciar el comando ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>no se puede escribir la grabación ({})</translation>
     </message>
 </context>
 <context>
@@ -984,24 +872,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>revise su cable y desactive el ahorro de energía</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
     </message>
 </context>
 <context>
@@ -1012,17 +886,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>revise el dispositivo o conceda más tiempo al comando: {}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>revise su cable, su alimentación y su dirección; `relucent-cli devices` muestra los dispositivos presentes</translation>
     </message>
 </context>
 <context>
@@ -1033,6 +900,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>la cámara admite de {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>admite {}</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1040,17 +921,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la cámara declara exposiciones de {} a {} s</translation>
     </message>
 </context>
 <context>
@@ -1075,10 +956,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>no se puede iniciar el comando ({})</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>el filtro de color de la cámara no es un filtro de Bayer</translation>
     </message>
 </context>
 <context>
@@ -1138,13 +1019,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>conecte la cámara con la que se empezó la medición</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1166,10 +1040,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>se pidió a la cámara una exposición de {} s y se mantiene en {} s</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>no se puede ajustar el tiempo de exposición de la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>la cámara se mantiene en {} s sea cual sea la exposición que se le pida</translation>
     </message>
 </context>
 <context>
@@ -1201,6 +1096,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>se le pidió una ganancia de {} y se queda en {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1222,20 +1124,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>una cámara de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>un proyector de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1250,6 +1138,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>se le pidió ISO {} y se queda en ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1257,31 +1152,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>admite {}</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>haga que escriba la fotografía en {output}: {}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>declara exposiciones de hasta {} s pero se queda en {} s</translation>
     </message>
 </context>
 <context>
@@ -1313,13 +1194,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indique esa: gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1327,17 +1201,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indique esa: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la cámara no ve diferencia entre blanco y negro</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>la cámara no ha podido enfocar y no ha tomado ninguna fotografía ({})</translation>
     </message>
 </context>
 <context>
@@ -1348,10 +1236,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>no ha llegado ninguna fotografía en {} s</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>se pidió una fotografía y no llegó ninguna</translation>
     </message>
 </context>
 <context>
@@ -1369,20 +1257,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>no está conectado ese dispositivo de vídeo</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1390,10 +1264,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>no indica cuándo se captaron las imágenes: se descartan algunas antes de cada fotografía</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>no tiene disparo por software: cada fotografía puede esperar una exposición más</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>el dispositivo de vídeo no envía imágenes</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>no hay conectada ninguna cámara con ese nombre, pero sí {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la cámara ve {} y no {}</translation>
     </message>
 </context>
 <context>
@@ -1404,10 +1299,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>se pidió una fotografía y no llegó ninguna</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>han fallado {} intentos de tomar una fotografía: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>se piden {} píxeles y la cámara tiene {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la fotografía tiene {} píxeles en formato {} cuando se habían acordado {} en formato {}</translation>
     </message>
 </context>
 <context>
@@ -1425,10 +1334,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>la fotografía tiene {} píxeles en formato {} cuando se habían acordado {} en formato {}</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>se piden {} píxeles y la cámara da {}</translation>
     </message>
 </context>
 <context>
@@ -1439,6 +1348,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>no ha llegado ninguna fotografía en {} s</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1446,31 +1362,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>se piden {} píxeles y la cámara tiene {}</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>una imagen nueva no aparece por completo tras {} fotogramas</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>se piden {} píxeles y la cámara da {}</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la cámara ha olvidado el formato de píxel que se le había fijado</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>se piden {} píxeles y el dispositivo de vídeo da {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la cámara no tiene un formato de píxel {} que se pueda leer</translation>
     </message>
 </context>
 <context>
@@ -1488,17 +1397,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>no se puede leer el archivo RAW ({})</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un proyector de {} píxeles es imposible: cada lado tiene de {} a {}</translation>
     </message>
 </context>
 <context>
@@ -1516,6 +1418,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>no se puede leer el archivo RAW ({})</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1523,10 +1432,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>no se puede escribir la grabación ({})</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>conecte la cámara con la que se empezó la medición</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la cámara ha vuelto con {} píxeles en lugar de {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>haga que el escritorio la libere con `gio mount -s gphoto2` (o expúlsela en el gestor de archivos) y cierre los programas de fotografía</translation>
     </message>
 </context>
 <context>
@@ -1537,59 +1460,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>ajústela a mano a ISO 100</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>la exposición más corta debe ser mayor que cero y no superar la más larga</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>desactive su exposición automática y su límite de velocidad de fotogramas</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la cámara ha rechazado lo que se le pidió ({})</translation>
     </message>
 </context>
 <context>
@@ -1600,17 +1474,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>ponga su objetivo en enfoque manual</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ejecútelo en un terminal para averiguar la causa: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>la pantalla del proyector pierde la imagen una y otra vez</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la cámara no ve lo que se muestra en {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>no ve colores: se puede compensar el brillo, no los colores</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>ajústela a mano a ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>ponga su modo de exposición en temporizado y manual o actualice su firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>hay {} cámaras de este modelo conectadas</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>compruebe que la imagen de la cámara es estable y su exposición corta, y desactive el suavizado de movimiento del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>desactive su exposición automática; no se puede usar una cámara sin exposición manual</translation>
     </message>
 </context>
 <context>
@@ -1621,17 +1558,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>apáguela y vuelva a encenderla, cargue sus ajustes predeterminados con el programa del fabricante e inténtelo de nuevo</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>desactívelo con v4l2-ctl (--list-ctrls enumera los controles disponibles) o use otra cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>revise su cable, enciéndala y desactive su apagado automático</translation>
     </message>
 </context>
 <context>
@@ -1642,10 +1579,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>ponga la cámara en RAW de tamaño completo (ni sRAW, ni mRAW, ni DNG lineal)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>ponga su objetivo en enfoque manual</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>se apaga sola al cabo de un rato: desactívelo</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>ponga su objetivo en enfoque manual, cierre sus menús y tome una fotografía a mano para ver de qué se queja</translation>
     </message>
 </context>
 <context>
@@ -1656,10 +1614,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>gírelo a M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>se pidió una fotografía a la cámara y no tomó ninguna</translation>
     </message>
 </context>
 <context>
@@ -1670,10 +1628,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>admite {}; se leen Mono, Bayer y RGB sin empaquetar de 8 a 16 bits</translation>
+        <source>turn it to M</source>
+        <translation>gírelo a M</translation>
     </message>
 </context>
 <context>
@@ -1691,24 +1649,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>el dispositivo de vídeo se ha desconectado</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>no se puede volver a abrir el dispositivo de vídeo</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>no se puede abrir el dispositivo de vídeo: quizá lo esté usando otro programa</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>no está conectado ese dispositivo de vídeo</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>el dispositivo de vídeo se ha desconectado</translation>
     </message>
 </context>
 <context>
@@ -1719,10 +1677,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>el dispositivo de vídeo no envía imágenes</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>se piden {} píxeles y el dispositivo de vídeo da {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>pulse el disparador hasta la mitad, o apáguela y vuelva a encenderla, y desactive su apagado automático</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>haga que el comando escriba ese tamaño o empiece de nuevo con el tamaño que entrega la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>haga que escriba la fotografía en {output}: {}</translation>
     </message>
 </context>
 <context>
@@ -1782,6 +1761,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libere espacio allí o revise el disco e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1789,24 +1775,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>no se puede usar la tarjeta gráfica</translation>
+        <source>{} h {} min</source>
+        <translation>{} h {} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>se ha perdido la tarjeta gráfica</translation>
+        <source>{} min</source>
+        <translation>{} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
+        <source>{} s</source>
+        <translation>{} s</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>deje que el procesador haga el trabajo</translation>
     </message>
 </context>
 <context>
@@ -1817,17 +1810,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>se ha perdido la tarjeta gráfica</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>no se puede usar la tarjeta gráfica</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>a la tarjeta gráfica no le quedan {} MB de memoria</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>instale el controlador de la tarjeta gráfica o deje que el procesador haga el trabajo</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>deje que el procesador haga el trabajo</translation>
     </message>
 </context>
 <context>
@@ -1908,10 +1915,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
     </message>
 </context>
 <context>
@@ -1943,10 +1950,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}: las curvas de brillo no son iguales en toda la imagen, con diferencias de hasta un {} % del blanco; desactive la corrección de uniformidad, la atenuación local y la fusión de bordes en el proyector</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>las cámaras no tienen ningún tiempo de exposición en común</translation>
     </message>
 </context>
 <context>
@@ -1957,10 +1964,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>ajústelas a intervalos de tiempos de exposición que se solapen</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: las curvas de brillo no son iguales en toda la imagen, con diferencias de hasta un {} % del blanco; desactive la corrección de uniformidad, la atenuación local y la fusión de bordes en el proyector</translation>
     </message>
 </context>
 <context>
@@ -2099,10 +2106,6 @@
         <source>Fineness</source>
         <translation>Detalle</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>Colores</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2165,18 +2168,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>vidrio, brillo, rincones profundos</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>Rojo, verde, azul</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>Solo blanco</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>Solo blanco es tres veces más rápido, con colores que se desvían un pequeño porcentaje.</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2406,6 +2397,40 @@
         <translation>
             <numerusform>%n patrón</numerusform>
             <numerusform>%n patrones</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>Detenido en %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Seguir midiendo</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La medición se detuvo en bloques de %1 px</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido: aproximadamente %n fotografía, %1.</numerusform>
+            <numerusform>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido: aproximadamente %n fotografías, %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1; error aproximado: %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n fotografía</numerusform>
+            <numerusform>%n fotografías</numerusform>
         </translation>
     </message>
 </context>
@@ -5039,17 +5064,17 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>libere espacio</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>no se puede escribir el informe</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>libere espacio</translation>
     </message>
 </context>
 <context>
@@ -5081,10 +5106,24 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>no se puede activar el servicio ({})</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>no se puede eliminar ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>no se puede escribir el registro ({})</translation>
     </message>
 </context>
 <context>
@@ -5109,10 +5148,10 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>no se puede escribir el registro ({})</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
@@ -5127,20 +5166,6 @@ proyector %2</translation>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>la pantalla del proyector tiene ahora {} píxeles y se calibraron {}</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>no se puede activar el servicio ({})</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>restablezca su resolución en los ajustes del escritorio e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
@@ -5186,6 +5211,20 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Clústeres de tamaño limitado</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitando el tamaño de clústeres</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5211,13 +5250,6 @@ proyector %2</translation>
     <message>
         <source>Clustering the light transport</source>
         <translation>Agrupando el transporte de luz</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Clústeres de tamaño limitado</translation>
     </message>
 </context>
 <context>
@@ -5305,6 +5337,20 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Buscando la imagen del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Buscando sombras</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5323,13 +5369,6 @@ proyector %2</translation>
     <message>
         <source>Forming patches</source>
         <translation>Formando parches</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitando el tamaño de clústeres</translation>
     </message>
 </context>
 <context>
@@ -5393,20 +5432,6 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Buscando la imagen del proyector</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Buscando sombras</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5425,17 +5450,6 @@ proyector %2</translation>
     <message>
         <source>Measuring the camera</source>
         <translation>Midiendo la cámara</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>midiendo de nuevo {} píxel marcado</numerusform>
-            <numerusform>midiendo de nuevo {} píxeles marcados</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5579,6 +5593,17 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>midiendo de nuevo {} píxel marcado</numerusform>
+            <numerusform>midiendo de nuevo {} píxeles marcados</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5670,17 +5695,17 @@ proyector %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>no se ha podido escribir la imagen</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
     </message>
 </context>
 </TS>

@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{}&#x202f;s</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{}&#x202f;min</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{}&#x202f;h {}&#x202f;min</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -269,6 +248,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>La mesure a été arrêtée à des blocs de {} px&#x202f;: ce qui est plus fin manque, et les images sont compensées moins nettement&#x202f;; continuez la mesure à tout moment, tant que rien n’a bougé</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -423,27 +409,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>le manifeste de la calibration est endommagé</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>impossible de lire le contenu du dossier ({})</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>impossible d’ouvrir le dossier ({})</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -455,6 +420,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>vérifiez que l’écriture dans le dossier est autorisée, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossible de lire le contenu du dossier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>une photo ne peut pas être déplacée ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossible d’ouvrir le dossier ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>une photo ne peut pas être supprimée ({})</translation>
     </message>
 </context>
 <context>
@@ -479,24 +472,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>un fichier de la calibration ({}) est absent</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>le manifeste de la calibration est endommagé</translation>
     </message>
 </context>
 <context>
@@ -507,17 +486,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>une photo ne peut pas être déplacée ({})</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>un fichier de la calibration ({}) est absent</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>une photo ne peut pas être supprimée ({})</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un fichier de la calibration ({}) a {} octets au lieu de {}</translation>
     </message>
 </context>
 <context>
@@ -627,17 +606,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>le périphérique de capture ne fournit aucune image</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
     </message>
 </context>
 <context>
@@ -648,10 +620,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>branchez-le, fermez les autres programmes qui l’utilisent, puis réessayez</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’image en direct d’un écran demande un serveur X, et aucun ne répond</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>le périphérique de capture ne fournit aucune image</translation>
     </message>
 </context>
 <context>
@@ -659,6 +638,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>tournez-la vers la projection, retirez son bouchon d’objectif et allongez la pose</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
     </message>
 </context>
 <context>
@@ -690,27 +676,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -722,6 +687,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>la mise au point automatique du périphérique vidéo ne peut pas être désactivée</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} ne peut pas être désactivé</translation>
     </message>
 </context>
 <context>
@@ -753,13 +725,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -767,17 +732,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>cette version compilée de Relucent ne gère pas les reflex ni les hybrides</translation>
     </message>
 </context>
 <context>
@@ -785,41 +743,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>la caméra est là mais ne répond pas, elle est peut-être en veille</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>la caméra est revenue avec {} pixels au lieu de {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>la caméra permet de {} à {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
     </message>
 </context>
 <context>
@@ -837,31 +760,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la caméra a oublié le format de pixel réglé</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>la caméra a été débranchée ou éteinte, ou s’est mise en veille</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
     </message>
 </context>
 <context>
@@ -872,24 +774,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la caméra a disparu depuis {}&#x202f;s&#x202f;: {}</translation>
     </message>
 </context>
 <context>
@@ -900,20 +788,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la caméra voit {}, et non {}</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -921,17 +795,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>une caméra de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>la caméra reste occupée</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>{} caméras de ce modèle sont branchées</translation>
     </message>
 </context>
 <context>
@@ -949,10 +823,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} ne peut pas être désactivé</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>le périphérique vidéo ne peut pas être rouvert</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>la commande ne peut pas être lancée ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>l’enregistrement ne peut pas être écrit ({})</translation>
     </message>
 </context>
 <context>
@@ -984,24 +872,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>vérifiez son câble et désactivez sa mise en veille</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
     </message>
 </context>
 <context>
@@ -1012,17 +886,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>vérifiez l’appareil, ou accordez plus de temps à la commande&#x202f;: {}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>vérifiez son câble, son alimentation et son adresse&#x202f;; `relucent-cli devices` affiche ce qui est présent</translation>
     </message>
 </context>
 <context>
@@ -1033,6 +900,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>la caméra permet de {} à {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>elle propose {}</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1040,17 +921,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la caméra annonce des temps de pose de {} à {}&#x202f;s</translation>
     </message>
 </context>
 <context>
@@ -1075,10 +956,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>la commande ne peut pas être lancée ({})</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>le filtre coloré de la caméra n’est pas un filtre de Bayer</translation>
     </message>
 </context>
 <context>
@@ -1138,13 +1019,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1166,10 +1040,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>une pose de {}&#x202f;s a été demandée à la caméra, qui s’en tient à {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>le temps de pose de la caméra ne peut pas être réglé</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>la caméra s’en tient à {}&#x202f;s quelle que soit la pose demandée</translation>
     </message>
 </context>
 <context>
@@ -1201,6 +1096,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>a reçu la demande d’un gain de {} et s’en tient à {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1222,20 +1124,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>une caméra de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>un projecteur de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1250,6 +1138,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>a reçu la demande ISO {} et s’en tient à ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1257,31 +1152,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>elle propose {}</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>annonce des temps de pose jusqu’à {} s mais s’en tient à {} s</translation>
     </message>
 </context>
 <context>
@@ -1313,13 +1194,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1327,17 +1201,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indiquez celle-ci&#x202f;: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la caméra ne voit aucune différence entre le blanc et le noir</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>la caméra n’a pas pu faire la mise au point et n’a pas pris de photo ({})</translation>
     </message>
 </context>
 <context>
@@ -1348,10 +1236,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>une photo a été demandée et aucune n’est arrivée</translation>
     </message>
 </context>
 <context>
@@ -1369,20 +1257,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1390,10 +1264,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>ne dit pas quand les images ont été prises&#x202f;: quelques-unes sont écartées avant chaque photo</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>n’a pas de déclencheur logiciel&#x202f;: chaque photo peut attendre une pose de plus</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>le périphérique vidéo n’envoie pas d’images</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>aucune caméra de ce nom n’est branchée, mais {} l’est</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la caméra voit {}, et non {}</translation>
     </message>
 </context>
 <context>
@@ -1404,10 +1299,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>une photo a été demandée et aucune n’est arrivée</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentatives de photo ont échoué&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} pixels sont demandés et la caméra a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la photo a {} pixels en {} alors que {} en {} étaient convenus</translation>
     </message>
 </context>
 <context>
@@ -1425,10 +1334,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>la photo a {} pixels en {} alors que {} en {} étaient convenus</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} pixels sont demandés et la caméra fournit {}</translation>
     </message>
 </context>
 <context>
@@ -1439,6 +1348,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>aucune photo n’est arrivée en {}&#x202f;s</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1446,31 +1362,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>{} pixels sont demandés et la caméra a {}</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>une nouvelle image n’est pas entièrement affichée après {} trames</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>{} pixels sont demandés et la caméra fournit {}</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la caméra a oublié le format de pixel réglé</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>{} pixels sont demandés et le périphérique vidéo fournit {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la caméra n’a pas de format de pixel {} qui puisse être lu</translation>
     </message>
 </context>
 <context>
@@ -1488,17 +1397,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>l’écran du projecteur perd sans cesse son image</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>le fichier RAW ne peut pas être lu ({})</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un projecteur de {} pixels est impossible&#x202f;: chaque côté en a {} à {}</translation>
     </message>
 </context>
 <context>
@@ -1516,6 +1418,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>le fichier RAW ne peut pas être lu ({})</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1523,10 +1432,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>l’enregistrement ne peut pas être écrit ({})</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>branchez la caméra avec laquelle la mesure a commencé</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la caméra est revenue avec {} pixels au lieu de {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>faites-la libérer par le bureau avec `gio mount -s gphoto2` (ou éjectez-la dans le gestionnaire de fichiers) et fermez les programmes de photo</translation>
     </message>
 </context>
 <context>
@@ -1537,59 +1460,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>réglez-la à la main sur ISO 100</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>le temps de pose le plus court doit être supérieur à zéro et ne pas dépasser le plus long</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>désactivez son exposition automatique et la limite de sa fréquence d’images</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la caméra a refusé ce qui lui était demandé ({})</translation>
     </message>
 </context>
 <context>
@@ -1600,17 +1474,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>mettez son objectif en mise au point manuelle</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>exécutez-la dans un terminal pour en trouver la raison&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>l’écran du projecteur perd sans cesse son image</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>ne voit pas les couleurs&#x202f;: la luminosité peut être compensée, pas les couleurs</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>réglez-la à la main sur ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>réglez son mode d’exposition sur «&#x202f;Timed&#x202f;» et manuel, ou mettez à jour son micrologiciel</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>{} caméras de ce modèle sont branchées</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>vérifiez que le champ de la caméra est stable et sa pose courte, et désactivez le lissage des mouvements du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>désactivez son exposition automatique&#x202f;; une caméra sans exposition manuelle ne peut pas être utilisée</translation>
     </message>
 </context>
 <context>
@@ -1621,17 +1558,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>éteignez-la et rallumez-la, chargez ses réglages par défaut avec le programme du fabricant, puis réessayez</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>désactivez ce réglage avec v4l2-ctl (--list-ctrls affiche ceux du périphérique), ou utilisez une autre caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>vérifiez son câble, allumez-la et désactivez son extinction automatique</translation>
     </message>
 </context>
 <context>
@@ -1642,10 +1579,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>réglez la caméra sur RAW en pleine taille (ni sRAW, ni mRAW, ni DNG linéaire)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>mettez son objectif en mise au point manuelle</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>s’éteint seule au bout d’un moment&#x202f;: désactivez cela</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>mettez son objectif en mise au point manuelle, fermez ses menus et prenez une photo à la main pour voir ce qu’elle signale</translation>
     </message>
 </context>
 <context>
@@ -1656,10 +1614,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>tournez-la sur M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>une photo a été demandée à la caméra, qui n’en a pas pris</translation>
     </message>
 </context>
 <context>
@@ -1670,10 +1628,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>elle propose {}&#x202f;; les formats lus sont Mono, Bayer et RGB non compactés, de 8 à 16 bits</translation>
+        <source>turn it to M</source>
+        <translation>tournez-la sur M</translation>
     </message>
 </context>
 <context>
@@ -1691,24 +1649,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>le périphérique vidéo a été débranché</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>le périphérique vidéo ne peut pas être rouvert</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>le périphérique vidéo ne peut pas être ouvert&#x202f;: un autre programme l’utilise peut-être</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>aucun périphérique vidéo de ce nom n’est branché</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>le périphérique vidéo a été débranché</translation>
     </message>
 </context>
 <context>
@@ -1719,10 +1677,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>le périphérique vidéo n’envoie pas d’images</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} pixels sont demandés et le périphérique vidéo fournit {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>enfoncez son déclencheur à mi-course ou éteignez-la et rallumez-la, et désactivez son extinction automatique</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>faites écrire cette taille par la commande, ou recommencez avec la taille que fournit la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>faites-lui écrire la photo dans {output}&#x202f;: {}</translation>
     </message>
 </context>
 <context>
@@ -1782,6 +1761,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>libérez de l’espace à cet endroit ou vérifiez le disque, puis réessayez</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1789,24 +1775,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>la carte graphique ne peut pas être utilisée</translation>
+        <source>{} h {} min</source>
+        <translation>{}&#x202f;h {}&#x202f;min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>la carte graphique a été perdue</translation>
+        <source>{} min</source>
+        <translation>{}&#x202f;min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
+        <source>{} s</source>
+        <translation>{}&#x202f;s</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>confiez le calcul au processeur</translation>
     </message>
 </context>
 <context>
@@ -1817,17 +1810,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la carte graphique a été perdue</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la carte graphique ne peut pas être utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la carte graphique n’a plus {}&#x202f;Mo de mémoire libre</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>installez le pilote de la carte graphique, ou confiez le calcul au processeur</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>confiez le calcul au processeur</translation>
     </message>
 </context>
 <context>
@@ -1908,10 +1915,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>les caméras n’ont aucun temps de pose en commun</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
     </message>
 </context>
 <context>
@@ -1943,10 +1950,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}&#x202f;: les courbes de luminosité ne sont pas les mêmes partout dans l’image, avec des écarts allant jusqu’à {}&#x202f;% du blanc&#x202f;; désactivez la correction d’uniformité, la gradation locale et la fusion des bords du projecteur</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>les caméras n’ont aucun temps de pose en commun</translation>
     </message>
 </context>
 <context>
@@ -1957,10 +1964,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>réglez-les sur des plages de temps de pose qui se recoupent</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}&#x202f;: les courbes de luminosité ne sont pas les mêmes partout dans l’image, avec des écarts allant jusqu’à {}&#x202f;% du blanc&#x202f;; désactivez la correction d’uniformité, la gradation locale et la fusion des bords du projecteur</translation>
     </message>
 </context>
 <context>
@@ -2099,10 +2106,6 @@
         <source>Fineness</source>
         <translation>Finesse</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>Couleurs</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2165,18 +2168,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>verre, brillant, angles profonds</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>Rouge, vert, bleu</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>Blanc seul</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>Le blanc seul est trois fois plus rapide, mais fausse les couleurs de quelques pour cent.</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2406,6 +2397,40 @@
         <translation>
             <numerusform>%n motif</numerusform>
             <numerusform>%n motifs</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>Arrêté à %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Continuer la mesure</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La mesure a été arrêtée à des blocs de %1 px</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé&#x202f;: environ %n photo, %1.</numerusform>
+            <numerusform>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé&#x202f;: environ %n photos, %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1&#x202f;; erreur d’environ %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n photo</numerusform>
+            <numerusform>%n photos</numerusform>
         </translation>
     </message>
 </context>
@@ -5039,17 +5064,17 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>libérez de l’espace</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>le rapport ne peut pas être écrit</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>libérez de l’espace</translation>
     </message>
 </context>
 <context>
@@ -5081,10 +5106,24 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>le service ne peut pas être activé ({})</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>le fichier ne peut pas être retiré ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>le journal ne peut pas être écrit ({})</translation>
     </message>
 </context>
 <context>
@@ -5109,10 +5148,10 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>le journal ne peut pas être écrit ({})</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
     </message>
 </context>
 <context>
@@ -5127,20 +5166,6 @@ projecteur %2</translation>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>l’écran du projecteur a maintenant {} pixels alors que {} ont été calibrés</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>le service ne peut pas être activé ({})</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>rétablissez sa définition dans les réglages du bureau, puis réessayez</translation>
     </message>
 </context>
 <context>
@@ -5186,6 +5211,20 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Groupes de taille limitée</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitation de la taille des groupes</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5211,13 +5250,6 @@ projecteur %2</translation>
     <message>
         <source>Clustering the light transport</source>
         <translation>Regroupement du transport lumineux</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Groupes de taille limitée</translation>
     </message>
 </context>
 <context>
@@ -5305,6 +5337,20 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Recherche de l’image du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Recherche d’ombres</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5323,13 +5369,6 @@ projecteur %2</translation>
     <message>
         <source>Forming patches</source>
         <translation>Formation des zones</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitation de la taille des groupes</translation>
     </message>
 </context>
 <context>
@@ -5393,20 +5432,6 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Recherche de l’image du projecteur</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Recherche d’ombres</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5425,17 +5450,6 @@ projecteur %2</translation>
     <message>
         <source>Measuring the camera</source>
         <translation>Mesure de la caméra</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>nouvelle mesure de {} pixel signalé</numerusform>
-            <numerusform>nouvelle mesure de {} pixels signalés</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5579,6 +5593,17 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>nouvelle mesure de {} pixel signalé</numerusform>
+            <numerusform>nouvelle mesure de {} pixels signalés</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5670,17 +5695,17 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>l’image n’a pas pu être écrite</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
     </message>
 </context>
 </TS>

@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} s</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} min</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} h {} min</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -269,6 +248,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>La misura è stata fermata a blocchi di {} px: ciò che è più fine manca e le immagini sono compensate con meno nitidezza; proseguire la misura in qualsiasi momento, purché nulla si sia mosso</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -423,27 +409,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>il manifest della calibrazione è danneggiato</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>impossibile esaminare il contenuto della cartella ({})</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>impossibile aprire la cartella ({})</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -455,6 +420,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>controllare che la cartella sia scrivibile, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>impossibile esaminare il contenuto della cartella ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>impossibile spostare una foto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>impossibile aprire la cartella ({})</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>impossibile eliminare una foto ({})</translation>
     </message>
 </context>
 <context>
@@ -479,24 +472,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>manca un file della calibrazione ({})</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>il manifest della calibrazione è danneggiato</translation>
     </message>
 </context>
 <context>
@@ -507,17 +486,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>impossibile spostare una foto ({})</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>manca un file della calibrazione ({})</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>impossibile eliminare una foto ({})</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>un file della calibrazione ({}) ha {} byte invece di {}</translation>
     </message>
 </context>
 <context>
@@ -627,17 +606,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>il dispositivo di acquisizione non fornisce immagini</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
     </message>
 </context>
 <context>
@@ -648,10 +620,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>collegarlo, chiudere altri programmi che lo usano e riprovare</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>l’immagine dal vivo di uno schermo richiede un server X e nessuno risponde</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>il dispositivo di acquisizione non fornisce immagini</translation>
     </message>
 </context>
 <context>
@@ -659,6 +638,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>puntarla sulla proiezione, togliere il tappo dell’obiettivo e usare un’esposizione più lunga</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
     </message>
 </context>
 <context>
@@ -690,27 +676,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -722,6 +687,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>impossibile disattivare la messa a fuoco automatica del dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>impossibile disattivare {}</translation>
     </message>
 </context>
 <context>
@@ -753,13 +725,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -767,17 +732,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>questa build di Relucent non supporta le fotocamere reflex (DSLR) e mirrorless</translation>
     </message>
 </context>
 <context>
@@ -785,41 +743,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>la fotocamera è presente ma non risponde, forse è in standby</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>la fotocamera è assente da {} s: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>la fotocamera è tornata con {} pixel invece di {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>la fotocamera consente valori da {} a {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
     </message>
 </context>
 <context>
@@ -837,31 +760,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>la fotocamera è stata scollegata o spenta, oppure è andata in standby</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
     </message>
 </context>
 <context>
@@ -872,24 +774,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>la fotocamera è assente da {} s: {}</translation>
     </message>
 </context>
 <context>
@@ -900,20 +788,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>la fotocamera non vede differenza tra bianco e nero</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>la fotocamera vede {} e non {}</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -921,17 +795,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>una fotocamera di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>la fotocamera resta occupata</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>sono collegate {} fotocamere di questo modello</translation>
     </message>
 </context>
 <context>
@@ -949,10 +823,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>impossibile disattivare {}</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>impossibile riaprire il dispositivo video</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>impossibile avviare il comando ({})</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>impossibile scrivere la registrazione ({})</translation>
     </message>
 </context>
 <context>
@@ -984,24 +872,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>controllare il cavo e disattivare il risparmio energetico</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
     </message>
 </context>
 <context>
@@ -1012,17 +886,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>controllare il dispositivo o concedere più tempo al comando: {}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>controllare il cavo, l’alimentazione e l’indirizzo; `relucent-cli devices` elenca i dispositivi presenti</translation>
     </message>
 </context>
 <context>
@@ -1033,6 +900,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>la fotocamera consente valori da {} a {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>valori disponibili: {}</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1040,17 +921,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>la fotocamera dichiara esposizioni da {} a {} s</translation>
     </message>
 </context>
 <context>
@@ -1075,10 +956,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>impossibile avviare il comando ({})</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>il filtro colore della fotocamera non è un filtro Bayer</translation>
     </message>
 </context>
 <context>
@@ -1138,13 +1019,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>collegare la fotocamera con cui è iniziata la misura</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1166,10 +1040,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>alla fotocamera è stata richiesta un’esposizione di {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>il tempo di esposizione della fotocamera non è impostabile</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>la fotocamera resta a {} s qualunque esposizione le venga richiesta</translation>
     </message>
 </context>
 <context>
@@ -1201,6 +1096,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>ha ricevuto la richiesta di un guadagno di {} e resta a {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1222,20 +1124,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>una fotocamera di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>un proiettore di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1250,6 +1138,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>ha ricevuto la richiesta ISO {} e resta a ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1257,31 +1152,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>valori disponibili: {}</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>fare in modo che scriva la foto in {output}: {}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>dichiara esposizioni fino a {} s ma resta a {} s</translation>
     </message>
 </context>
 <context>
@@ -1313,13 +1194,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>indicare quella: gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1327,17 +1201,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>indicare quella: gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>la fotocamera non vede differenza tra bianco e nero</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>la fotocamera non ha messo a fuoco e non ha scattato alcuna foto ({})</translation>
     </message>
 </context>
 <context>
@@ -1348,10 +1236,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>nessuna foto è arrivata entro {} s</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
     </message>
 </context>
 <context>
@@ -1369,20 +1257,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>quel dispositivo video non è collegato</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1390,10 +1264,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>non dice quando le immagini sono state acquisite: alcune vengono scartate prima di ogni fotografia</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>non ha scatto via software: ogni fotografia può attendere un’esposizione in più</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>il dispositivo video non invia immagini</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>nessuna fotocamera con questo nome è collegata, ma è presente {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>la fotocamera vede {} e non {}</translation>
     </message>
 </context>
 <context>
@@ -1404,10 +1299,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>è stata richiesta una foto e non ne è arrivata nessuna</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>{} tentativi di scattare una foto non sono riusciti: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>sono richiesti {} pixel e la fotocamera ne ha {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>la foto ha {} pixel in formato {} mentre erano concordati {} in formato {}</translation>
     </message>
 </context>
 <context>
@@ -1425,10 +1334,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>la foto ha {} pixel in formato {} mentre erano concordati {} in formato {}</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>sono richiesti {} pixel e la fotocamera ne fornisce {}</translation>
     </message>
 </context>
 <context>
@@ -1439,6 +1348,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>nessuna foto è arrivata entro {} s</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1446,31 +1362,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>sono richiesti {} pixel e la fotocamera ne ha {}</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>una nuova immagine non è completa dopo {} fotogrammi</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>sono richiesti {} pixel e la fotocamera ne fornisce {}</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>la fotocamera ha perso il formato pixel che le era stato impostato</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>sono richiesti {} pixel e il dispositivo video ne fornisce {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>la fotocamera non ha un formato pixel {} leggibile</translation>
     </message>
 </context>
 <context>
@@ -1488,17 +1397,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>impossibile leggere il file RAW ({})</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>un proiettore di {} pixel è impossibile: ogni lato ne ha da {} a {}</translation>
     </message>
 </context>
 <context>
@@ -1516,6 +1418,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>impossibile leggere il file RAW ({})</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1523,10 +1432,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>impossibile scrivere la registrazione ({})</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>collegare la fotocamera con cui è iniziata la misura</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>la fotocamera è tornata con {} pixel invece di {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>farla rilasciare dal desktop con `gio mount -s gphoto2` (o espellerla nel gestore dei file) e chiudere i programmi di fotografia</translation>
     </message>
 </context>
 <context>
@@ -1537,59 +1460,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>impostarla a mano su ISO 100</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>l’esposizione più breve deve essere maggiore di zero e non superare la più lunga</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>disattivarne l’esposizione automatica e il limite di frequenza dei fotogrammi</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>la fotocamera ha rifiutato quanto richiesto ({})</translation>
     </message>
 </context>
 <context>
@@ -1600,17 +1474,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>eseguirlo in un terminale per scoprirne la causa: {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>lo schermo del proiettore perde ripetutamente l’immagine</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>non vede i colori: si può compensare la luminosità, non i colori</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>impostarla a mano su ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>impostarne la modalità di esposizione su temporizzata e manuale o aggiornarne il firmware</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>sono collegate {} fotocamere di questo modello</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>controllare che l’inquadratura della fotocamera sia stabile e l’esposizione breve, e disattivare la compensazione del movimento del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>disattivarne l’esposizione automatica; una fotocamera senza esposizione manuale non è utilizzabile</translation>
     </message>
 </context>
 <context>
@@ -1621,17 +1558,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>spegnerla e riaccenderla, caricarne le impostazioni predefinite con il programma del produttore e riprovare</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>disattivarlo con v4l2-ctl (--list-ctrls elenca i controlli disponibili) o usare un’altra fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>controllare il cavo, accenderla e disattivarne lo spegnimento automatico</translation>
     </message>
 </context>
 <context>
@@ -1642,10 +1579,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>impostare la fotocamera su RAW a dimensione piena (né sRAW, né mRAW, né DNG lineare)</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>si spegne da sola dopo un po’: disattivarlo</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>impostarne l’obiettivo sulla messa a fuoco manuale, chiuderne i menu e scattare una foto a mano per vedere quale problema segnala</translation>
     </message>
 </context>
 <context>
@@ -1656,10 +1614,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>ruotarla su M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>alla fotocamera è stata richiesta una foto e non ne ha scattata nessuna</translation>
     </message>
 </context>
 <context>
@@ -1670,10 +1628,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>formati disponibili: {}; vengono letti Mono, Bayer e RGB non impacchettati (unpacked) da 8 a 16 bit</translation>
+        <source>turn it to M</source>
+        <translation>ruotarla su M</translation>
     </message>
 </context>
 <context>
@@ -1691,24 +1649,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>il dispositivo video è stato scollegato</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>impossibile riaprire il dispositivo video</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>impossibile aprire il dispositivo video: forse un altro programma lo sta usando</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>quel dispositivo video non è collegato</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>il dispositivo video è stato scollegato</translation>
     </message>
 </context>
 <context>
@@ -1719,10 +1677,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>il dispositivo video non invia immagini</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>sono richiesti {} pixel e il dispositivo video ne fornisce {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>premere a metà il pulsante di scatto, oppure spegnerla e riaccenderla, e disattivarne lo spegnimento automatico</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>far scrivere al comando quella dimensione o ricominciare con la dimensione fornita dalla fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>fare in modo che scriva la foto in {output}: {}</translation>
     </message>
 </context>
 <context>
@@ -1782,6 +1761,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>liberare spazio lì o controllare il disco, poi riprovare</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1789,24 +1775,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>la scheda grafica non è utilizzabile</translation>
+        <source>{} h {} min</source>
+        <translation>{} h {} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>la scheda grafica non è più disponibile</translation>
+        <source>{} min</source>
+        <translation>{} min</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
+        <source>{} s</source>
+        <translation>{} s</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>far svolgere il lavoro al processore</translation>
     </message>
 </context>
 <context>
@@ -1817,17 +1810,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>la scheda grafica non è più disponibile</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>la scheda grafica non è utilizzabile</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>la scheda grafica non ha più {} MB di memoria liberi</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>installare il driver della scheda grafica o far svolgere il lavoro al processore</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>far svolgere il lavoro al processore</translation>
     </message>
 </context>
 <context>
@@ -1908,10 +1915,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
     </message>
 </context>
 <context>
@@ -1943,10 +1950,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}: le curve di luminosità non sono uguali in tutta l’immagine, con differenze fino al {} % del bianco; disattivare la correzione di uniformità, l’attenuazione locale e la fusione dei bordi nel proiettore</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>le fotocamere non hanno tempi di esposizione in comune</translation>
     </message>
 </context>
 <context>
@@ -1957,10 +1964,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>impostarle su intervalli di tempi di esposizione che si sovrappongano</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}: le curve di luminosità non sono uguali in tutta l’immagine, con differenze fino al {} % del bianco; disattivare la correzione di uniformità, l’attenuazione locale e la fusione dei bordi nel proiettore</translation>
     </message>
 </context>
 <context>
@@ -2099,10 +2106,6 @@
         <source>Fineness</source>
         <translation>Finezza</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>Colori</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2165,18 +2168,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>vetro, lucido, angoli profondi</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>Rosso, verde, blu</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>Solo bianco</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>Solo bianco è tre volte più veloce, con colori imprecisi di qualche percento.</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2406,6 +2397,40 @@
         <translation>
             <numerusform>%n pattern</numerusform>
             <numerusform>%n pattern</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>Fermato a %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Prosegui la misura</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La misura è stata fermata a blocchi di %1 px</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso: circa %n foto, %1.</numerusform>
+            <numerusform>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso: circa %n foto, %1.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1; errore di circa %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n foto</numerusform>
+            <numerusform>%n foto</numerusform>
         </translation>
     </message>
 </context>
@@ -5039,17 +5064,17 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>liberare spazio</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>impossibile scrivere il rapporto</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>liberare spazio</translation>
     </message>
 </context>
 <context>
@@ -5081,10 +5106,24 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>impossibile attivare il servizio ({})</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>impossibile eliminarlo ({})</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>impossibile scrivere il log ({})</translation>
     </message>
 </context>
 <context>
@@ -5109,10 +5148,10 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>impossibile scrivere il log ({})</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
     </message>
 </context>
 <context>
@@ -5127,20 +5166,6 @@ proiettore %2</translation>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>lo schermo del proiettore ora ha {} pixel e ne sono stati calibrati {}</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>impossibile attivare il servizio ({})</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>ripristinarne la risoluzione nelle impostazioni del desktop, poi riprovare</translation>
     </message>
 </context>
 <context>
@@ -5186,6 +5211,20 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>Cluster di dimensione limitata</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>Limitazione dei cluster</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5211,13 +5250,6 @@ proiettore %2</translation>
     <message>
         <source>Clustering the light transport</source>
         <translation>Raggruppamento del trasporto della luce</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>Cluster di dimensione limitata</translation>
     </message>
 </context>
 <context>
@@ -5305,6 +5337,20 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>Ricerca dell’immagine del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>Ricerca delle ombre</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5323,13 +5369,6 @@ proiettore %2</translation>
     <message>
         <source>Forming patches</source>
         <translation>Formazione delle zone</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>Limitazione dei cluster</translation>
     </message>
 </context>
 <context>
@@ -5393,20 +5432,6 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>Ricerca dell’immagine del proiettore</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>Ricerca delle ombre</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5425,17 +5450,6 @@ proiettore %2</translation>
     <message>
         <source>Measuring the camera</source>
         <translation>Misura della fotocamera</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>nuova misura di {} pixel segnalato</numerusform>
-            <numerusform>nuova misura di {} pixel segnalati</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5579,6 +5593,17 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>nuova misura di {} pixel segnalato</numerusform>
+            <numerusform>nuova misura di {} pixel segnalati</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5670,17 +5695,17 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>impossibile scrivere l’immagine</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
     </message>
 </context>
 </TS>

@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} 秒</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} 分</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} 時間 {} 分</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -268,6 +247,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>測定は {} px のブロックで終了しました：それより細かい部分がなく、映像の補正は粗くなります。何も動いていなければ、いつでも測定を続けられます</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -422,27 +408,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校正データのマニフェストが破損しています</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>フォルダーの内容を確認できません（{}）</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>フォルダーを開けません（{}）</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -454,6 +419,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>フォルダーに書き込めることを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>フォルダーの内容を確認できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>写真を移動できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>フォルダーを開けません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>写真を削除できません（{}）</translation>
     </message>
 </context>
 <context>
@@ -478,24 +471,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>校正データの {0} のファイルが {2} バイトではなく {1} バイトです</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>校正データの {} のファイルがありません</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>保存先の空き容量を増やすかディスクを確認してから、再試行してください</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校正データのマニフェストが破損しています</translation>
     </message>
 </context>
 <context>
@@ -506,17 +485,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>写真を移動できません（{}）</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校正データの {} のファイルがありません</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>写真を削除できません（{}）</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校正データの {0} のファイルが {2} バイトではなく {1} バイトです</translation>
     </message>
 </context>
 <context>
@@ -624,17 +603,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>キャプチャーデバイスから画像が届きません</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>画面のライブ映像には X サーバーが必要ですが、応答がありません</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>接続し、それを使用しているほかのプログラムを終了して、再試行してください</translation>
     </message>
 </context>
 <context>
@@ -645,10 +617,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>接続し、それを使用しているほかのプログラムを終了して、再試行してください</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>画面のライブ映像には X サーバーが必要ですが、応答がありません</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>キャプチャーデバイスから画像が届きません</translation>
     </message>
 </context>
 <context>
@@ -656,6 +635,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>カメラを投影に向け、レンズキャップを外し、露出を長くしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>機器を確認するか、コマンドの制限時間を延ばしてください：{}</translation>
     </message>
 </context>
 <context>
@@ -687,27 +673,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>ゲイン {} を指定しましたが、{} のままです</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>ISO {} を指定しましたが、ISO {} のままです</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>撮影に {} 回失敗しました：{}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -719,6 +684,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>ビデオデバイスのオートフォーカスをオフにできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>{} をオフにできません</translation>
     </message>
 </context>
 <context>
@@ -750,13 +722,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>このビルドの Relucent は、一眼レフカメラとミラーレスカメラに対応していません</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -764,17 +729,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>カメラに {} 秒の露出を指定しましたが、{} 秒のままです</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>カメラに撮影を要求しましたが、撮影されませんでした</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>このビルドの Relucent は、一眼レフカメラとミラーレスカメラに対応していません</translation>
     </message>
 </context>
 <context>
@@ -782,41 +740,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>カメラは接続されていますが応答しません。スリープ状態かもしれません</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>カメラとの接続が {} 秒間途切れています：{}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>再接続されたカメラの画素数が {1} ではなく {0} です</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>カメラの対応範囲は {}～{} です</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>カメラが無効な露出範囲（{}～{} 秒）を報告しています</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>カメラのカラーフィルターがベイヤー配列ではありません</translation>
     </message>
 </context>
 <context>
@@ -834,31 +757,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>カメラに設定した画素形式が失われました</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>ピントが合わず、カメラは撮影しませんでした（{}）</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>カメラの接続が外れたか、電源が切れたか、スリープ状態になりました</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>どの露出を指定しても、カメラの露出は {} 秒のままです</translation>
     </message>
 </context>
 <context>
@@ -869,24 +771,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>カメラには、読み込める画素形式 {} がありません</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>{} の表示内容がカメラに見えていません</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>カメラが要求を拒否しました（{}）</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>カメラとの接続が {} 秒間途切れています：{}</translation>
     </message>
 </context>
 <context>
@@ -897,20 +785,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>カメラに白と黒の差が見えていません</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>カメラに見えているのは {1} ではなく {0} です</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -918,17 +792,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>{} 画素のカメラはありえません：各辺は {}～{} です</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>カメラがビジー状態のままです</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>この機種のカメラが {} 台接続されています</translation>
     </message>
 </context>
 <context>
@@ -946,10 +820,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>{} をオフにできません</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>ビデオデバイスをもう一度開くことができません</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>コマンドを開始できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>記録を書き込めません（{}）</translation>
     </message>
 </context>
 <context>
@@ -981,24 +869,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>ケーブル、電源、アドレスを確認してください。`relucent-cli devices` で接続中の機器を一覧できます</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>ケーブルを確認し、省電力機能をオフにしてください</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>ケーブルを確認し、カメラの電源を入れ、自動電源オフを無効にしてください</translation>
     </message>
 </context>
 <context>
@@ -1009,17 +883,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>カメラの視野が動いていないことと露出が短いことを確認し、プロジェクターの動き補間をオフにしてください</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>機器を確認するか、コマンドの制限時間を延ばしてください：{}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>ケーブル、電源、アドレスを確認してください。`relucent-cli devices` で接続中の機器を一覧できます</translation>
     </message>
 </context>
 <context>
@@ -1030,6 +897,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>カメラの対応範囲は {}～{} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>選べる値は {} です</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1037,17 +918,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>カメラの形式は {} です。読み込めるのは 8～16 ビットの非パック形式の Mono、Bayer、RGB です</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>{} 秒までの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>カメラが無効な露出範囲（{}～{} 秒）を報告しています</translation>
     </message>
 </context>
 <context>
@@ -1072,10 +953,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>コマンドを開始できません（{}）</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>カメラのカラーフィルターがベイヤー配列ではありません</translation>
     </message>
 </context>
 <context>
@@ -1135,13 +1016,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>測定を始めたときのカメラを接続してください</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1163,10 +1037,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短の露出は 0 より大きく、最長の露出以下でなければなりません</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>カメラに {} 秒の露出を指定しましたが、{} 秒のままです</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>カメラの露出時間を設定できません</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>どの露出を指定しても、カメラの露出は {} 秒のままです</translation>
     </message>
 </context>
 <context>
@@ -1198,6 +1093,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>ゲイン {} を指定しましたが、{} のままです</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1219,20 +1121,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>{} 画素のカメラはありえません：各辺は {}～{} です</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>{} 画素のプロジェクターはありえません：各辺は {}～{} です</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1247,6 +1135,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>ISO {} を指定しましたが、ISO {} のままです</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1254,31 +1149,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>選べる値は {} です</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>カメラの自動露出とフレームレート制限をオフにしてください</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>コマンドがそのサイズで書き込むようにするか、カメラが出力するサイズで最初からやり直してください</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>`gio mount -s gphoto2` でデスクトップのマウントを解除し（またはファイルマネージャーで取り出し）、写真用のプログラムを終了してください</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>コマンドが写真を {output} に書き込むようにしてください：{}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>{} 秒までの露出に対応すると表示しますが、実際は {} 秒までです</translation>
     </message>
 </context>
 <context>
@@ -1310,13 +1191,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>そのカメラを指定してください：gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1324,17 +1198,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>新しい画像が {} フレーム後もまだ完全に表示されません</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>そのカメラを指定してください：gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>この名前のカメラは接続されていません。接続されているのは {} です</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>撮影時刻を知らせません: 撮影のたびに数枚を捨てます</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>カメラに白と黒の差が見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>ピントが合わず、カメラは撮影しませんでした（{}）</translation>
     </message>
 </context>
 <context>
@@ -1345,10 +1233,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>{} 秒以内に写真が届きませんでした</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>撮影を要求しましたが、写真が届きませんでした</translation>
     </message>
 </context>
 <context>
@@ -1366,20 +1254,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>ソフトウェアトリガーがありません: 撮影ごとに露出 1 回分余計に待つことがあります</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>そのビデオデバイスは接続されていません</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1387,10 +1261,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>撮影時刻を知らせません: 撮影のたびに数枚を捨てます</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>ソフトウェアトリガーがありません: 撮影ごとに露出 1 回分余計に待つことがあります</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>ビデオデバイスから画像が届きません</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>この名前のカメラは接続されていません。接続されているのは {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>カメラに見えているのは {1} ではなく {0} です</translation>
     </message>
 </context>
 <context>
@@ -1401,10 +1296,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>撮影を要求しましたが、写真が届きませんでした</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>撮影に {} 回失敗しました：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>{} 画素を指定しましたが、カメラの画素数は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>写真が {} 画素（{}）で、取り決めた {}（{}）と異なります</translation>
     </message>
 </context>
 <context>
@@ -1422,10 +1331,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>写真が {} 画素（{}）で、取り決めた {}（{}）と異なります</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>{} 画素を指定しましたが、カメラの出力は {} です</translation>
     </message>
 </context>
 <context>
@@ -1436,6 +1345,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒以内に写真が届きませんでした</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1443,31 +1359,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>{} 画素を指定しましたが、カメラの画素数は {} です</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>新しい画像が {} フレーム後もまだ完全に表示されません</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>{} 画素を指定しましたが、カメラの出力は {} です</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>カメラに設定した画素形式が失われました</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>{} 画素を指定しましたが、ビデオデバイスの出力は {} です</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>シャッターボタンを半押しするか電源を入れ直し、自動電源オフを無効にしてください</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>カメラには、読み込める画素形式 {} がありません</translation>
     </message>
 </context>
 <context>
@@ -1485,17 +1394,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>プロジェクターの画面の表示が何度も途切れます</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>RAW ファイルを読み込めません（{}）</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>{} 画素のプロジェクターはありえません：各辺は {}～{} です</translation>
     </message>
 </context>
 <context>
@@ -1513,6 +1415,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>RAW ファイルを読み込めません（{}）</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1520,10 +1429,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>記録を書き込めません（{}）</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>測定を始めたときのカメラを接続してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>再接続されたカメラの画素数が {1} ではなく {0} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>`gio mount -s gphoto2` でデスクトップのマウントを解除し（またはファイルマネージャーで取り出し）、写真用のプログラムを終了してください</translation>
     </message>
 </context>
 <context>
@@ -1534,59 +1457,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>ターミナルで実行して原因を調べてください：{}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>色を見分けません: 明るさは補正できますが、色はできません</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>露出モードを Timed（手動）に設定するか、ファームウェアを更新してください</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>カメラを手動で ISO 100 に設定してください</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>最短の露出は 0 より大きく、最長の露出以下でなければなりません</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>カメラの自動露出とフレームレート制限をオフにしてください</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>カメラの自動露出をオフにしてください。手動露出のないカメラは使用できません</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>カメラをフルサイズの RAW に切り替えてください（sRAW、mRAW、リニア DNG は不可）</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>カメラが要求を拒否しました（{}）</translation>
     </message>
 </context>
 <context>
@@ -1597,17 +1471,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>レンズをマニュアルフォーカスに切り替えてください</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>電源を入れ直し、メーカーのプログラムで初期設定を読み込んでから、再試行してください</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>レンズをマニュアルフォーカスに切り替え、カメラのメニューを閉じ、手動で 1 枚撮影して、カメラに出るエラーを確認してください</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>ターミナルで実行して原因を調べてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>プロジェクターの画面の表示が何度も途切れます</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>{} の表示内容がカメラに見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>色を見分けません: 明るさは補正できますが、色はできません</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>カメラを手動で ISO 100 に設定してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>露出モードを Timed（手動）に設定するか、ファームウェアを更新してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>この機種のカメラが {} 台接続されています</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>カメラの視野が動いていないことと露出が短いことを確認し、プロジェクターの動き補間をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>カメラの自動露出をオフにしてください。手動露出のないカメラは使用できません</translation>
     </message>
 </context>
 <context>
@@ -1618,17 +1555,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>電源を入れ直し、メーカーのプログラムで初期設定を読み込んでから、再試行してください</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>v4l2-ctl でオフにするか（--list-ctrls で設定項目を一覧できます）、別のカメラを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>ケーブルを確認し、カメラの電源を入れ、自動電源オフを無効にしてください</translation>
     </message>
 </context>
 <context>
@@ -1639,10 +1576,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>カメラをフルサイズの RAW に切り替えてください（sRAW、mRAW、リニア DNG は不可）</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>レンズをマニュアルフォーカスに切り替えてください</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>しばらくすると自動で電源が切れます: その設定をオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>レンズをマニュアルフォーカスに切り替え、カメラのメニューを閉じ、手動で 1 枚撮影して、カメラに出るエラーを確認してください</translation>
     </message>
 </context>
 <context>
@@ -1653,10 +1611,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>ダイヤルを M に合わせてください</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>カメラに撮影を要求しましたが、撮影されませんでした</translation>
     </message>
 </context>
 <context>
@@ -1667,10 +1625,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>カメラの形式は {} です。読み込めるのは 8～16 ビットの非パック形式の Mono、Bayer、RGB です</translation>
+        <source>turn it to M</source>
+        <translation>ダイヤルを M に合わせてください</translation>
     </message>
 </context>
 <context>
@@ -1688,24 +1646,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>ビデオデバイスの接続が外れました</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>ビデオデバイスをもう一度開くことができません</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>ビデオデバイスを開けません：ほかのプログラムが使用しているかもしれません</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>そのビデオデバイスは接続されていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>ビデオデバイスの接続が外れました</translation>
     </message>
 </context>
 <context>
@@ -1716,10 +1674,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>ビデオデバイスから画像が届きません</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>{} 画素を指定しましたが、ビデオデバイスの出力は {} です</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>シャッターボタンを半押しするか電源を入れ直し、自動電源オフを無効にしてください</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>コマンドがそのサイズで書き込むようにするか、カメラが出力するサイズで最初からやり直してください</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>コマンドが写真を {output} に書き込むようにしてください：{}</translation>
     </message>
 </context>
 <context>
@@ -1779,6 +1758,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>保存先の空き容量を増やすかディスクを確認してから、再試行してください</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1786,24 +1772,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>グラフィックカードを使用できません</translation>
+        <source>{} h {} min</source>
+        <translation>{} 時間 {} 分</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>グラフィックカードが使えなくなりました</translation>
+        <source>{} min</source>
+        <translation>{} 分</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>グラフィックカードのメモリに {} MB の空きがありません</translation>
+        <source>{} s</source>
+        <translation>{} 秒</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>CPU で処理してください</translation>
     </message>
 </context>
 <context>
@@ -1814,17 +1807,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>グラフィックカードが使えなくなりました</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>グラフィックカードを使用できません</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>グラフィックカードのメモリに {} MB の空きがありません</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>グラフィックカードのドライバーをインストールするか、CPU で処理してください</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>CPU で処理してください</translation>
     </message>
 </context>
 <context>
@@ -1905,10 +1912,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>カメラに共通する露出時間がありません</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>露出時間の範囲が重なるようにカメラを設定してください</translation>
     </message>
 </context>
 <context>
@@ -1940,10 +1947,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}：明るさの曲線が画像のどこでも同じではなく、白の最大 {} % の差があります。プロジェクターの均一性補正、ローカルディミング、エッジブレンディングをオフにしてください</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>カメラに共通する露出時間がありません</translation>
     </message>
 </context>
 <context>
@@ -1954,10 +1961,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>露出時間の範囲が重なるようにカメラを設定してください</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}：明るさの曲線が画像のどこでも同じではなく、白の最大 {} % の差があります。プロジェクターの均一性補正、ローカルディミング、エッジブレンディングをオフにしてください</translation>
     </message>
 </context>
 <context>
@@ -2093,10 +2100,6 @@
         <source>Fineness</source>
         <translation>細かさ</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>色</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2158,18 +2161,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>ガラス、光沢、奥まった角</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>赤・緑・青</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>白のみ</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>白のみは 3 倍速く、色に数パーセントのずれが出ます。</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2393,6 +2384,38 @@
         <source>%n pattern(s)</source>
         <translation>
             <numerusform>パターン %n 枚</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>%1 px で終了</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>測定を続ける</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>測定は %1 px のブロックで終了しました</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます：写真約 %n 枚、%1。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1。誤差は約 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>写真 %n 枚</numerusform>
         </translation>
     </message>
 </context>
@@ -5012,17 +5035,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>空き容量を増やしてください</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>レポートを書き込めません</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>空き容量を増やしてください</translation>
     </message>
 </context>
 <context>
@@ -5054,10 +5077,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>サービスを有効にできません（{}）</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>削除できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>ログを書き込めません（{}）</translation>
     </message>
 </context>
 <context>
@@ -5082,10 +5119,10 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>ログを書き込めません（{}）</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>デスクトップの設定で解像度を元に戻してから、再試行してください</translation>
     </message>
 </context>
 <context>
@@ -5100,20 +5137,6 @@ projector %2</source>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>プロジェクターの画面は現在 {} 画素ですが、校正時は {} でした</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>サービスを有効にできません（{}）</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>デスクトップの設定で解像度を元に戻してから、再試行してください</translation>
     </message>
 </context>
 <context>
@@ -5159,6 +5182,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>サイズ制限付きクラスター</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>クラスターのサイズ制限</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5184,13 +5221,6 @@ projector %2</source>
     <message>
         <source>Clustering the light transport</source>
         <translation>光輸送のクラスター分け</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>サイズ制限付きクラスター</translation>
     </message>
 </context>
 <context>
@@ -5278,6 +5308,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>プロジェクターの画像の検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>影の検出</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5296,13 +5340,6 @@ projector %2</source>
     <message>
         <source>Forming patches</source>
         <translation>パッチの形成</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>クラスターのサイズ制限</translation>
     </message>
 </context>
 <context>
@@ -5365,20 +5402,6 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>プロジェクターの画像の検出</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>影の検出</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5397,16 +5420,6 @@ projector %2</source>
     <message>
         <source>Measuring the camera</source>
         <translation>カメラの測定</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>要確認の {} 画素の再測定</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5550,6 +5563,16 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>要確認の {} 画素の再測定</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5641,17 +5664,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>画像を書き込めませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
     </message>
 </context>
 </TS>

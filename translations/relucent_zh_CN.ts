@@ -13,27 +13,6 @@
     </message>
 </context>
 <context>
-    <name>duration.seconds</name>
-    <message>
-        <source>{} s</source>
-        <translation>{} 秒</translation>
-    </message>
-</context>
-<context>
-    <name>duration.minutes</name>
-    <message>
-        <source>{} min</source>
-        <translation>{} 分钟</translation>
-    </message>
-</context>
-<context>
-    <name>duration.hours-minutes</name>
-    <message>
-        <source>{} h {} min</source>
-        <translation>{} 小时 {} 分钟</translation>
-    </message>
-</context>
-<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -268,6 +247,13 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-early</name>
+    <message>
+        <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
+        <translation>测量在 {} px 的块处停止：缺少更精细的部分，画面补偿不够清晰；只要没有东西移动，可随时继续测量</translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -422,27 +408,6 @@
     </message>
 </context>
 <context>
-    <name>calibration.manifest-damaged</name>
-    <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校准数据的清单文件已损坏</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-list-folder</name>
-    <message>
-        <source>cannot look into the folder ({})</source>
-        <translation>无法查看文件夹内容（{}）</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.cannot-open-folder</name>
-    <message>
-        <source>cannot open the folder ({})</source>
-        <translation>无法打开文件夹（{}）</translation>
-    </message>
-</context>
-<context>
     <name>calibration.allow-writing-then-resume</name>
     <message>
         <source>check that the folder may be written to, then go on</source>
@@ -454,6 +419,34 @@
     <message>
         <source>check that the folder may be written to, then try again</source>
         <translation>请确认该文件夹可写入，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-list-folder</name>
+    <message>
+        <source>cannot look into the folder ({})</source>
+        <translation>无法查看文件夹内容（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-move-photograph</name>
+    <message>
+        <source>a photograph cannot be moved ({})</source>
+        <translation>无法移动照片（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-open-folder</name>
+    <message>
+        <source>cannot open the folder ({})</source>
+        <translation>无法打开文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.cannot-remove-photograph</name>
+    <message>
+        <source>a photograph cannot be removed ({})</source>
+        <translation>无法删除照片（{}）</translation>
     </message>
 </context>
 <context>
@@ -478,24 +471,10 @@
     </message>
 </context>
 <context>
-    <name>calibration.result-file-size-wrong</name>
+    <name>calibration.manifest-damaged</name>
     <message>
-        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
-        <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
-    </message>
-</context>
-<context>
-    <name>calibration.result-file-missing</name>
-    <message>
-        <source>a file of the calibration&apos;s {} is missing</source>
-        <translation>校准数据“{}”缺少一个文件</translation>
-    </message>
-</context>
-<context>
-    <name>disk.free-space-or-check-disk</name>
-    <message>
-        <source>free some space there or check the disk, then try again</source>
-        <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
+        <source>the calibration&apos;s manifest is damaged</source>
+        <translation>校准数据的清单文件已损坏</translation>
     </message>
 </context>
 <context>
@@ -506,17 +485,17 @@
     </message>
 </context>
 <context>
-    <name>calibration.cannot-move-photograph</name>
+    <name>calibration.result-file-missing</name>
     <message>
-        <source>a photograph cannot be moved ({})</source>
-        <translation>无法移动照片（{}）</translation>
+        <source>a file of the calibration&apos;s {} is missing</source>
+        <translation>校准数据“{}”缺少一个文件</translation>
     </message>
 </context>
 <context>
-    <name>calibration.cannot-remove-photograph</name>
+    <name>calibration.result-file-size-wrong</name>
     <message>
-        <source>a photograph cannot be removed ({})</source>
-        <translation>无法删除照片（{}）</translation>
+        <source>a file of the calibration&apos;s {} has {} bytes instead of {}</source>
+        <translation>校准数据“{}”的一个文件为 {} 字节，应为 {} 字节</translation>
     </message>
 </context>
 <context>
@@ -624,17 +603,10 @@
     </message>
 </context>
 <context>
-    <name>content.nothing-captured</name>
+    <name>content.connect-capture-device</name>
     <message>
-        <source>the capture device gives no picture</source>
-        <translation>采集设备没有给出图像</translation>
-    </message>
-</context>
-<context>
-    <name>content.no-x-server</name>
-    <message>
-        <source>the live picture of a screen needs an X server, and none answers</source>
-        <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
+        <source>plug it in, close other programs that use it, and try again</source>
+        <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
     </message>
 </context>
 <context>
@@ -645,10 +617,17 @@
     </message>
 </context>
 <context>
-    <name>content.connect-capture-device</name>
+    <name>content.no-x-server</name>
     <message>
-        <source>plug it in, close other programs that use it, and try again</source>
-        <translation>请接上设备，关闭使用它的其他程序，然后重试</translation>
+        <source>the live picture of a screen needs an X server, and none answers</source>
+        <translation>屏幕的实时画面需要 X 服务器，但没有响应</translation>
+    </message>
+</context>
+<context>
+    <name>content.nothing-captured</name>
+    <message>
+        <source>the capture device gives no picture</source>
+        <translation>采集设备没有给出图像</translation>
     </message>
 </context>
 <context>
@@ -656,6 +635,13 @@
     <message>
         <source>aim it at the projection, take off its lens cap, and expose longer</source>
         <translation>请将相机对准投影，取下镜头盖，并加长曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.allow-command-more-time</name>
+    <message>
+        <source>check the device, or allow the command more time: {}</source>
+        <translation>请检查设备，或给该命令更多时间：{}</translation>
     </message>
 </context>
 <context>
@@ -687,27 +673,6 @@
     </message>
 </context>
 <context>
-    <name>device.gain-refused</name>
-    <message>
-        <source>was asked for a gain of {} but uses {}</source>
-        <translation>要求增益 {}，却保持 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.iso-refused</name>
-    <message>
-        <source>was asked for ISO {} but uses ISO {}</source>
-        <translation>要求 ISO {}，却保持 ISO {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.photograph-attempts-failed</name>
-    <message>
-        <source>{} attempts at a photograph failed: {}</source>
-        <translation>尝试拍摄 {} 次均失败：{}</translation>
-    </message>
-</context>
-<context>
     <name>device.automatic-exposure-stays</name>
     <message>
         <source>the video device&apos;s automatic exposure cannot be switched off</source>
@@ -719,6 +684,13 @@
     <message>
         <source>the video device&apos;s automatic focus cannot be switched off</source>
         <translation>无法关闭视频设备的自动对焦</translation>
+    </message>
+</context>
+<context>
+    <name>device.automatic-function-stays</name>
+    <message>
+        <source>{} cannot be switched off</source>
+        <translation>无法关闭 {}</translation>
     </message>
 </context>
 <context>
@@ -750,13 +722,6 @@
     </message>
 </context>
 <context>
-    <name>device.built-without-gphoto</name>
-    <message>
-        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
-        <translation>此构建的 Relucent 不支持单反和无反相机</translation>
-    </message>
-</context>
-<context>
     <name>device.built-without-genicam</name>
     <message>
         <source>this build of Relucent does not know GenICam cameras</source>
@@ -764,17 +729,10 @@
     </message>
 </context>
 <context>
-    <name>device.exposure-refused</name>
+    <name>device.built-without-gphoto</name>
     <message>
-        <source>the camera was asked to expose {} s but exposes {} s</source>
-        <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
-    </message>
-</context>
-<context>
-    <name>device.trial-photograph-failed</name>
-    <message>
-        <source>the camera was asked for a photograph and took none</source>
-        <translation>已要求相机拍摄，但它没有拍摄</translation>
+        <source>this build of Relucent does not know DSLR and mirrorless cameras</source>
+        <translation>此构建的 Relucent 不支持单反和无反相机</translation>
     </message>
 </context>
 <context>
@@ -782,41 +740,6 @@
     <message>
         <source>the camera is there but does not answer, it may be asleep</source>
         <translation>相机已连接但没有响应，可能处于休眠状态</translation>
-    </message>
-</context>
-<context>
-    <name>device.camera-not-back</name>
-    <message>
-        <source>the camera has been gone for {} s: {}</source>
-        <translation>相机已失去连接 {} 秒：{}</translation>
-    </message>
-</context>
-<context>
-    <name>device.reconnected-camera-size-differs</name>
-    <message>
-        <source>the camera came back with {} pixels instead of {}</source>
-        <translation>重新连接的相机为 {} 像素，应为 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.choose-gain-in-range</name>
-    <message>
-        <source>choose a gain from {} to {}</source>
-        <translation>相机支持的范围为 {} 至 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.claimed-exposures-invalid</name>
-    <message>
-        <source>the camera claims exposures of {} to {} s</source>
-        <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
-    </message>
-</context>
-<context>
-    <name>device.colour-filter-not-bayer</name>
-    <message>
-        <source>the camera&apos;s colour filter is not a Bayer filter</source>
-        <translation>相机的滤色片不是拜耳滤色片</translation>
     </message>
 </context>
 <context>
@@ -834,31 +757,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-lost</name>
-    <message>
-        <source>the camera has forgotten the pixel format that it was set to</source>
-        <translation>相机丢失了已设定的像素格式</translation>
-    </message>
-</context>
-<context>
-    <name>device.no-focus</name>
-    <message>
-        <source>the camera could not focus and took no photograph ({})</source>
-        <translation>相机未能对焦，没有拍摄照片（{}）</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-gone</name>
     <message>
         <source>the camera has been unplugged or switched off, or has fallen asleep</source>
         <translation>相机已断开、关机或进入休眠</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-time-fixed</name>
-    <message>
-        <source>the camera exposes {} s whatever exposure it is asked for</source>
-        <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
     </message>
 </context>
 <context>
@@ -869,24 +771,10 @@
     </message>
 </context>
 <context>
-    <name>device.pixel-format-not-offered</name>
+    <name>device.camera-not-back</name>
     <message>
-        <source>the camera has no pixel format {} that can be read</source>
-        <translation>相机没有可读取的像素格式 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.screen-not-seen</name>
-    <message>
-        <source>the camera does not see what is shown on {}</source>
-        <translation>相机看不到 {} 上显示的内容</translation>
-    </message>
-</context>
-<context>
-    <name>device.request-refused</name>
-    <message>
-        <source>the camera refused what it was asked for ({})</source>
-        <translation>相机拒绝了请求（{}）</translation>
+        <source>the camera has been gone for {} s: {}</source>
+        <translation>相机已失去连接 {} 秒：{}</translation>
     </message>
 </context>
 <context>
@@ -897,20 +785,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-contrast</name>
-    <message>
-        <source>the camera sees no difference between white and black</source>
-        <translation>相机看不出白与黑的差别</translation>
-    </message>
-</context>
-<context>
-    <name>device.other-screen-seen</name>
-    <message>
-        <source>the camera sees {}, not {}</source>
-        <translation>相机看到的是 {}，而不是 {}</translation>
-    </message>
-</context>
-<context>
     <name>device.camera-sends-no-stream</name>
     <message>
         <source>the camera sends no stream</source>
@@ -918,17 +792,17 @@
     </message>
 </context>
 <context>
+    <name>device.camera-size-out-of-range</name>
+    <message>
+        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {} 像素的相机：每边为 {} 至 {}</translation>
+    </message>
+</context>
+<context>
     <name>device.camera-stays-busy</name>
     <message>
         <source>the camera stays busy</source>
         <translation>相机一直处于忙碌状态</translation>
-    </message>
-</context>
-<context>
-    <name>device.several-cameras-of-model</name>
-    <message>
-        <source>{} cameras of this model are plugged in</source>
-        <translation>接上了 {} 台此型号的相机</translation>
     </message>
 </context>
 <context>
@@ -946,10 +820,24 @@
     </message>
 </context>
 <context>
-    <name>device.automatic-function-stays</name>
+    <name>device.cannot-reopen-video-device</name>
     <message>
-        <source>{} cannot be switched off</source>
-        <translation>无法关闭 {}</translation>
+        <source>the video device cannot be opened again</source>
+        <translation>无法重新打开视频设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-start-command</name>
+    <message>
+        <source>the command cannot be started ({})</source>
+        <translation>无法启动命令（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>device.cannot-write-recording</name>
+    <message>
+        <source>the recording cannot be written ({})</source>
+        <translation>无法写入记录（{}）</translation>
     </message>
 </context>
 <context>
@@ -981,24 +869,10 @@
     </message>
 </context>
 <context>
-    <name>device.check-cable-power-address</name>
-    <message>
-        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
-        <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
-    </message>
-</context>
-<context>
     <name>device.check-cable-and-power-saving</name>
     <message>
         <source>check its cable, and switch off its power saving</source>
         <translation>请检查线缆，并关闭其节能功能</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-on-and-keep-awake</name>
-    <message>
-        <source>check its cable, switch it on and disable its automatic power-off</source>
-        <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
     </message>
 </context>
 <context>
@@ -1009,17 +883,10 @@
     </message>
 </context>
 <context>
-    <name>device.steady-view-and-expose-briefly</name>
+    <name>device.check-cable-power-address</name>
     <message>
-        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
-        <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
-    </message>
-</context>
-<context>
-    <name>device.allow-command-more-time</name>
-    <message>
-        <source>check the device, or allow the command more time: {}</source>
-        <translation>请检查设备，或给该命令更多时间：{}</translation>
+        <source>check its cable, its power and its address; `relucent-cli devices` lists what is there</source>
+        <translation>请检查线缆、电源和地址；`relucent-cli devices` 可列出现有设备</translation>
     </message>
 </context>
 <context>
@@ -1030,6 +897,20 @@
     </message>
 </context>
 <context>
+    <name>device.choose-gain-in-range</name>
+    <message>
+        <source>choose a gain from {} to {}</source>
+        <translation>相机支持的范围为 {} 至 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.choose-offered-iso</name>
+    <message>
+        <source>choose one of those that it has: {}</source>
+        <translation>可选值为 {}</translation>
+    </message>
+</context>
+<context>
     <name>device.choose-or-aim-at-screen</name>
     <message>
         <source>choose {}, or aim the camera at {}</source>
@@ -1037,17 +918,17 @@
     </message>
 </context>
 <context>
-    <name>device.shortest-exposure-understated</name>
+    <name>device.choose-readable-pixel-format</name>
     <message>
-        <source>claims exposures from {} s but does not go below {} s</source>
-        <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
+        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
+        <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
     </message>
 </context>
 <context>
-    <name>device.longest-exposure-overstated</name>
+    <name>device.claimed-exposures-invalid</name>
     <message>
-        <source>claims exposures up to {} s but reaches only {} s</source>
-        <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
+        <source>the camera claims exposures of {} to {} s</source>
+        <translation>相机报告的曝光范围无效（{} 至 {} 秒）</translation>
     </message>
 </context>
 <context>
@@ -1072,10 +953,10 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-start-command</name>
+    <name>device.colour-filter-not-bayer</name>
     <message>
-        <source>the command cannot be started ({})</source>
-        <translation>无法启动命令（{}）</translation>
+        <source>the camera&apos;s colour filter is not a Bayer filter</source>
+        <translation>相机的滤色片不是拜耳滤色片</translation>
     </message>
 </context>
 <context>
@@ -1135,13 +1016,6 @@
     </message>
 </context>
 <context>
-    <name>device.reconnect-same-camera</name>
-    <message>
-        <source>connect the camera that the measurement was begun with</source>
-        <translation>请连接开始测量时所用的相机</translation>
-    </message>
-</context>
-<context>
     <name>device.copy-or-retake-photograph</name>
     <message>
         <source>copy it again, or take the photograph again; a camera newer than this LibRaw needs DNG files</source>
@@ -1163,10 +1037,31 @@
     </message>
 </context>
 <context>
+    <name>device.exposure-range-invalid</name>
+    <message>
+        <source>the shortest exposure must be above zero and no longer than the longest</source>
+        <translation>最短曝光必须大于零且不长于最长曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-refused</name>
+    <message>
+        <source>the camera was asked to expose {} s but exposes {} s</source>
+        <translation>要求相机曝光 {} 秒，但它保持 {} 秒</translation>
+    </message>
+</context>
+<context>
     <name>device.exposure-time-cannot-be-set</name>
     <message>
         <source>the camera&apos;s exposure time cannot be set</source>
         <translation>无法设置相机的曝光时间</translation>
+    </message>
+</context>
+<context>
+    <name>device.exposure-time-fixed</name>
+    <message>
+        <source>the camera exposes {} s whatever exposure it is asked for</source>
+        <translation>无论指定多长的曝光，相机都保持 {} 秒</translation>
     </message>
 </context>
 <context>
@@ -1198,6 +1093,13 @@
     </message>
 </context>
 <context>
+    <name>device.gain-refused</name>
+    <message>
+        <source>was asked for a gain of {} but uses {}</source>
+        <translation>要求增益 {}，却保持 {}</translation>
+    </message>
+</context>
+<context>
     <name>device.genicam-missing</name>
     <message>
         <source>GigE Vision and USB3 Vision cameras: this build lacks Aravis; install libaravis-dev and build again</source>
@@ -1219,20 +1121,6 @@
     </message>
 </context>
 <context>
-    <name>device.camera-size-out-of-range</name>
-    <message>
-        <source>a camera of {} pixels is impossible: each side is {} to {}</source>
-        <translation>不可能有 {} 像素的相机：每边为 {} 至 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.projector-size-out-of-range</name>
-    <message>
-        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
-        <translation>不可能有 {} 像素的投影机：每边为 {} 至 {}</translation>
-    </message>
-</context>
-<context>
     <name>device.install-aravis</name>
     <message>
         <source>install Aravis (libaravis-dev) and build again, or use another kind of camera</source>
@@ -1247,6 +1135,13 @@
     </message>
 </context>
 <context>
+    <name>device.iso-refused</name>
+    <message>
+        <source>was asked for ISO {} but uses ISO {}</source>
+        <translation>要求 ISO {}，却保持 ISO {}</translation>
+    </message>
+</context>
+<context>
     <name>device.iso-wanted-not-there</name>
     <message>
         <source>ISO {} is wanted and the camera does not have it</source>
@@ -1254,31 +1149,17 @@
     </message>
 </context>
 <context>
-    <name>device.choose-offered-iso</name>
+    <name>device.lift-exposure-limits</name>
     <message>
-        <source>choose one of those that it has: {}</source>
-        <translation>可选值为 {}</translation>
+        <source>switch its automatic exposure and its frame rate limit off</source>
+        <translation>请关闭相机的自动曝光和帧率限制</translation>
     </message>
 </context>
 <context>
-    <name>device.write-announced-size</name>
+    <name>device.longest-exposure-overstated</name>
     <message>
-        <source>let the command write that size, or begin again with the size that the camera delivers</source>
-        <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
-    </message>
-</context>
-<context>
-    <name>device.release-from-desktop</name>
-    <message>
-        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
-        <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
-    </message>
-</context>
-<context>
-    <name>device.write-photograph-to-output</name>
-    <message>
-        <source>let it write the photograph to {output}: {}</source>
-        <translation>请让命令将照片写入 {output}：{}</translation>
+        <source>claims exposures up to {} s but reaches only {} s</source>
+        <translation>声称曝光可长至 {} s，实际只到 {} s</translation>
     </message>
 </context>
 <context>
@@ -1310,13 +1191,6 @@
     </message>
 </context>
 <context>
-    <name>device.name-connected-camera</name>
-    <message>
-        <source>name that one: gphoto2:{}</source>
-        <translation>请指定该相机：gphoto2:{}</translation>
-    </message>
-</context>
-<context>
     <name>device.name-camera-by-port</name>
     <message>
         <source>name one by its port: gphoto2:{} or gphoto2:{}</source>
@@ -1324,17 +1198,31 @@
     </message>
 </context>
 <context>
-    <name>device.picture-not-settled</name>
+    <name>device.name-connected-camera</name>
     <message>
-        <source>a new picture has not fully appeared after {} frames</source>
-        <translation>新图像在 {} 帧后仍未完全显示</translation>
+        <source>name that one: gphoto2:{}</source>
+        <translation>请指定该相机：gphoto2:{}</translation>
     </message>
 </context>
 <context>
-    <name>device.only-other-camera-connected</name>
+    <name>device.no-capture-times</name>
     <message>
-        <source>no camera of this name is plugged in, but {} is</source>
-        <translation>没有接上此名称的相机，接上的是 {}</translation>
+        <source>does not say when pictures were captured: some are dropped before each photograph</source>
+        <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-contrast</name>
+    <message>
+        <source>the camera sees no difference between white and black</source>
+        <translation>相机看不出白与黑的差别</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-focus</name>
+    <message>
+        <source>the camera could not focus and took no photograph ({})</source>
+        <translation>相机未能对焦，没有拍摄照片（{}）</translation>
     </message>
 </context>
 <context>
@@ -1345,10 +1233,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-timed-out</name>
+    <name>device.no-photograph-came</name>
     <message>
-        <source>no photograph came within {} s</source>
-        <translation>{} 秒内没有收到照片</translation>
+        <source>a photograph was asked for and none came</source>
+        <translation>已要求拍摄，但没有收到照片</translation>
     </message>
 </context>
 <context>
@@ -1366,20 +1254,6 @@
     </message>
 </context>
 <context>
-    <name>device.no-software-trigger</name>
-    <message>
-        <source>has no software trigger: each photograph may wait for one more exposure</source>
-        <translation>没有软件触发：每张照片可能多等一次曝光</translation>
-    </message>
-</context>
-<context>
-    <name>device.video-device-missing</name>
-    <message>
-        <source>no such video device is plugged in</source>
-        <translation>没有接上这样的视频设备</translation>
-    </message>
-</context>
-<context>
     <name>device.no-readable-pixel-format</name>
     <message>
         <source>none of the camera&apos;s pixel formats can be read</source>
@@ -1387,10 +1261,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-capture-times</name>
+    <name>device.no-software-trigger</name>
     <message>
-        <source>does not say when pictures were captured: some are dropped before each photograph</source>
-        <translation>不说明图像何时拍摄：每次拍照前会丢弃几张</translation>
+        <source>has no software trigger: each photograph may wait for one more exposure</source>
+        <translation>没有软件触发：每张照片可能多等一次曝光</translation>
+    </message>
+</context>
+<context>
+    <name>device.no-video-pictures</name>
+    <message>
+        <source>the video device sends no pictures</source>
+        <translation>视频设备没有发送图像</translation>
+    </message>
+</context>
+<context>
+    <name>device.only-other-camera-connected</name>
+    <message>
+        <source>no camera of this name is plugged in, but {} is</source>
+        <translation>没有接上此名称的相机，接上的是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.other-screen-seen</name>
+    <message>
+        <source>the camera sees {}, not {}</source>
+        <translation>相机看到的是 {}，而不是 {}</translation>
     </message>
 </context>
 <context>
@@ -1401,10 +1296,24 @@
     </message>
 </context>
 <context>
-    <name>device.no-photograph-came</name>
+    <name>device.photograph-attempts-failed</name>
     <message>
-        <source>a photograph was asked for and none came</source>
-        <translation>已要求拍摄，但没有收到照片</translation>
+        <source>{} attempts at a photograph failed: {}</source>
+        <translation>尝试拍摄 {} 次均失败：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-exceeds-sensor</name>
+    <message>
+        <source>{} pixels are wanted and the camera has {}</source>
+        <translation>指定了 {} 像素，但相机有 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.photograph-format-changed</name>
+    <message>
+        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
+        <translation>照片为 {} 像素（{}），与约定的 {}（{}）不符</translation>
     </message>
 </context>
 <context>
@@ -1422,10 +1331,10 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-format-changed</name>
+    <name>device.photograph-size-refused</name>
     <message>
-        <source>the photograph has {} pixels as {} where {} as {} were agreed</source>
-        <translation>照片为 {} 像素（{}），与约定的 {}（{}）不符</translation>
+        <source>{} pixels are wanted and the camera gives {}</source>
+        <translation>指定了 {} 像素，但相机给出的是 {}</translation>
     </message>
 </context>
 <context>
@@ -1436,6 +1345,13 @@
     </message>
 </context>
 <context>
+    <name>device.photograph-timed-out</name>
+    <message>
+        <source>no photograph came within {} s</source>
+        <translation>{} 秒内没有收到照片</translation>
+    </message>
+</context>
+<context>
     <name>device.photograph-truncated</name>
     <message>
         <source>a photograph of {} pixels as {} came with {} of {} bytes</source>
@@ -1443,31 +1359,24 @@
     </message>
 </context>
 <context>
-    <name>device.photograph-exceeds-sensor</name>
+    <name>device.picture-not-settled</name>
     <message>
-        <source>{} pixels are wanted and the camera has {}</source>
-        <translation>指定了 {} 像素，但相机有 {}</translation>
+        <source>a new picture has not fully appeared after {} frames</source>
+        <translation>新图像在 {} 帧后仍未完全显示</translation>
     </message>
 </context>
 <context>
-    <name>device.photograph-size-refused</name>
+    <name>device.pixel-format-lost</name>
     <message>
-        <source>{} pixels are wanted and the camera gives {}</source>
-        <translation>指定了 {} 像素，但相机给出的是 {}</translation>
+        <source>the camera has forgotten the pixel format that it was set to</source>
+        <translation>相机丢失了已设定的像素格式</translation>
     </message>
 </context>
 <context>
-    <name>device.video-size-refused</name>
+    <name>device.pixel-format-not-offered</name>
     <message>
-        <source>{} pixels are wanted and the video device gives {}</source>
-        <translation>指定了 {} 像素，但视频设备给出的是 {}</translation>
-    </message>
-</context>
-<context>
-    <name>device.wake-camera</name>
-    <message>
-        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
-        <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
+        <source>the camera has no pixel format {} that can be read</source>
+        <translation>相机没有可读取的像素格式 {}</translation>
     </message>
 </context>
 <context>
@@ -1485,17 +1394,10 @@
     </message>
 </context>
 <context>
-    <name>device.screen-loses-picture</name>
+    <name>device.projector-size-out-of-range</name>
     <message>
-        <source>the projector&apos;s screen keeps losing its picture</source>
-        <translation>投影机的屏幕一再丢失图像</translation>
-    </message>
-</context>
-<context>
-    <name>device.raw-file-unreadable</name>
-    <message>
-        <source>the raw file cannot be read ({})</source>
-        <translation>无法读取 RAW 文件（{}）</translation>
+        <source>a projector of {} pixels is impossible: each side is {} to {}</source>
+        <translation>不可能有 {} 像素的投影机：每边为 {} 至 {}</translation>
     </message>
 </context>
 <context>
@@ -1513,6 +1415,13 @@
     </message>
 </context>
 <context>
+    <name>device.raw-file-unreadable</name>
+    <message>
+        <source>the raw file cannot be read ({})</source>
+        <translation>无法读取 RAW 文件（{}）</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-without-sensor-values</name>
     <message>
         <source>the raw file does not hold the sensor&apos;s own values</source>
@@ -1520,10 +1429,24 @@
     </message>
 </context>
 <context>
-    <name>device.cannot-write-recording</name>
+    <name>device.reconnect-same-camera</name>
     <message>
-        <source>the recording cannot be written ({})</source>
-        <translation>无法写入记录（{}）</translation>
+        <source>connect the camera that the measurement was begun with</source>
+        <translation>请连接开始测量时所用的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.reconnected-camera-size-differs</name>
+    <message>
+        <source>the camera came back with {} pixels instead of {}</source>
+        <translation>重新连接的相机为 {} 像素，应为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.release-from-desktop</name>
+    <message>
+        <source>make the desktop release it with `gio mount -s gphoto2` (or eject it in the file manager) and close photo programs</source>
+        <translation>请用 `gio mount -s gphoto2` 让桌面释放相机（或在文件管理器中弹出），并关闭照片程序</translation>
     </message>
 </context>
 <context>
@@ -1534,59 +1457,10 @@
     </message>
 </context>
 <context>
-    <name>device.run-command-in-terminal</name>
+    <name>device.request-refused</name>
     <message>
-        <source>run it in a terminal to find out why: {}</source>
-        <translation>请在终端中运行以查明原因：{}</translation>
-    </message>
-</context>
-<context>
-    <name>device.sees-no-colours</name>
-    <message>
-        <source>sees no colours: brightness can be compensated, colours cannot</source>
-        <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-manual-exposure-mode</name>
-    <message>
-        <source>set its exposure mode to timed and manual, or update its firmware</source>
-        <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
-    </message>
-</context>
-<context>
-    <name>device.set-iso-100</name>
-    <message>
-        <source>set it to ISO 100 by hand</source>
-        <translation>请手动将相机设为 ISO 100</translation>
-    </message>
-</context>
-<context>
-    <name>device.exposure-range-invalid</name>
-    <message>
-        <source>the shortest exposure must be above zero and no longer than the longest</source>
-        <translation>最短曝光必须大于零且不长于最长曝光</translation>
-    </message>
-</context>
-<context>
-    <name>device.lift-exposure-limits</name>
-    <message>
-        <source>switch its automatic exposure and its frame rate limit off</source>
-        <translation>请关闭相机的自动曝光和帧率限制</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-off-automatic-exposure</name>
-    <message>
-        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
-        <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
-    </message>
-</context>
-<context>
-    <name>device.switch-to-full-size-raw</name>
-    <message>
-        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
-        <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
+        <source>the camera refused what it was asked for ({})</source>
+        <translation>相机拒绝了请求（{}）</translation>
     </message>
 </context>
 <context>
@@ -1597,17 +1471,80 @@
     </message>
 </context>
 <context>
-    <name>device.switch-to-manual-focus</name>
+    <name>device.restart-with-default-settings</name>
     <message>
-        <source>switch its lens to manual focus</source>
-        <translation>请将镜头切换到手动对焦</translation>
+        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
+        <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
     </message>
 </context>
 <context>
-    <name>device.take-photograph-by-hand</name>
+    <name>device.run-command-in-terminal</name>
     <message>
-        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
-        <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
+        <source>run it in a terminal to find out why: {}</source>
+        <translation>请在终端中运行以查明原因：{}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-loses-picture</name>
+    <message>
+        <source>the projector&apos;s screen keeps losing its picture</source>
+        <translation>投影机的屏幕一再丢失图像</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-not-seen</name>
+    <message>
+        <source>the camera does not see what is shown on {}</source>
+        <translation>相机看不到 {} 上显示的内容</translation>
+    </message>
+</context>
+<context>
+    <name>device.sees-no-colours</name>
+    <message>
+        <source>sees no colours: brightness can be compensated, colours cannot</source>
+        <translation>看不到颜色：可以补偿亮度，不能补偿颜色</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-iso-100</name>
+    <message>
+        <source>set it to ISO 100 by hand</source>
+        <translation>请手动将相机设为 ISO 100</translation>
+    </message>
+</context>
+<context>
+    <name>device.set-manual-exposure-mode</name>
+    <message>
+        <source>set its exposure mode to timed and manual, or update its firmware</source>
+        <translation>请将其曝光模式设为 Timed（手动），或更新其固件</translation>
+    </message>
+</context>
+<context>
+    <name>device.several-cameras-of-model</name>
+    <message>
+        <source>{} cameras of this model are plugged in</source>
+        <translation>接上了 {} 台此型号的相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.shortest-exposure-understated</name>
+    <message>
+        <source>claims exposures from {} s but does not go below {} s</source>
+        <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.steady-view-and-expose-briefly</name>
+    <message>
+        <source>check that the camera&apos;s view is steady and its exposure short, and switch the projector&apos;s smoothing of motion off</source>
+        <translation>请确认相机画面稳定、曝光够短，并关闭投影机的运动平滑</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-off-automatic-exposure</name>
+    <message>
+        <source>switch its automatic exposure off; a camera without manual exposure cannot be used</source>
+        <translation>请关闭相机的自动曝光；没有手动曝光的相机无法使用</translation>
     </message>
 </context>
 <context>
@@ -1618,17 +1555,17 @@
     </message>
 </context>
 <context>
-    <name>device.restart-with-default-settings</name>
-    <message>
-        <source>switch it off and on, load its default settings with its maker&apos;s program, and try again</source>
-        <translation>请将其关机并重新开机，用厂商的程序载入默认设置，然后重试</translation>
-    </message>
-</context>
-<context>
     <name>device.switch-off-with-v4l2-ctl</name>
     <message>
         <source>switch it off with v4l2-ctl (--list-ctrls names what it has), or use another camera</source>
         <translation>请用 v4l2-ctl 将其关闭（--list-ctrls 可列出其控制项），或换用其他相机</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-on-and-keep-awake</name>
+    <message>
+        <source>check its cable, switch it on and disable its automatic power-off</source>
+        <translation>请检查线缆，打开相机，并关闭其自动关机功能</translation>
     </message>
 </context>
 <context>
@@ -1639,10 +1576,31 @@
     </message>
 </context>
 <context>
+    <name>device.switch-to-full-size-raw</name>
+    <message>
+        <source>switch the camera to full-size RAW (no sRAW, mRAW, no linear DNG)</source>
+        <translation>请将相机切换为全尺寸 RAW（不要用 sRAW、mRAW 或线性 DNG）</translation>
+    </message>
+</context>
+<context>
+    <name>device.switch-to-manual-focus</name>
+    <message>
+        <source>switch its lens to manual focus</source>
+        <translation>请将镜头切换到手动对焦</translation>
+    </message>
+</context>
+<context>
     <name>device.switches-itself-off</name>
     <message>
         <source>switches itself off after a while: switch that off</source>
         <translation>一段时间后会自动关机：请关闭该功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.take-photograph-by-hand</name>
+    <message>
+        <source>switch its lens to manual focus, close its menus, and take a photograph by hand to see what it complains of</source>
+        <translation>请将镜头切换到手动对焦，关闭相机的菜单，并手动拍一张照片，查看相机提示什么问题</translation>
     </message>
 </context>
 <context>
@@ -1653,10 +1611,10 @@
     </message>
 </context>
 <context>
-    <name>device.turn-dial-to-m</name>
+    <name>device.trial-photograph-failed</name>
     <message>
-        <source>turn it to M</source>
-        <translation>请将转盘转到 M</translation>
+        <source>the camera was asked for a photograph and took none</source>
+        <translation>已要求相机拍摄，但它没有拍摄</translation>
     </message>
 </context>
 <context>
@@ -1667,10 +1625,10 @@
     </message>
 </context>
 <context>
-    <name>device.choose-readable-pixel-format</name>
+    <name>device.turn-dial-to-m</name>
     <message>
-        <source>it has {}; unpacked Mono, Bayer and RGB of 8 to 16 bits are read</source>
-        <translation>相机的格式为 {}；可读取的是 8 至 16 位的非打包 Mono、Bayer 和 RGB</translation>
+        <source>turn it to M</source>
+        <translation>请将转盘转到 M</translation>
     </message>
 </context>
 <context>
@@ -1688,24 +1646,24 @@
     </message>
 </context>
 <context>
-    <name>device.video-device-unplugged</name>
-    <message>
-        <source>the video device has been unplugged</source>
-        <translation>视频设备已断开</translation>
-    </message>
-</context>
-<context>
-    <name>device.cannot-reopen-video-device</name>
-    <message>
-        <source>the video device cannot be opened again</source>
-        <translation>无法重新打开视频设备</translation>
-    </message>
-</context>
-<context>
     <name>device.video-device-in-use</name>
     <message>
         <source>the video device cannot be opened: another program may be using it</source>
         <translation>无法打开视频设备：可能有其他程序正在使用它</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-missing</name>
+    <message>
+        <source>no such video device is plugged in</source>
+        <translation>没有接上这样的视频设备</translation>
+    </message>
+</context>
+<context>
+    <name>device.video-device-unplugged</name>
+    <message>
+        <source>the video device has been unplugged</source>
+        <translation>视频设备已断开</translation>
     </message>
 </context>
 <context>
@@ -1716,10 +1674,31 @@
     </message>
 </context>
 <context>
-    <name>device.no-video-pictures</name>
+    <name>device.video-size-refused</name>
     <message>
-        <source>the video device sends no pictures</source>
-        <translation>视频设备没有发送图像</translation>
+        <source>{} pixels are wanted and the video device gives {}</source>
+        <translation>指定了 {} 像素，但视频设备给出的是 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.wake-camera</name>
+    <message>
+        <source>press its shutter button half way or switch it off and on, and disable its automatic power-off</source>
+        <translation>请半按快门按钮，或关机并重新开机，并关闭其自动关机功能</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-announced-size</name>
+    <message>
+        <source>let the command write that size, or begin again with the size that the camera delivers</source>
+        <translation>请让命令写入该尺寸，或按相机给出的尺寸重新开始</translation>
+    </message>
+</context>
+<context>
+    <name>device.write-photograph-to-output</name>
+    <message>
+        <source>let it write the photograph to {output}: {}</source>
+        <translation>请让命令将照片写入 {output}：{}</translation>
     </message>
 </context>
 <context>
@@ -1779,6 +1758,13 @@
     </message>
 </context>
 <context>
+    <name>disk.free-space-or-check-disk</name>
+    <message>
+        <source>free some space there or check the disk, then try again</source>
+        <translation>请在该处腾出一些空间或检查磁盘，然后重试</translation>
+    </message>
+</context>
+<context>
     <name>disk.free-space-or-choose-another</name>
     <message>
         <source>free some space there or choose another disk, then try again</source>
@@ -1786,24 +1772,31 @@
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-unusable</name>
+    <name>duration.hours-minutes</name>
     <message>
-        <source>the graphics card cannot be used</source>
-        <translation>无法使用显卡</translation>
+        <source>{} h {} min</source>
+        <translation>{} 小时 {} 分钟</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-card-lost</name>
+    <name>duration.minutes</name>
     <message>
-        <source>the graphics card was lost</source>
-        <translation>显卡已失去响应</translation>
+        <source>{} min</source>
+        <translation>{} 分钟</translation>
     </message>
 </context>
 <context>
-    <name>engine.graphics-memory-exhausted</name>
+    <name>duration.seconds</name>
     <message>
-        <source>the graphics card has no {} MB of memory left</source>
-        <translation>显卡没有 {} MB 的剩余显存</translation>
+        <source>{} s</source>
+        <translation>{} 秒</translation>
+    </message>
+</context>
+<context>
+    <name>engine.compute-on-processor</name>
+    <message>
+        <source>compute on the processor instead</source>
+        <translation>请改用 CPU 处理</translation>
     </message>
 </context>
 <context>
@@ -1814,17 +1807,31 @@
     </message>
 </context>
 <context>
+    <name>engine.graphics-card-lost</name>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>显卡已失去响应</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-card-unusable</name>
+    <message>
+        <source>the graphics card cannot be used</source>
+        <translation>无法使用显卡</translation>
+    </message>
+</context>
+<context>
+    <name>engine.graphics-memory-exhausted</name>
+    <message>
+        <source>the graphics card has no {} MB of memory left</source>
+        <translation>显卡没有 {} MB 的剩余显存</translation>
+    </message>
+</context>
+<context>
     <name>engine.install-driver</name>
     <message>
         <source>install the graphics card&apos;s driver, or compute on the processor</source>
         <translation>请安装显卡驱动程序，或改用 CPU 处理</translation>
-    </message>
-</context>
-<context>
-    <name>engine.compute-on-processor</name>
-    <message>
-        <source>compute on the processor instead</source>
-        <translation>请改用 CPU 处理</translation>
     </message>
 </context>
 <context>
@@ -1905,10 +1912,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.no-common-exposure</name>
+    <name>linearization.choose-overlapping-exposures</name>
     <message>
-        <source>the cameras have no exposure time in common</source>
-        <translation>各相机没有共同的曝光时间</translation>
+        <source>set them to ranges of exposure times that overlap</source>
+        <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
     </message>
 </context>
 <context>
@@ -1940,10 +1947,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.response-uneven</name>
+    <name>linearization.no-common-exposure</name>
     <message>
-        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
-        <translation>{}：亮度曲线在画面各处不一致，相差最多为白色的 {} %。请在投影机中关闭均匀性校正、局部调光和边缘融合</translation>
+        <source>the cameras have no exposure time in common</source>
+        <translation>各相机没有共同的曝光时间</translation>
     </message>
 </context>
 <context>
@@ -1954,10 +1961,10 @@
     </message>
 </context>
 <context>
-    <name>linearization.choose-overlapping-exposures</name>
+    <name>linearization.response-uneven</name>
     <message>
-        <source>set them to ranges of exposure times that overlap</source>
-        <translation>请将各相机的曝光时间设为相互重叠的范围</translation>
+        <source>{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; switch off uniformity correction, local dimming and edge blending in the projector</source>
+        <translation>{}：亮度曲线在画面各处不一致，相差最多为白色的 {} %。请在投影机中关闭均匀性校正、局部调光和边缘融合</translation>
     </message>
 </context>
 <context>
@@ -2093,10 +2100,6 @@
         <source>Fineness</source>
         <translation>精细度</translation>
     </message>
-    <message>
-        <source>Colours</source>
-        <translation>颜色</translation>
-    </message>
     <message numerus="yes">
         <source>All %n photograph(s) are on the disk. The one being taken is not counted.</source>
         <translation>
@@ -2158,18 +2161,6 @@
     <message>
         <source>glass, gloss, deep corners</source>
         <translation>玻璃、光泽面、深角落</translation>
-    </message>
-    <message>
-        <source>Red, green, blue</source>
-        <translation>红、绿、蓝</translation>
-    </message>
-    <message>
-        <source>White only</source>
-        <translation>仅白色</translation>
-    </message>
-    <message>
-        <source>White only is three times faster, with colours a few percent off.</source>
-        <translation>仅用白色快三倍，颜色有百分之几的偏差。</translation>
     </message>
     <message>
         <source>Photographs a second</source>
@@ -2393,6 +2384,38 @@
         <source>%n pattern(s)</source>
         <translation>
             <numerusform>%n 个图案</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Stopped at %1 px</source>
+        <translation>停于 %1 px</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>继续测量</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>测量在 %1 px 的块处停止</translation>
+    </message>
+    <message>
+        <source>Finer light is missing. Go on any time, if nothing has moved.</source>
+        <translation>缺少更精细的光。只要没有东西移动，可随时继续。</translation>
+    </message>
+    <message numerus="yes">
+        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
+        <translation>
+            <numerusform>缺少更精细的光。只要没有东西移动，可随时继续：约 %n 张照片，%1。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; error about %2</source>
+        <translation>%1；误差约 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n 张照片</numerusform>
         </translation>
     </message>
 </context>
@@ -5012,17 +5035,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>report.free-some-space</name>
-    <message>
-        <source>free some space</source>
-        <translation>请腾出一些空间</translation>
-    </message>
-</context>
-<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
         <translation>无法写入报告</translation>
+    </message>
+</context>
+<context>
+    <name>report.free-some-space</name>
+    <message>
+        <source>free some space</source>
+        <translation>请腾出一些空间</translation>
     </message>
 </context>
 <context>
@@ -5054,10 +5077,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.cannot-enable-service</name>
+    <message>
+        <source>the service cannot be switched on ({})</source>
+        <translation>无法启用服务（{}）</translation>
+    </message>
+</context>
+<context>
     <name>show.cannot-remove-entry</name>
     <message>
         <source>it cannot be removed ({})</source>
         <translation>无法删除（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>show.cannot-write-log</name>
+    <message>
+        <source>the log cannot be written ({})</source>
+        <translation>无法写入日志（{}）</translation>
     </message>
 </context>
 <context>
@@ -5082,10 +5119,10 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>show.cannot-write-log</name>
+    <name>show.restore-resolution</name>
     <message>
-        <source>the log cannot be written ({})</source>
-        <translation>无法写入日志（{}）</translation>
+        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
+        <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
     </message>
 </context>
 <context>
@@ -5100,20 +5137,6 @@ projector %2</source>
     <message>
         <source>the projector&apos;s screen has {} pixels now and {} were calibrated</source>
         <translation>投影机的屏幕现在为 {} 像素，校准时为 {}</translation>
-    </message>
-</context>
-<context>
-    <name>show.cannot-enable-service</name>
-    <message>
-        <source>the service cannot be switched on ({})</source>
-        <translation>无法启用服务（{}）</translation>
-    </message>
-</context>
-<context>
-    <name>show.restore-resolution</name>
-    <message>
-        <source>set its resolution back in the desktop&apos;s settings, then try again</source>
-        <translation>请在桌面设置中恢复其分辨率，然后重试</translation>
     </message>
 </context>
 <context>
@@ -5159,6 +5182,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.capped-clusters</name>
+    <message>
+        <source>Clusters held to a size</source>
+        <translation>限定大小的簇</translation>
+    </message>
+</context>
+<context>
+    <name>stage.capping-clusters</name>
+    <message>
+        <source>Holding clusters to a size</source>
+        <translation>正在限制簇的大小</translation>
+    </message>
+</context>
+<context>
     <name>stage.checking-additivity</name>
     <message>
         <source>Checking that the colours of {} add up</source>
@@ -5184,13 +5221,6 @@ projector %2</source>
     <message>
         <source>Clustering the light transport</source>
         <translation>正在对光传输聚类</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capped-clusters</name>
-    <message>
-        <source>Clusters held to a size</source>
-        <translation>限定大小的簇</translation>
     </message>
 </context>
 <context>
@@ -5278,6 +5308,20 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.finding-projector-picture</name>
+    <message>
+        <source>Looking for the projector&apos;s picture</source>
+        <translation>正在查找投影机的画面</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-shadows</name>
+    <message>
+        <source>Looking for shadows</source>
+        <translation>正在查找阴影</translation>
+    </message>
+</context>
+<context>
     <name>stage.finding-uncorrectable-pixels</name>
     <message>
         <source>Looking for what cannot be corrected</source>
@@ -5296,13 +5340,6 @@ projector %2</source>
     <message>
         <source>Forming patches</source>
         <translation>正在划分图块</translation>
-    </message>
-</context>
-<context>
-    <name>stage.capping-clusters</name>
-    <message>
-        <source>Holding clusters to a size</source>
-        <translation>正在限制簇的大小</translation>
     </message>
 </context>
 <context>
@@ -5365,20 +5402,6 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>stage.finding-projector-picture</name>
-    <message>
-        <source>Looking for the projector&apos;s picture</source>
-        <translation>正在查找投影机的画面</translation>
-    </message>
-</context>
-<context>
-    <name>stage.finding-shadows</name>
-    <message>
-        <source>Looking for shadows</source>
-        <translation>正在查找阴影</translation>
-    </message>
-</context>
-<context>
     <name>stage.looking-through-camera</name>
     <message>
         <source>Looking through the camera</source>
@@ -5397,16 +5420,6 @@ projector %2</source>
     <message>
         <source>Measuring the camera</source>
         <translation>正在测量相机</translation>
-    </message>
-</context>
-<context>
-    <name>stage.remeasuring-flagged-pixels</name>
-    <message numerus="yes">
-        <source>measuring {} flagged pixels again</source>
-        <comment>measuring {} flagged pixel again</comment>
-        <translation>
-            <numerusform>正在重新测量 {} 个存疑像素</numerusform>
-        </translation>
     </message>
 </context>
 <context>
@@ -5550,6 +5563,16 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.remeasuring-flagged-pixels</name>
+    <message numerus="yes">
+        <source>measuring {} flagged pixels again</source>
+        <comment>measuring {} flagged pixel again</comment>
+        <translation>
+            <numerusform>正在重新测量 {} 个存疑像素</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>stage.scaling-to-flood-image</name>
     <message>
         <source>Scaling to the flood image</source>
@@ -5641,17 +5664,17 @@ projector %2</source>
     </message>
 </context>
 <context>
-    <name>view.choose-writable-folder</name>
-    <message>
-        <source>choose a folder that you may write to, with free space</source>
-        <translation>请选择您可写入且有可用空间的文件夹</translation>
-    </message>
-</context>
-<context>
     <name>view.cannot-write-picture</name>
     <message>
         <source>the picture could not be written</source>
         <translation>无法写入图像</translation>
+    </message>
+</context>
+<context>
+    <name>view.choose-writable-folder</name>
+    <message>
+        <source>choose a folder that you may write to, with free space</source>
+        <translation>请选择您可写入且有可用空间的文件夹</translation>
     </message>
 </context>
 </TS>

@@ -336,6 +336,18 @@ class Photographer {
     return found;
   }
 
+  /// White, the lights, the group in white, and the last two mosaics.
+  MosaicPhotographs lastPhotographs() const {
+    constexpr std::size_t first = 2 + mosaicLights, last = 2;
+    MosaicPhotographs result{result_.drives, {}, {}, result_.blackBefore, {}};
+    for (std::size_t m = 0; m < result_.what.size(); ++m) {
+      if (m >= first && m + last < result_.what.size()) continue;
+      result.what.push_back(result_.what[m]);
+      result.shots.push_back(result_.shots[m]);
+    }
+    return result;
+  }
+
   void photographLevels() {
     // Light that longer exposures make as bright as the flood image.
     const double dim = choice_.dimmerBy > leastGain ? mostDim / choice_.dimmerBy : 0.0;
@@ -348,7 +360,9 @@ class Photographer {
           return !bright || lightOf(channel, level) > dim * mostEarly;
         });
       take(shot, bright ? choice_.flood : choice_.dim);
-      if (bright) forecast_.emplace(result_, lightsOf(result_, cameras_, thinning_.rasters()));
+      if (!bright) continue;
+      const MosaicPhotographs last = lastPhotographs();
+      forecast_.emplace(last, lightsOf(last, cameras_, thinning_.rasters()));
     }
   }
 

@@ -77,17 +77,20 @@ struct Point {
 
 /// From the brightest bin down, as far as signals are 5 deviations clear of zero: there, both being cut off
 /// and being sorted by their own noise make values look calmer than they are. The deviation is taken from
-/// the bin above, which has been found sound. `brightest`: the same at the upper end, where signals were
+/// the bin above, which has been found sound; from one far above as photon noise falls with light.
+/// `brightest`: the same at the upper end, where signals were
 /// left out.
 std::vector<Point> pointsOf(const Bins& bins, double brightest) {
   std::vector<Point> points;
-  double deviationAbove = 0.0;
+  double deviationAbove = 0.0, meanAbove = 0.0;
   for (auto bin = bins.rbegin(); bin != bins.rend(); ++bin) {
     if (bin->count < leastValues) continue;
     double mean = bin->mean / bin->count, spread = bin->squares / bin->count;
     if (mean + 5.0 * std::sqrt(spread) > brightest) continue;
+    if (meanAbove > 2.0 * mean) deviationAbove *= std::sqrt(2.0 * mean / meanAbove);
     if (mean < 5.0 * std::max(deviationAbove, std::sqrt(spread))) break;
     deviationAbove = std::sqrt(spread);
+    meanAbove = mean;
     double variance = spread - bin->extra / bin->count;
     // Beyond some thousand values the model, not the statistics, limits the fit.
     if (variance > 0.0) points.push_back({mean, variance, std::max(0.03, std::sqrt(2.0 / bin->count))});
@@ -173,8 +176,11 @@ hdr::CameraModel withMeasuredNoise(hdr::CameraModel model, const std::vector<Sho
     model.readNoise = std::sqrt(line->offset);
     model.gain = line->slope;
   }
-  model.readNoise = std::max(
-      {model.readNoise, std::sqrt(spreadInDarkFrames(pairs, model, camera)), std::sqrt(rounding), 1e-5});
+  // Bright signals alone leave it uncertain; noise about zero, half of it cut off, keeps a third of its
+  // variance.
+  const double dark = spreadInDarkFrames(pairs, model, camera);
+  if (dark > 0.0) model.readNoise = std::clamp(model.readNoise, std::sqrt(dark), std::sqrt(3.0 * dark));
+  model.readNoise = std::max({model.readNoise, std::sqrt(rounding), 1e-5});
   model.gain = std::max(model.gain, 1e-7);
   return model;
 }

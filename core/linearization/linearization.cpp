@@ -90,29 +90,30 @@ rig::Shot blackOf(rig::ShotTaker& shots, const ExposureChoice& choice, const Thi
   return black;
 }
 
-void addFindings(Linearization& result, const MosaicResult& measured, const rig::Rig& rig,
-                 std::size_t projector, double additivityLimit) {
-  const std::string name = rig.projectors[projector]->name();
-  const std::vector<Message> additivity = additivityFindings(measured.additivity, name, additivityLimit);
-  result.findings.insert(result.findings.end(), additivity.begin(), additivity.end());
-  for (std::size_t camera = 0; camera < measured.flicker.size(); ++camera) {
-    // Every projector's light falls into the same cameras: once is enough.
-    if (projector > 0 || measured.flicker[camera] <= flickerLimit) continue;
-    result.findings.push_back(
-        RELUCENT_MESSAGE("linearization.light-flickers",
-                         "{}: the light changes by {} % from one photograph to the next; switch off the "
-                         "projector's dynamic lamp modes and other lamps nearby, and choose exposure times "
-                         "that are multiples of the mains period")
-            .with(rig.cameras[camera]->name(), as::share(measured.flicker[camera], as::decimals(1))));
-  }
+void addFindings(std::vector<Message>& findings, const MosaicResult& measured, const std::string& projector,
+                 double additivityLimit) {
+  const std::vector<Message> additivity = additivityFindings(measured.additivity, projector, additivityLimit);
+  findings.insert(findings.end(), additivity.begin(), additivity.end());
   // Light that does not add up looks uneven as well.
   if (additivity.empty() && measured.unevenness > unevennessLimit)
-    result.findings.push_back(
+    findings.push_back(
         RELUCENT_MESSAGE(
             "linearization.response-uneven",
             "{}: the brightness curves are not the same everywhere in its picture, by up to {} % of white; "
             "switch off uniformity correction, local dimming and edge blending in the projector")
-            .with(name, as::share(measured.unevenness, as::decimals(0))));
+            .with(projector, as::share(measured.unevenness, as::decimals(0))));
+}
+
+/// Per camera, of the projector whose light flickers most.
+void addFlicker(std::vector<Message>& findings, const rig::Rig& rig, const std::vector<double>& flicker) {
+  for (std::size_t camera = 0; camera < flicker.size(); ++camera)
+    if (flicker[camera] > flickerLimit)
+      findings.push_back(
+          RELUCENT_MESSAGE("linearization.light-flickers",
+                           "{}: the light changes by {} % from one photograph to the next; switch off the "
+                           "projector's dynamic lamp modes and other lamps nearby, and choose exposure times "
+                           "that are multiples of the mains period")
+              .with(rig.cameras[camera]->name(), as::share(flicker[camera], as::decimals(1))));
 }
 
 }  // namespace
@@ -177,6 +178,7 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   for (std::size_t camera = 0; camera < cameras.size(); ++camera)
     result.cameras.push_back(withMeasuredNoise(cameras[camera], pairs, camera));
 
+  std::vector<double> flicker(rig.cameras.size(), 0.0);
   for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
     const std::string name = rig.projectors[projector]->name();
     Progress checking = progress.part(
@@ -186,9 +188,12 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
     MosaicResult measured = evaluate(photographs[projector], result.cameras, thinning);
     result.additivityError.push_back(
         std::max(std::abs(measured.additivity.white), std::abs(measured.additivity.superposition)));
-    addFindings(result, measured, rig, projector, settings.additivityLimit);
+    addFindings(result.findings, measured, name, settings.additivityLimit);
+    for (std::size_t camera = 0; camera < flicker.size(); ++camera)
+      flicker[camera] = std::max(flicker[camera], measured.flicker[camera]);
     result.projectors.push_back(std::move(measured.response));
   }
+  addFlicker(result.findings, rig, flicker);
   progress.report(1.0);
   result.times = shots.times();
   return result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/hdr/isotonic.h"
@@ -17,7 +18,7 @@ constexpr std::size_t mostPixels = 100000;  // of all cameras, that are evaluate
 constexpr double leastLight = 0.02;         // of the 99th percentile of white, of values that are evaluated
 constexpr double leastShare = 0.01;         // of white, of a channel that cameras see
 constexpr double mostDim = 0.9;             // of flood light, over what longer exposures gain
-constexpr double mostEarly = 0.6;           // of that, of levels that are shown before
+constexpr double mostEarly = 0.75;          // of that, of levels that are shown before
 constexpr double leastGain = 1.5;           // of longer exposures, to be worth it
 constexpr int coarseBits = 8;               // of a linear camera
 constexpr double fewestInRegion = 60.0;     // values
@@ -123,7 +124,6 @@ LevelLights usualLights(const std::vector<double>& drives) {
 /// What is known of the response while it is being measured: enough to tell how bright a level will be.
 class Forecast {
  public:
-  Forecast() = default;
   Forecast(const MosaicPhotographs& photographs, const Lights& lights) {
     Shown shown = shownBy(photographs);
     drives_ = shown.drives;
@@ -318,33 +318,51 @@ class Photographer {
     }
   }
 
+  /// As far as is known, of full; 0 where no level is left.
+  double nextLight(std::size_t channel) const {
+    const std::size_t level = queue_.next(channel);
+    return level > 0 ? lightOf(channel, level) : 0.0;
+  }
+  double lightOf(std::size_t channel, std::size_t level) const {
+    return forecast_ ? forecast_->lightOf(channel, result_.drives[level - 1]) : 1.0;
+  }
+
+  /// The channel with the fewest levels left has room for a full light.
+  std::size_t referenceChannel() const {
+    std::size_t found = 0;
+    for (std::size_t c = 1; c < 3; ++c)
+      if (std::pair(queue_.left(c), nextLight(c)) < std::pair(queue_.left(found), nextLight(found)))
+        found = c;
+    return found;
+  }
+
+  /// White, the lights, the group in white, and the last two mosaics.
+  MosaicPhotographs lastPhotographs() const {
+    constexpr std::size_t first = 2 + mosaicLights, last = 2;
+    MosaicPhotographs result{result_.drives, {}, {}, result_.blackBefore, {}};
+    for (std::size_t m = 0; m < result_.what.size(); ++m) {
+      if (m >= first && m + last < result_.what.size()) continue;
+      result.what.push_back(result_.what[m]);
+      result.shots.push_back(result_.shots[m]);
+    }
+    return result;
+  }
+
   void photographLevels() {
     // Light that longer exposures make as bright as the flood image.
     const double dim = choice_.dimmerBy > leastGain ? mostDim / choice_.dimmerBy : 0.0;
-    Forecast forecast;
-    bool known = false;
-    auto lightOf = [&](std::size_t channel, std::size_t level) {
-      return known ? forecast.lightOf(channel, result_.drives[level - 1]) : 1.0;
-    };
     while (!queue_.empty()) {
+      const bool bright = std::max({nextLight(0), nextLight(1), nextLight(2)}) > dim;
+      const std::size_t reference = referenceChannel();
       MosaicShot shot;
-      bool bright = false;
       for (std::size_t c = 0; c < 3; ++c)
-        bright = bright || (queue_.next(c) > 0 && lightOf(c, queue_.next(c)) > dim);
-      std::size_t fewest = 0;
-      for (std::size_t c = 1; c < 3; ++c)
-        if (queue_.left(c) < queue_.left(fewest) ||
-            (queue_.left(c) == queue_.left(fewest) &&
-             lightOf(c, queue_.next(c)) < lightOf(fewest, queue_.next(fewest))))
-          fewest = c;
-      for (std::size_t c = 0; c < 3; ++c)
-        queue_.show(shot, c, bright && c == fewest, full(), [&](std::size_t channel, std::size_t level) {
+        queue_.show(shot, c, bright && c == reference, full(), [&](std::size_t channel, std::size_t level) {
           return !bright || lightOf(channel, level) > dim * mostEarly;
         });
       take(shot, bright ? choice_.flood : choice_.dim);
       if (!bright) continue;
-      forecast = Forecast(result_, lightsOf(result_, cameras_, thinning_.rasters()));
-      known = true;
+      const MosaicPhotographs last = lastPhotographs();
+      forecast_.emplace(last, lightsOf(last, cameras_, thinning_.rasters()));
     }
   }
 
@@ -356,6 +374,7 @@ class Photographer {
   Thinning thinning_;
   Mosaic mosaic_;
   LevelQueue queue_;
+  std::optional<Forecast> forecast_;
   double expected_ = 1.0;
   MosaicPhotographs result_;
 };

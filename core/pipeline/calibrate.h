@@ -15,7 +15,6 @@ namespace relucent::pipeline {
 struct CalibrateResult {
   int patterns = 0;   // shown, all stages
   int exposures = 0;  // photographed, all stages
-  int linearizationExposures = 0;
   struct Seconds {  // wall time of each stage, earlier runs of a resumed calibration included
     double linearization = 0.0;
     double acquisition = 0.0;
@@ -28,6 +27,7 @@ struct CalibrateResult {
   double verificationError = 0.0;
   std::uint64_t peakMemoryBytes = 0;
   std::vector<Message> findings;  // sentences of all stages
+  int linearizationExposures = 0;
 };
 
 /// Measures a venue into a new calibration folder. A simulated venue's transport is kept in `cache`.

@@ -280,7 +280,7 @@ class TestRealDevices : public QObject {
     return {};
   }
 
-  static constexpr int everyPhotographs = 60;
+  static constexpr int everyPhotographs = 40;
 
  private slots:
   void initTestCase() {

@@ -149,7 +149,7 @@ class TestSeveralDevices : public QObject {
     AcquirePage page(*session_);
     session_->reload();
     auto of = [](const Rasters& seen, const Rasters& lit) {
-      return forecast({seen, lit, 1, 0.01}, AcquisitionSettings(), {}, {});
+      return forecast({seen, lit, 1, 0.01}, CalibrateSettings().acquisition, {}, {});
     };
     const std::optional<WorkLeft> expected = page.expected();
     QVERIFY(expected.has_value());

@@ -21,7 +21,7 @@ constexpr int enoughShots = 40;
 // Of dense patterns, at the first level, the following ones and the finest; what venues took at 0.012.
 constexpr struct {
   PatternRange first, middle, finest;
-} densePatterns{{32.0, 32.0, 64.0}, {8.0, 12.0, 40.0}, {16.0, 40.0, 96.0}};
+} densePatterns{{32.0, 32.0, 64.0}, {8.0, 14.0, 40.0}, {16.0, 40.0, 96.0}};
 // How they grow with the threshold, and the fewest of a level.
 constexpr double densePower = -0.5;
 constexpr double fewestDense = 8.0;
@@ -181,7 +181,7 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
 }
 
 double expectedError(const AcquisitionSettings& settings) {
-  return 0.0045 + 0.35 * settings.relativeThreshold;
+  return std::hypot(0.017, 0.25 * settings.relativeThreshold);
 }
 
 }  // namespace relucent::acquisition

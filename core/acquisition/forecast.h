@@ -62,11 +62,11 @@ ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& 
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
                   const rig::ShotTimes& benchmark, const AcquisitionState& state);
 
-/// How far test patterns are about to differ from what T of dense patterns predicts, as a share of their
-/// light:
-///   0.0045 + 0.35 threshold
-/// within a fifth for corner and statue at 256x192 / 160x120 and thresholds from 0.006 to 0.05, sensors of
-/// 15 000 electrons; depth has half as much again, glass twice as much (README).
+/// What Acquisition::verificationError is about to be with dense patterns, relative:
+///   sqrt(0.017^2 + (0.25 threshold)^2)
+/// Most of it is the noise of the test patterns' photographs. At 256x192 / 160x120, sensors of 15 000
+/// electrons and thresholds from 0.006 to 0.05 corner, depth, dome, plain, relief and statue were within a
+/// fifth of it, but for depth at 0.05 (0.031 instead of 0.021); glass has twice as much.
 double expectedError(const AcquisitionSettings& settings);
 
 }  // namespace relucent::acquisition

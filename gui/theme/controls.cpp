@@ -265,6 +265,7 @@ Choice::Choice(const QString& name, const QString& sentence, QWidget* parent) : 
   row->addLayout(texts, 1);
   remark_ = labelOf({}, "secondary");
   remark_->setWordWrap(false);
+  remark_->setAlignment(Qt::AlignTrailing | Qt::AlignVCenter);
   row->addWidget(remark_);
   for (QLabel* label : findChildren<QLabel*>()) label->setAttribute(Qt::WA_TransparentForMouseEvents);
 }

@@ -86,7 +86,7 @@ class AcquirePage : public DevicePage {
   std::optional<WorkLeft> expected() const { return expected(session_.settings().acquisition); }
   /// The same at another fineness.
   std::optional<WorkLeft> expected(Fineness fineness) const { return expected(settingsOf(fineness)); }
-  /// How far test patterns are then about to differ from what is predicted, relative.
+  /// What verificationError() is then about to be.
   double expectedError(Fineness fineness) const { return acquisition::expectedError(settingsOf(fineness)); }
   /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
   std::vector<BlockLevel> levels() const;

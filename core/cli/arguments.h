@@ -106,6 +106,7 @@ struct Bench {
   BenchSuite suite = BenchSuite::parts;
   std::string name;  // of parts: only those that contain it
   pipeline::AcquisitionBenchSettings acquisition;
+  std::filesystem::path chart;  // of `acquisition`: where to; empty: none
   engine::BackendChoice backend = engine::BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;
 };

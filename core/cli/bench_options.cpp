@@ -6,7 +6,8 @@
 namespace relucent::cli {
 namespace {
 
-void addAcquisition(CLI::App* sub, pipeline::AcquisitionBenchSettings& settings) {
+void addAcquisition(CLI::App* sub, Bench& command) {
+  pipeline::AcquisitionBenchSettings& settings = command.acquisition;
   CLI::Option_group* group = sub->add_option_group("acquisition", "Options of `acquisition`");
   group->add_option("--venue", settings.venues, "A simulated venue; may be given several times; default: all")
       ->type_name("NAME");
@@ -16,6 +17,7 @@ void addAcquisition(CLI::App* sub, pipeline::AcquisitionBenchSettings& settings)
       ->type_name("MODE");
   group->add_option("--threshold", settings.thresholds, "Only at this threshold; may be given several times")
       ->type_name("SHARE");
+  group->add_option("--chart", command.chart, "Draws quality against photographs (SVG)")->type_name("FILE");
 }
 
 }  // namespace
@@ -29,7 +31,7 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
       "and how well they compensate, beside the paper's figures; `acquisition` (an hour): every scheme, its "
       "cost and its error against the true transport");
   addNamed(sub, "--backend", "Device of `engine`", command->backend);
-  addAcquisition(sub, command->acquisition);
+  addAcquisition(sub, *command);
   addCache(sub, command->cache);
   return [command] {
     command->suite = valueNamed<BenchSuite>(command->name).value_or(BenchSuite::parts);

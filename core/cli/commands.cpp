@@ -7,11 +7,13 @@
 #include <new>
 
 #include "relucent/base/error.h"
+#include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/cli/devices_document.h"
 #include "relucent/cli/interruption.h"
 #include "relucent/cli/terminal_progress.h"
 #include "relucent/cli/texts.h"
+#include "relucent/report/acquisition_chart.h"
 
 namespace relucent::cli {
 namespace {
@@ -133,6 +135,13 @@ struct Executor {
     return outcomeOf(report::makeReport(command.calibration, command.settings, command.cache, progress));
   }
 
+  CommandResult benchAcquisition(const Bench& command) const {
+    pipeline::AcquisitionBenchResult result =
+        pipeline::benchAcquisition(command.acquisition, command.cache, progress);
+    if (!command.chart.empty()) writeFileAtomically(command.chart, report::acquisitionChart(result));
+    return outcomeOf(result);
+  }
+
   CommandResult operator()(const Bench& command) const {
     switch (command.suite) {
       case BenchSuite::inverse:
@@ -141,7 +150,7 @@ struct Executor {
         return outcomeOf(pipeline::benchEngine(command.backend, progress));
       case BenchSuite::acquisition:
         refuse(problems(command.acquisition));
-        return outcomeOf(pipeline::benchAcquisition(command.acquisition, command.cache, progress));
+        return benchAcquisition(command);
       case BenchSuite::parts:
         break;
     }

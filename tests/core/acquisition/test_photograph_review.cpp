@@ -51,7 +51,8 @@ class TestPhotographReview : public QObject {
  private slots:
   void lampIsMeasuredRelativeToAll_data() {
     QTest::addColumn<float>("common");
-    for (float common : {1.0f, 0.95f, 1.05f}) QTest::addRow("all at %g", static_cast<double>(common)) << common;
+    for (float common : {1.0f, 0.95f, 1.05f})
+      QTest::addRow("all at %g", static_cast<double>(common)) << common;
   }
   /// What all photographs have in common is not theirs to say.
   void lampIsMeasuredRelativeToAll() {

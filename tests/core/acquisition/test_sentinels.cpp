@@ -2,9 +2,8 @@
 #include <QtTest>
 #include <cmath>
 #include <numeric>
-#include <set>
 
-#include "acquisition_run.h"
+#include "faulty_venue.h"
 #include "relucent/base/error.h"
 #include "relucent/sentinels/observer.h"
 #include "relucent/venue/device_faults.h"
@@ -19,98 +18,6 @@ using namespace relucent::transport;
 using namespace relucent::venue;
 using namespace relucent::test;
 
-namespace {
-
-constexpr const char* stage = "acquisition";
-
-/// Runs of acquisition in a traced venue whose devices can be given faults.
-class FaultyVenue {
- public:
-  explicit FaultyVenue(AcquisitionMode mode)
-      : venue_(settings(), {}, progress_), acquisition_(settingsOf(mode)) {
-    const DeviceModelSettings& devices = venue_.settings().devices;
-    double rounding = 1.0 / 4095.0;
-    linearization_.exposures = {1.0 / 8.0, 1.0 / 75.0};
-    linearization_.cameras.resize(1);
-    linearization_.cameras[0].gain = 1.0 / devices.fullWell;
-    linearization_.cameras[0].readNoise =
-        std::hypot(devices.readElectrons / devices.fullWell, rounding / std::sqrt(12.0));
-    acquisition_.relativeThreshold = mode == AcquisitionMode::adaptive ? 0.05 : 0.02;
-    acquisition_.references = 3;
-    acquisition_.verificationPatterns = 4;
-  }
-
-  Acquisition run(const AlarmHandler& handler, ShotLog& log) {
-    AcquisitionObserver nobody;
-    return run(handler, log, nobody);
-  }
-  Acquisition run(const AlarmHandler& handler, ShotLog& log, AcquisitionObserver& observer) {
-    Rig rig = venue_.rig(faults);
-    ShotTaker shots(rig, log, stage);
-    return acquire({shots, linearization_, acquisition_, handler, &observer}, progress_);
-  }
-  /// Without faults, once.
-  const Acquisition& sound() {
-    if (!sound_) {
-      MemoryLog log;
-      auto kept = std::exchange(faults->faults, {});
-      sound_ = run({}, log);
-      faults->faults = std::move(kept);
-    }
-    return *sound_;
-  }
-
-  std::shared_ptr<FaultSchedule> faults = std::make_shared<FaultSchedule>();
-
- private:
-  static VenueSettings settings() {
-    VenueSettings settings;
-    settings.name = "corner";
-    settings.projector = {48, 36};
-    settings.camera = {48, 36};
-    settings.pathsPerPixel = 16;
-    return settings;
-  }
-
-  Progress progress_;
-  SimulatedVenue venue_;
-  Linearization linearization_;
-  AcquisitionSettings acquisition_;
-  std::optional<Acquisition> sound_;
-};
-
-DeviceFault fault(FaultKind kind, int first, double amount = 0.0, double degrees = 0.0) {
-  DeviceFault fault;
-  fault.kind = kind;
-  fault.stage = stage;
-  fault.first = first;
-  fault.last = 100000;
-  fault.amount = amount;
-  fault.degrees = degrees;
-  return fault;
-}
-
-/// Keeps what it is told.
-class Listening : public AcquisitionObserver {
- public:
-  void checked(const Reading& reading) override { readings.push_back(reading); }
-  void takenAgain(const Retake& retake) override { retakes.push_back(retake); }
-  void grew(const std::vector<int>& levels, int through) override { growth.emplace_back(levels, through); }
-
-  std::vector<Reading> readings;
-  std::vector<Retake> retakes;
-  std::vector<std::pair<std::vector<int>, int>> growth;
-};
-
-DeviceFault handOver(int first) {
-  DeviceFault hand = fault(FaultKind::hand, first);
-  hand.x0 = 0.3, hand.x1 = 0.5, hand.y0 = 0.4, hand.y1 = 0.7;
-  return hand;
-}
-
-}  // namespace
-
-Q_DECLARE_METATYPE(DeviceFault)
 Q_DECLARE_METATYPE(AlarmKind)
 
 class TestSentinels : public QObject {
@@ -119,7 +26,6 @@ class TestSentinels : public QObject {
  private slots:
   void initTestCase() {
     venue_ = std::make_unique<FaultyVenue>(AcquisitionMode::adaptive);
-    dense_ = std::make_unique<FaultyVenue>(AcquisitionMode::multiplexed);
     // Shot 12 on is after the floods of 3 rounds, shot 60 amid the tree.
     QVERIFY2(venue_->sound().patterns > 100, qPrintable(QString::number(venue_->sound().patterns)));
     qInfo("%d patterns, %d exposures, verification %.4f", venue_->sound().patterns, venue_->sound().exposures,
@@ -388,46 +294,8 @@ class TestSentinels : public QObject {
     QVERIFY(a.verificationError < std::hypot(before, std::sqrt(0.06) * 0.1) + 0.1 * before);
   }
 
-  void whatPassedByDensePatternsIsMeasuredAgain_data() {
-    QTest::addColumn<DeviceFault>("fault");
-    for (int first : {20, 60, 90})
-      for (int photographs : {1, 4}) {
-        DeviceFault hand = handOver(first);
-        hand.last = first + photographs - 1;
-        QTest::addRow("hand, %d from %d on", photographs, first) << hand;
-        DeviceFault flash = hand;
-        flash.kind = FaultKind::flash;
-        flash.amount = 20.0;
-        if (photographs == 1) QTest::addRow("flash at %d", first) << flash;
-      }
-  }
-  /// Nobody is asked: a check sees no hand that has gone.
-  void whatPassedByDensePatternsIsMeasuredAgain() {
-    QFETCH(DeviceFault, fault);
-    dense_->faults->faults = {fault};
-    const Acquisition& sound = dense_->sound();
-    NoShotLog log;
-    Listening observer;
-    Acquisition a = dense_->run([](const Alarm&) { return Answer::skip; }, log, observer);
-    qInfo("%d patterns for %d, verification %.4f for %.4f, %zu flagged for %zu", a.patterns, sound.patterns,
-          a.verificationError, sound.verificationError, flaggedIn(a), flaggedIn(sound));
-    int others = 0;
-    std::set<int> again;
-    for (const Retake& retake : observer.retakes) {
-      QCOMPARE(retake.reason, RetakeReason::contradiction);
-      if (retake.shot >= fault.first && retake.shot <= fault.last)
-        again.insert(retake.shot);
-      else
-        ++others;
-    }
-    QCOMPARE(static_cast<int>(again.size()), fault.last - fault.first + 1);
-    QVERIFY2(others <= 2, qPrintable(QString::number(others)));
-    QVERIFY(flaggedIn(a) <= flaggedIn(sound) + 2);
-    QVERIFY(a.verificationError < 1.1 * sound.verificationError);
-  }
-
  private:
-  std::unique_ptr<FaultyVenue> venue_, dense_;
+  std::unique_ptr<FaultyVenue> venue_;
 };
 
 QTEST_APPLESS_MAIN(TestSentinels)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <QtTest>
+#include <set>
+
+#include "faulty_venue.h"
+
+using namespace relucent;
+using namespace relucent::acquisition;
+using namespace relucent::rig;
+using namespace relucent::sentinels;
+using namespace relucent::transport;
+using namespace relucent::venue;
+using namespace relucent::test;
+
+class TestPassersBy : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void whatPassedByIsMeasuredAgain_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    for (auto [first, photographs] : {std::pair(20, 1), std::pair(60, 4), std::pair(90, 1)}) {
+      DeviceFault hand = handOver(first);
+      hand.last = first + photographs - 1;
+      QTest::addRow("hand, %d from %d on", photographs, first) << hand;
+      DeviceFault flash = hand;
+      flash.kind = FaultKind::flash;
+      flash.amount = 20.0;
+      if (photographs == 1) QTest::addRow("flash at %d", first) << flash;
+    }
+  }
+  /// Nobody is asked: a check sees no hand that has gone.
+  void whatPassedByIsMeasuredAgain() {
+    QFETCH(DeviceFault, fault);
+    venue_.faults->faults = {fault};
+    const Acquisition& sound = venue_.sound();
+    NoShotLog log;
+    Listening observer;
+    Acquisition a = venue_.run([](const Alarm&) { return Answer::skip; }, log, observer);
+    qInfo("%d patterns for %d, verification %.4f for %.4f, %zu flagged for %zu", a.patterns, sound.patterns,
+          a.verificationError, sound.verificationError, flaggedIn(a), flaggedIn(sound));
+    int others = 0;
+    std::set<int> again;
+    for (const Retake& retake : observer.retakes) {
+      QCOMPARE(retake.reason, RetakeReason::contradiction);
+      if (retake.shot >= fault.first && retake.shot <= fault.last)
+        again.insert(retake.shot);
+      else
+        ++others;
+    }
+    QCOMPARE(static_cast<int>(again.size()), fault.last - fault.first + 1);
+    QVERIFY2(others <= 2, qPrintable(QString::number(others)));
+    QVERIFY(flaggedIn(a) <= flaggedIn(sound) + 2);
+    QVERIFY(a.verificationError < 1.1 * sound.verificationError);
+  }
+
+ private:
+  FaultyVenue venue_{AcquisitionMode::multiplexed};
+};
+
+QTEST_APPLESS_MAIN(TestPassersBy)
+#include "test_passers_by.moc"

@@ -52,7 +52,7 @@ std::vector<Message> problems(const AcquisitionSettings& settings);
 
 /// Settings that go together. Fast is adaptive, white, one exposure, a looser threshold, fewer references.
 /// Multiplexed, the default of calibrations, has its own patterns, see multiplexed.h; the threshold is also
-/// how well it predicts what it has not seen: 0.05 for a first look, 0.006 fine.
+/// how well it predicts what it has not seen: 0.03 for a first look, 0.006 fine.
 enum class AcquisitionMode { adaptive, sen, fast, multiplexed };
 inline constexpr EnumName<AcquisitionMode> acquisitionModeNames[]{
     {AcquisitionMode::adaptive, "adaptive"},

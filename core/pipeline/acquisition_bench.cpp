@@ -26,7 +26,7 @@ constexpr Trial trials[] = {{acquisition::AcquisitionMode::adaptive, 0.006},
                             {acquisition::AcquisitionMode::sen, 0.02},
                             {acquisition::AcquisitionMode::sen, 0.05},
                             {acquisition::AcquisitionMode::fast, 0.02, acquisition::LitColours::white},
-                            {acquisition::AcquisitionMode::multiplexed, 0.05},
+                            {acquisition::AcquisitionMode::multiplexed, 0.03},
                             {acquisition::AcquisitionMode::multiplexed, 0.012},
                             {acquisition::AcquisitionMode::multiplexed, 0.006}};
 

@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double fastThreshold = 0.05, fineThreshold = 0.006;
+constexpr double fastThreshold = 0.03, fineThreshold = 0.006;
 constexpr int fastVerification = 4;
 constexpr int photographsBeforeTime = 20;
 constexpr std::chrono::seconds beforeRetry{5};

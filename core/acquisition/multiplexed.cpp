@@ -132,6 +132,8 @@ class Measurement {
   std::optional<sentinels::Interruption> refine(Progress& part);
   std::optional<sentinels::Interruption> settle(Progress& part);
   bool isJudged(std::size_t row) const;
+  template <typename Wanted, typename Use>
+  void solveRows(std::size_t parts, std::size_t heldOut, const Wanted& wanted, const Use& use);
   void solve();
   PhotographReview review();
   Prediction predict();
@@ -248,18 +250,27 @@ bool Measurement::isJudged(std::size_t row) const {
   return apart < 2 || Random{row}.below(apart) == 0;
 }
 
+/// Solves every wanted row with the last `heldOut` photographs unseen, hands what was found to
+/// `use(part, row, regression, seen)`, and learns from it. The rows are divided into `parts`.
+template <typename Wanted, typename Use>
+void Measurement::solveRows(std::size_t parts, std::size_t heldOut, const Wanted& wanted, const Use& use) {
+  parallelChunks(0, rows_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    RowRegression regression(means_, model_);
+    RowLight seen;
+    for (std::size_t row = begin; row < end; ++row) {
+      if (rows_[row].leaves.empty() || !wanted(row)) continue;
+      photographs_.read(row, heldOut, seen);
+      const RowFit& fit = regression.solve(rows_[row], seen);
+      use(part, row, regression, seen);
+      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
+    }
+  });
+}
+
 void Measurement::solve() {
-  parallelChunks(0, rows_.size(), partsOf(rows_.size()),
-                 [&](std::size_t, std::size_t begin, std::size_t end) {
-                   RowRegression regression(means_, model_);
-                   RowLight seen;
-                   for (std::size_t row = begin; row < end; ++row) {
-                     if (rows_[row].leaves.empty()) continue;
-                     photographs_.read(row, 0, seen);
-                     const RowFit& fit = regression.solve(rows_[row], seen);
-                     multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
-                   }
-                 });
+  solveRows(
+      partsOf(rows_.size()), 0, [](std::size_t) { return true; },
+      [](std::size_t, std::size_t, RowRegression&, const RowLight&) {});
 }
 
 /// Solves once more, leaves out what contradicts the rest, and photographs again what was spoilt.
@@ -286,17 +297,11 @@ std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
 
 PhotographReview Measurement::review() {
   std::vector<PhotographReview> parts(reviewParts, PhotographReview(photographs_.size()));
-  parallelChunks(0, rows_.size(), parts.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    RowRegression regression(means_, model_);
-    RowLight seen;
-    for (std::size_t row = begin; row < end; ++row) {
-      if (rows_[row].leaves.empty()) continue;
-      photographs_.read(row, 0, seen);
-      const RowFit& fit = regression.solve(rows_[row], seen);
-      parts[part].add(row, seen, regression.predict(), rows_[row].excess);
-      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
-    }
-  });
+  solveRows(
+      parts.size(), 0, [](std::size_t) { return true; },
+      [&](std::size_t part, std::size_t row, RowRegression& regression, const RowLight& seen) {
+        parts[part].add(row, seen, regression.predict(), rows_[row].excess);
+      });
   PhotographReview all(photographs_.size());
   for (const PhotographReview& part : parts) all.add(part);
   return all;
@@ -304,17 +309,11 @@ PhotographReview Measurement::review() {
 
 Prediction Measurement::predict() {
   std::vector<Prediction> parts(partsOf(rows_.size()));
-  parallelChunks(0, rows_.size(), parts.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    RowRegression regression(means_, model_);
-    RowLight seen;
-    for (std::size_t row = begin; row < end; ++row) {
-      if (rows_[row].leaves.empty() || !isJudged(row)) continue;
-      photographs_.read(row, predictedPatterns, seen);
-      const RowFit& fit = regression.solve(rows_[row], seen);
-      parts[part].add(predicted(row, regression.predict()));
-      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
-    }
-  });
+  solveRows(
+      parts.size(), predictedPatterns, [&](std::size_t row) { return isJudged(row); },
+      [&](std::size_t part, std::size_t row, RowRegression& regression, const RowLight&) {
+        parts[part].add(predicted(row, regression.predict()));
+      });
   Prediction all;
   for (const Prediction& part : parts) all.add(part);
   return all;

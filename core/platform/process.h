@@ -11,4 +11,8 @@ std::uint64_t processNumber();
 /// The most memory that this program has had resident so far.
 std::uint64_t peakMemoryBytes();
 
+/// Gives the system back what has been freed but is still kept for later, as C libraries do with many small
+/// pieces.
+void returnFreedMemory();
+
 }  // namespace relucent::platform

@@ -20,6 +20,10 @@ constexpr float ownNoise = 0.3f;
 constexpr double leastSeen = 0.3;
 // No pattern shows more light than all projectors do; much more is a fault, and beyond half precision.
 constexpr float mostLight = 1000.0f;
+// The photographs of a part that lie together on the disk.
+constexpr std::size_t photographsTogether = 64;
+// A part of one photograph: light, then its deviation, infinite where it was saturated.
+constexpr std::size_t valuesOfPart = 2 * 3 * DensePhotographs::rowsTogether;
 
 }  // namespace
 
@@ -57,48 +61,88 @@ std::vector<transport::ColourBlock> DensePhotographs::floodMixing(std::size_t ro
 
 void DensePhotographs::add(const hdr::LampLight& seen) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  Photograph photograph{std::vector<Eigen::half>(flood_.size()), std::vector<Eigen::half>(flood_.size())};
-  parallelFor(0, flood_.size(), 4096, [&](std::size_t i) {
-    float light = seen.radiance[i] / flood_[i];
-    bool known = seen.valid[i] && std::abs(light) < mostLight;
-    float deviation = known ? std::sqrt(std::max(0.0f, seen.variance[i])) / flood_[i] : infinity;
-    photograph.light[i] = static_cast<Eigen::half>(known ? light : 0.0f);
-    photograph.deviation[i] = static_cast<Eigen::half>(deviation);
+  parallelFor(0, parts(), 1, [&](std::size_t part) {
+    std::vector<Eigen::half> values(valuesOfPart);
+    std::size_t begin = 3 * part * rowsTogether, count = std::min(3 * rowsTogether, flood_.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      float flood = flood_[begin + i], light = seen.radiance[begin + i] / flood;
+      bool known = seen.valid[begin + i] && std::abs(light) < mostLight;
+      float deviation = known ? std::sqrt(std::max(0.0f, seen.variance[begin + i])) / flood : infinity;
+      values[i] = static_cast<Eigen::half>(known ? light : 0.0f);
+      values[valuesOfPart / 2 + i] = static_cast<Eigen::half>(deviation);
+    }
+    file_.write(placeOf(size(), part), std::span<const Eigen::half>(values));
   });
-  photographs_.push_back(std::move(photograph));
+  scale_.push_back(1.0f);
 }
 
-void DensePhotographs::reject(std::size_t photograph, std::size_t row) {
-  for (std::size_t c = 0; c < 3; ++c)
-    photographs_[photograph].deviation[3 * row + c] = std::numeric_limits<Eigen::half>::infinity();
+void DensePhotographs::keep(std::size_t count) {
+  scale_.resize(std::min(count, size()));
+  std::erase_if(rejected_, [&](const auto& rejection) { return rejection.second >= size(); });
 }
 
-std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::shown(std::size_t photograph,
-                                                                  std::size_t row) const {
-  const Photograph& of = photographs_[photograph];
+void DensePhotographs::reject(const Rejections& unseen) {
+  rejected_.insert(rejected_.end(), unseen.begin(), unseen.end());
+  std::ranges::sort(rejected_);
+}
+
+void DensePhotographs::forgetJudgements() {
+  rejected_.clear();
+  std::ranges::fill(scale_, 1.0f);
+}
+
+std::uint64_t DensePhotographs::placeOf(std::size_t photograph, std::size_t part) const {
+  std::size_t together = photograph / photographsTogether * parts() + part;
+  return sizeof(Eigen::half) * valuesOfPart *
+         (together * photographsTogether + photograph % photographsTogether);
+}
+
+DensePhotographs::Rows::Rows(const DensePhotographs& photographs, std::size_t part)
+    : photographs_(photographs),
+      begin_(part * rowsTogether),
+      end_(std::min(begin_ + rowsTogether, photographs.references_.usable.size())),
+      values_(photographs.size() * valuesOfPart) {
+  for (std::size_t first = 0; first < photographs.size(); first += photographsTogether) {
+    std::size_t count = std::min(photographsTogether, photographs.size() - first);
+    photographs.file_.read(photographs.placeOf(first, part),
+                           std::span(&values_[first * valuesOfPart], count * valuesOfPart));
+  }
+  const Rejections& rejected = photographs.rejected_;
+  auto rejection = std::ranges::lower_bound(rejected, std::pair(begin_, std::uint32_t{0}));
+  for (; rejection != rejected.end() && rejection->first < end_; ++rejection)
+    std::fill_n(
+        &values_[rejection->second * valuesOfPart + valuesOfPart / 2 + 3 * (rejection->first - begin_)], 3,
+        std::numeric_limits<Eigen::half>::infinity());
+}
+
+std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::Rows::shown(std::size_t photograph,
+                                                                        std::size_t row) const {
   using Halves = Eigen::Map<const Eigen::Array<Eigen::half, 3, 1>>;
-  return {of.scale * Halves(&of.light[3 * row]).cast<float>(),
-          (of.scale * Halves(&of.deviation[3 * row]).cast<float>()).square()};
+  const Eigen::half* light = &values_[photograph * valuesOfPart + 3 * (row - begin_)];
+  float scale = photographs_.scale_[photograph];
+  return {scale * Halves(light).cast<float>(),
+          (scale * Halves(light + valuesOfPart / 2).cast<float>()).square()};
 }
 
-void DensePhotographs::read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const {
-  auto equations = static_cast<Eigen::Index>(3 * references_.root.size() + photographs_.size());
+void DensePhotographs::Rows::read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const {
+  const photography::References& references = photographs_.references_;
+  auto equations = static_cast<Eigen::Index>(3 * references.root.size() + photographs_.size());
   seen.light.resize(equations, 3);
   seen.variance.resize(equations, 3);
-  Eigen::Array3f unit = 1.0f / flood(row);
+  Eigen::Array3f unit = 1.0f / photographs_.flood(row);
   // What e is off by is the same in all of them; their own noise is the rest.
   Eigen::Array3f black =
-      Eigen::Map<const Eigen::Array3f>(&references_.black.variance[3 * row]) * unit.square();
+      Eigen::Map<const Eigen::Array3f>(&references.black.variance[3 * row]) * unit.square();
   seen.offset = black.sqrt();
   Eigen::Index n = 0;
   auto put = [&](const Eigen::Array3f& light, const Eigen::Array3f& variance) {
     seen.light.row(n) = light;
     seen.variance.row(n++) = (variance - black).max(ownNoise * variance);
   };
-  for (std::size_t projector = 0; projector < references_.root.size(); ++projector)
+  for (std::size_t projector = 0; projector < references.root.size(); ++projector)
     for (Eigen::Index k = 0; k < 3; ++k)
-      put(references_.root[projector][row].col(k).array() * unit,
-          references_.rootVariance[projector][row].col(k).array() * unit.square());
+      put(references.root[projector][row].col(k).array() * unit,
+          references.rootVariance[projector][row].col(k).array() * unit.square());
   for (std::size_t number = 0; number < photographs_.size(); ++number) {
     auto [light, variance] = shown(number, row);
     if (number + heldOut >= photographs_.size()) variance.setConstant(std::numeric_limits<float>::infinity());
@@ -106,7 +150,7 @@ void DensePhotographs::read(std::size_t row, std::size_t heldOut, multiplexing::
   }
 }
 
-bool DensePhotographs::hardlySeen(std::size_t row) const {
+bool DensePhotographs::Rows::hardlySeen(std::size_t row) const {
   std::size_t seen = 0;
   for (std::size_t number = 0; number < photographs_.size(); ++number)
     seen += static_cast<std::size_t>(shown(number, row).second.isFinite().count());

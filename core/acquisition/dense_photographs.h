@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "relucent/base/scratch_file.h"
 #include "relucent/hdr/hdr.h"
 #include "relucent/multiplexing/regression.h"
 #include "relucent/photography/references.h"
@@ -12,10 +14,15 @@
 namespace relucent::acquisition {
 
 /// What all camera pixels showed under the floods and under dense patterns, ready to be solved row by row:
-/// relative to each pixel's floods F_c, all projectors and their channels summed.
+/// relative to each pixel's floods F_c, all projectors and their channels summed. The photographs of patterns
+/// lie on the disk (12 bytes a camera pixel each: 4 GB for 180 of 2 megapixels); Rows has those of a few
+/// camera pixels in memory.
 class DensePhotographs {
  public:
-  /// Keeps a reference, which outlives it.
+  /// Camera pixels that lie together on the disk.
+  static constexpr std::size_t rowsTogether = 256;
+
+  /// Keeps a reference, which outlives it.  Throws: Error{disk}.
   explicit DensePhotographs(const photography::References& references);
 
   /// F of a camera pixel; where it is next to nothing, what counts as that.
@@ -23,34 +30,52 @@ class DensePhotographs {
   /// How a projector's light is divided in a camera pixel's floods, see multiplexing::Row::mixing.
   std::vector<transport::ColourBlock> floodMixing(std::size_t row) const;
 
-  std::size_t size() const { return photographs_.size(); }
+  std::size_t size() const { return scale_.size(); }
   /// The light is rounded to half precision, a twentieth of what photon noise leaves of it at best.
+  /// Throws: Error{disk}.
   void add(const hdr::LampLight& seen);
   /// Forgets all but the first ones.
-  void keep(std::size_t count) { photographs_.resize(count); }
+  void keep(std::size_t count);
 
-  /// Takes what a photograph shows of a camera pixel for unseen.
-  void reject(std::size_t photograph, std::size_t row);
+  /// Camera pixels and photographs, and that these did not see those.
+  using Rejections = std::vector<std::pair<std::size_t, std::uint32_t>>;
+  void reject(const Rejections& unseen);
   /// Divides all light of a photograph.
-  void divide(std::size_t photograph, float gain) { photographs_[photograph].scale /= gain; }
+  void divide(std::size_t photograph, float gain) { scale_[photograph] /= gain; }
+  /// As if nothing had been rejected or divided.
+  void forgetJudgements();
 
-  /// A camera pixel's equations.  The last `heldOut` photographs count as not seen.
-  void read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const;
-  /// What a photograph showed of a camera pixel, and its variance: infinite where it was saturated.
-  std::pair<Eigen::Array3f, Eigen::Array3f> shown(std::size_t photograph, std::size_t row) const;
-  /// Whether a camera pixel was saturated too often to be known.
-  bool hardlySeen(std::size_t row) const;
+  std::size_t parts() const { return (references_.usable.size() + rowsTogether - 1) / rowsTogether; }
+
+  /// What the camera pixels of one part saw.
+  class Rows {
+   public:
+    /// Throws: Error{disk}.
+    Rows(const DensePhotographs& photographs, std::size_t part);
+
+    std::size_t begin() const { return begin_; }
+    std::size_t end() const { return end_; }
+    /// A camera pixel's equations. The last `heldOut` photographs count as not seen.
+    void read(std::size_t row, std::size_t heldOut, multiplexing::RowLight& seen) const;
+    /// What a photograph showed of a camera pixel, and its variance: infinite where it was saturated.
+    std::pair<Eigen::Array3f, Eigen::Array3f> shown(std::size_t photograph, std::size_t row) const;
+    /// Whether a camera pixel was saturated too often to be known.
+    bool hardlySeen(std::size_t row) const;
+
+   private:
+    const DensePhotographs& photographs_;
+    std::size_t begin_, end_;
+    std::vector<Eigen::half> values_;  // [photograph][light, deviation][row][channel]
+  };
 
  private:
-  struct Photograph {
-    std::vector<Eigen::half> light;
-    std::vector<Eigen::half> deviation;  // infinite: saturated
-    float scale = 1.0f;                  // of both
-  };
+  std::uint64_t placeOf(std::size_t photograph, std::size_t part) const;
 
   const photography::References& references_;
   CameraStack flood_;
-  std::vector<Photograph> photographs_;
+  ScratchFile file_;
+  std::vector<float> scale_;  // of a photograph's light and deviation
+  Rejections rejected_;       // ascending
 };
 
 }  // namespace relucent::acquisition

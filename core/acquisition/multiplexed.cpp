@@ -16,6 +16,7 @@
 #include "relucent/multiplexing/division.h"
 #include "relucent/multiplexing/learning.h"
 #include "relucent/multiplexing/pattern.h"
+#include "relucent/platform/process.h"
 
 namespace relucent::acquisition {
 namespace {
@@ -45,12 +46,13 @@ constexpr std::size_t judgedRows = 40000;
 constexpr int fewUnconfirmed = 20;
 // Thresholds of dim pixels are raised by at most this.
 constexpr float mostDimming = 10.0f;
-// Rows that are solved one after the other with the same memory, and that wait to be written.
-constexpr std::size_t reviewParts = 256;
-constexpr std::size_t rowsAtOnce = 64, rowsWritten = 8192;
+// Parts of the camera pixels that wait to be written.
+constexpr std::size_t partsWritten = 32;
+// Parts after which the system gets back the memory that they had: some 50 MB.
+constexpr std::size_t partsReturned = 256;
 
-std::size_t partsOf(std::size_t rows) {
-  return (rows + rowsAtOnce - 1) / rowsAtOnce;
+int detailsAt(int level) {
+  return level > 0 ? fewDetails : multiplexing::RowSettings().details;
 }
 
 /// How well photographs that were held out are predicted.
@@ -95,27 +97,27 @@ class Measurement {
 
   std::optional<sentinels::Interruption> run(bool rootsOnly, Progress& progress) {
     const transport::NodeLayout& layout = means_.layout();
-    int start = rootsOnly ? layout.levels() : multiplexing::startingLevel(layout);
-    begin(start, rootsOnly ? rootSpread : startingSpread);
+    start_ = rootsOnly ? layout.levels() : multiplexing::startingLevel(layout);
+    begin(rootsOnly ? rootSpread : startingSpread);
     if (rootsOnly) return std::nullopt;
-    for (int level = start; level >= 0; --level) {
-      if (level < start && progress.stopAndKeep()) break;
+    for (int level = start_; level >= 0; --level) {
+      if (level < start_ && progress.stopAndKeep()) break;
       int patterns = patternsFor(level);
       if (patterns == 0) continue;
       levels_.push_back(patterns);
       context_.observer.grew(levels_, 0);
-      Progress part = progress.part((level > 0 ? 1.0 : 2.0) / (start + 2),
+      Progress part = progress.part((level > 0 ? 1.0 : 2.0) / (start_ + 2),
                                     RELUCENT_MESSAGE("stage.dense-patterns", "patterns in blocks of {} px")
                                         .with(as::label(1 << level)));
       if (auto interrupted = photograph(level, patterns, part)) return interrupted;
-      model_.details = level > 0 ? fewDetails : multiplexing::RowSettings().details;
+      model_.details = detailsAt(level);
       if (level == 0) {
         if (auto interrupted = refine(part)) return interrupted;
         break;
       }
       solve();
       if (auto interrupted = settle(part)) return interrupted;
-      multiplexing::divide(rows_, references_.cameras, layout, level, thresholds_, {});
+      divide(level);
     }
     return confirm(progress);
   }
@@ -123,7 +125,15 @@ class Measurement {
   MeasuredTransport finish();
 
  private:
-  void begin(int level, float spread);
+  /// A level whose patterns have been used, and how many photographs there were then.
+  struct Division {
+    int level = 0;
+    std::size_t photographs = 0;
+  };
+
+  void begin(float spread);
+  void divide(int level);
+  void beginAnew();
   std::optional<sentinels::Interruption> confirm(const Progress& progress);
   std::optional<sentinels::Interruption> interrupted(sentinels::Interruption how);
   int patternsFor(int level) const;
@@ -131,13 +141,18 @@ class Measurement {
   std::optional<sentinels::Interruption> take(const std::vector<Taken>& wanted, Progress& part);
   std::optional<sentinels::Interruption> refine(Progress& part);
   std::optional<sentinels::Interruption> settle(Progress& part);
+  std::vector<std::size_t> judge(std::size_t heldOut);
   bool isJudged(std::size_t row) const;
   template <typename Wanted, typename Use>
-  void solveRows(std::size_t parts, std::size_t heldOut, const Wanted& wanted, const Use& use);
-  void solve();
-  PhotographReview review();
+  void solveRows(std::size_t heldOut, const Wanted& wanted, const Use& use);
+  template <typename Wanted>
+  void solve(const Wanted& wanted, std::size_t heldOut = 0);
+  void solve() {
+    solve([](std::size_t) { return true; });
+  }
   Prediction predict();
-  Prediction predicted(std::size_t row, const Eigen::ArrayX3f& predictions) const;
+  Prediction predicted(std::size_t row, const DensePhotographs::Rows& shown,
+                       const Eigen::ArrayX3f& predictions) const;
   void finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
                  MeasuredTransport& measured) const;
 
@@ -152,17 +167,42 @@ class Measurement {
   std::vector<float> thresholds_;  // relative to F
   std::vector<int> levels_;        // patterns of the levels that have begun
   std::vector<Taken> taken_;       // a photograph each
+  std::vector<Division> divisions_;
+  int start_ = 0;  // the coarsest level
 };
 
-void Measurement::begin(int level, float spread) {
-  std::vector<Leaf> leaves = multiplexing::startingLeaves(means_.layout(), level, spread);
+void Measurement::begin(float spread) {
+  std::vector<Leaf> leaves = multiplexing::startingLeaves(means_.layout(), start_, spread);
   parallelFor(0, rows_.size(), 1024, [&](std::size_t row) {
+    rows_[row] = {};
     if (!references_.usable[row]) return;
     for (const transport::ColourBlock& mixing : photographs_.floodMixing(row))
       rows_[row].mixing.insert(rows_[row].mixing.end(), 2, mixing);
     rows_[row].excess = model_.leastExcess * model_.leastExcess;
     rows_[row].leaves = leaves;
   });
+}
+
+void Measurement::divide(int level) {
+  divisions_.push_back({level, photographs_.size()});
+  multiplexing::divide(rows_, references_.cameras, means_.layout(), level, thresholds_, {});
+}
+
+/// Divides rows as the photographs that are left would have had them divided. What those that are gone said,
+/// in the dark or with something in the way, would stay in the rows as spreads and leaves otherwise.
+void Measurement::beginAnew() {
+  const std::vector<Division> before = std::exchange(divisions_, {});
+  photographs_.forgetJudgements();
+  begin(startingSpread);
+  for (const Division& division : before) {
+    if (division.photographs > photographs_.size()) break;
+    std::size_t later = photographs_.size() - division.photographs;
+    auto all = [](std::size_t) { return true; };
+    model_.details = detailsAt(division.level);
+    solve(all, later);
+    if (!judge(later).empty()) solve(all, later);
+    divide(division.level);
+  }
 }
 
 int Measurement::patternsFor(int level) const {
@@ -221,17 +261,20 @@ std::optional<sentinels::Interruption> Measurement::confirm(const Progress& prog
   return disturbed ? interrupted(*disturbed) : std::nullopt;
 }
 
-/// T is to follow from the photographs that a check has confirmed.
+/// T is to follow from the photographs that a check has confirmed, and from no others.
 std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Interruption how) {
   std::erase_if(taken_, [&](const Taken& taken) { return taken.shot > context_.watch.confirmed(); });
+  if (how == sentinels::Interruption::beginAgain || taken_.size() == photographs_.size()) return how;
   photographs_.keep(taken_.size());
   means_.keep(taken_.size());
+  beginAnew();
   return how;
 }
 
 std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
   double before = 0.0;
-  solve();
+  // The others wait for the last of these patterns.
+  solve([&](std::size_t row) { return isJudged(row); });
   while (levels_.back() + predictedPatterns <= mostFinest && !part.stopAndKeep()) {
     levels_.back() += predictedPatterns;
     if (auto interrupted = photograph(0, predictedPatterns, part)) return interrupted;
@@ -240,7 +283,7 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     before = error;
   }
   if (auto interrupted = settle(part)) return interrupted;
-  multiplexing::divide(rows_, references_.cameras, means_.layout(), 0, thresholds_, {});
+  divide(0);
   return std::nullopt;
 }
 
@@ -251,37 +294,33 @@ bool Measurement::isJudged(std::size_t row) const {
 }
 
 /// Solves every wanted row with the last `heldOut` photographs unseen, hands what was found to
-/// `use(part, row, regression, seen)`, and learns from it. The rows are divided into `parts`.
+/// `use(part, shown, row, regression, seen)`, and learns from it.
 template <typename Wanted, typename Use>
-void Measurement::solveRows(std::size_t parts, std::size_t heldOut, const Wanted& wanted, const Use& use) {
-  parallelChunks(0, rows_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+void Measurement::solveRows(std::size_t heldOut, const Wanted& wanted, const Use& use) {
+  parallelFor(0, photographs_.parts(), 1, [&](std::size_t part) {
+    const DensePhotographs::Rows shown(photographs_, part);
     RowRegression regression(means_, model_);
     RowLight seen;
-    for (std::size_t row = begin; row < end; ++row) {
+    for (std::size_t row = shown.begin(); row < shown.end(); ++row) {
       if (rows_[row].leaves.empty() || !wanted(row)) continue;
-      photographs_.read(row, heldOut, seen);
+      shown.read(row, heldOut, seen);
       const RowFit& fit = regression.solve(rows_[row], seen);
-      use(part, row, regression, seen);
+      use(part, shown, row, regression, seen);
       multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model_);
     }
   });
 }
 
-void Measurement::solve() {
-  solveRows(
-      partsOf(rows_.size()), 0, [](std::size_t) { return true; },
-      [](std::size_t, std::size_t, RowRegression&, const RowLight&) {});
+template <typename Wanted>
+void Measurement::solve(const Wanted& wanted, std::size_t heldOut) {
+  solveRows(heldOut, wanted,
+            [](std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {});
 }
 
 /// Solves once more, leaves out what contradicts the rest, and photographs again what was spoilt.
 std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
-  PhotographReview found = review();
-  std::vector<float> gains = found.gains();
-  for (std::size_t number = 0; number < gains.size(); ++number) photographs_.divide(number, gains[number]);
-  std::vector<std::size_t> spoilt = found.spoilt();
+  std::vector<std::size_t> spoilt = judge(0);
   if (spoilt.empty()) return std::nullopt;
-  for (auto [row, number] : found.contradictions())
-    if (std::binary_search(spoilt.begin(), spoilt.end(), number)) photographs_.reject(number, row);
   std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
   for (std::size_t number : spoilt) {
     Taken& taken = taken_[number];
@@ -295,35 +334,43 @@ std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
   return std::nullopt;
 }
 
-PhotographReview Measurement::review() {
-  std::vector<PhotographReview> parts(reviewParts, PhotographReview(photographs_.size()));
+/// Solves once more without the last `heldOut` photographs, corrects the others for the lamp's light in each,
+/// and leaves out what contradicts the rest. Returns: photographs that were spoilt, by number.
+std::vector<std::size_t> Measurement::judge(std::size_t heldOut) {
+  std::vector<PhotographReview> parts(photographs_.parts(), PhotographReview(photographs_.size()));
   solveRows(
-      parts.size(), 0, [](std::size_t) { return true; },
-      [&](std::size_t part, std::size_t row, RowRegression& regression, const RowLight& seen) {
-        parts[part].add(row, seen, regression.predict(), rows_[row].excess);
-      });
-  PhotographReview all(photographs_.size());
-  for (const PhotographReview& part : parts) all.add(part);
-  return all;
+      heldOut, [](std::size_t) { return true; },
+      [&](std::size_t part, const DensePhotographs::Rows&, std::size_t row, RowRegression& regression,
+          const RowLight& seen) { parts[part].add(row, seen, regression.predict(), rows_[row].excess); });
+  PhotographReview found(photographs_.size());
+  for (const PhotographReview& part : parts) found.add(part);
+  std::vector<float> gains = found.gains();
+  for (std::size_t number = 0; number < gains.size(); ++number) photographs_.divide(number, gains[number]);
+  std::vector<std::size_t> spoilt = found.spoilt();
+  DensePhotographs::Rejections unseen;
+  for (auto [row, number] : found.contradictions())
+    if (std::ranges::binary_search(spoilt, number)) unseen.emplace_back(row, number);
+  photographs_.reject(unseen);
+  return spoilt;
 }
 
 Prediction Measurement::predict() {
-  std::vector<Prediction> parts(partsOf(rows_.size()));
+  std::vector<Prediction> parts(photographs_.parts());
   solveRows(
-      parts.size(), predictedPatterns, [&](std::size_t row) { return isJudged(row); },
-      [&](std::size_t part, std::size_t row, RowRegression& regression, const RowLight&) {
-        parts[part].add(predicted(row, regression.predict()));
-      });
+      predictedPatterns, [&](std::size_t row) { return isJudged(row); },
+      [&](std::size_t part, const DensePhotographs::Rows& shown, std::size_t row, RowRegression& regression,
+          const RowLight&) { parts[part].add(predicted(row, shown, regression.predict())); });
   Prediction all;
   for (const Prediction& part : parts) all.add(part);
   return all;
 }
 
-Prediction Measurement::predicted(std::size_t row, const Eigen::ArrayX3f& predictions) const {
+Prediction Measurement::predicted(std::size_t row, const DensePhotographs::Rows& shown,
+                                  const Eigen::ArrayX3f& predictions) const {
   Prediction prediction;
   Eigen::Array3d flood = photographs_.flood(row).cast<double>();
   for (std::size_t number = photographs_.size() - predictedPatterns; number < photographs_.size(); ++number) {
-    auto [light, variance] = photographs_.shown(number, row);
+    auto [light, variance] = shown.shown(number, row);
     Eigen::Array3f off = light - predictions.row(static_cast<Eigen::Index>(number)).transpose();
     for (Eigen::Index c = 0; c < 3; ++c) {
       if (!std::isfinite(variance[c])) continue;
@@ -356,7 +403,6 @@ void Measurement::finishRow(std::size_t row, const RowFit& fit, std::vector<Code
   Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * row]) = flood.square() * variance;
   Eigen::Map<Eigen::Array3f>(&measured.floods.light[3 * row]) = flood * fit.flood;
   Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * row]) = flood.square() * fit.floodVariance;
-  measured.unknown[row] = photographs_.hardlySeen(row) ? 1 : 0;
 }
 
 MeasuredTransport Measurement::finish() {
@@ -367,25 +413,29 @@ MeasuredTransport Measurement::finish() {
   measured.unknown.assign(count, 0);
   measured.floods = floodsOf(references_);
   transport::BlockSparseWriter writer(means_.layout().count(), references_.fullScale, leaves);
-  std::vector<std::vector<Code>> codes(std::min(rowsWritten, count));
-  for (std::size_t first = 0; first < count; first += rowsWritten) {
-    std::size_t last = std::min(first + rowsWritten, count);
-    parallelChunks(first, last, partsOf(last - first), [&](std::size_t, std::size_t begin, std::size_t end) {
+  constexpr std::size_t together = DensePhotographs::rowsTogether;
+  std::vector<std::vector<Code>> codes(std::min(partsWritten * together, count));
+  for (std::size_t first = 0; first < photographs_.parts(); first += partsWritten) {
+    std::size_t last = std::min(first + partsWritten, photographs_.parts()), begin = first * together;
+    parallelFor(first, last, 1, [&](std::size_t part) {
+      const DensePhotographs::Rows shown(photographs_, part);
       RowRegression regression(means_, model_);
       RowLight seen;
-      for (std::size_t row = begin; row < end; ++row) {
-        codes[row - first].clear();
+      for (std::size_t row = shown.begin(); row < shown.end(); ++row) {
+        codes[row - begin].clear();
         if (rows_[row].leaves.empty()) continue;
-        photographs_.read(row, 0, seen);
-        finishRow(row, regression.solve(rows_[row], seen), codes[row - first], measured);
+        shown.read(row, 0, seen);
+        finishRow(row, regression.solve(rows_[row], seen), codes[row - begin], measured);
+        measured.unknown[row] = shown.hardlySeen(row) ? 1 : 0;
       }
     });
-    for (std::size_t row = first; row < last; ++row) {
+    for (std::size_t row = begin; row < std::min(last * together, count); ++row) {
       for (std::size_t j = 0; j < rows_[row].leaves.size(); ++j)
-        writer.add(rows_[row].leaves[j].node, codes[row - first][j]);
+        writer.add(rows_[row].leaves[j].node, codes[row - begin][j]);
       writer.endRow();
       rows_[row] = {};  // two of them need not fit into memory
     }
+    if (last % partsReturned == 0) platform::returnFreedMemory();
   }
   measured.transport =
       transport::TransportMatrix(references_.cameras, references_.projectors, writer.build());

@@ -21,7 +21,8 @@ float strongLight(const Row& row, std::uint32_t node, float threshold, const Div
   auto found = std::lower_bound(row.leaves.begin(), row.leaves.end(), node,
                                 [](const Leaf& leaf, std::uint32_t wanted) { return leaf.node < wanted; });
   bool there = found != row.leaves.end() && found->node == node;
-  return there && isStrong(*found, threshold, settings) ? found->light : 0.0f;
+  if (!there || !isStrong(*found, threshold, settings)) return 0.0f;
+  return found->light;
 }
 
 /// Up to four camera pixels beside one, of the same camera.
@@ -40,7 +41,7 @@ void addChildren(std::vector<Leaf>& leaves, const Leaf& leaf, float threshold,
                  const transport::NodeLayout& layout) {
   transport::Node node = layout.node(leaf.node);
   auto area = static_cast<float>(layout.block(node).count());
-  float light = std::max(0.0f, leaf.light);
+  float light = std::max<float>(0.0f, leaf.light);
   for (const transport::Node& child : layout.children(node)) {
     float share = static_cast<float>(layout.block(child).count()) / area;
     float spread = 0.6f * std::max(light, 0.5f * threshold) * std::sqrt(share) + leaf.deviation * share;
@@ -76,15 +77,13 @@ struct Candidate {
 /// Joins what `candidates` of one parent, all of its children, measured.
 void addParent(std::vector<Leaf>& leaves, std::size_t parent, const std::vector<Leaf>& row,
                std::span<const Candidate> children) {
-  Leaf joined{static_cast<std::uint32_t>(parent)};
-  float variance = 0.0f;
+  float light = 0.0f, variance = 0.0f;
   for (const Candidate& child : children) {
-    joined.light += row[child.leaf].light;
+    light += row[child.leaf].light;
     variance += row[child.leaf].deviation * row[child.leaf].deviation;
   }
-  joined.deviation = std::sqrt(variance);
-  joined.spread = std::hypot(joined.light, joined.deviation);
-  leaves.push_back(joined);
+  leaves.push_back({static_cast<std::uint32_t>(parent), 0.0f, std::sqrt(light * light + variance), light,
+                    std::sqrt(variance)});
 }
 
 void findFollowed(Followed& followed, const std::vector<Row>& rows, const Rasters& cameras,

@@ -32,8 +32,8 @@ void learn(Row& row, const RowFit& fit, const std::vector<transport::ColourBlock
   for (std::size_t kind = 0; kind < row.mixing.size(); ++kind)
     row.mixing[kind] = mixingOf(fit.sums[kind], floodMixing[kind / 2], settings.anyColour);
   for (Leaf& leaf : row.leaves) {
-    float light = std::max(0.0f, leaf.light);
-    float spread = std::hypot(light, leaf.deviation, settings.faintest);
+    float light = std::max<float>(0.0f, leaf.light);
+    float spread = std::hypot(light, static_cast<float>(leaf.deviation), settings.faintest);
     float most_ = std::max(1.5f * std::abs(leaf.light) + 2.0f * leaf.deviation, settings.faintest);
     leaf.spread = std::min(spread, most_);
     leaf.expected = 0.0f;

@@ -11,6 +11,10 @@ namespace {
 
 constexpr float whole = 65535.0f;
 
+std::size_t bytesOf(std::size_t bits) {
+  return (bits + 7) / 8;
+}
+
 /// The node of `level` that holds one, or the last of its projector.
 transport::Node ancestor(const transport::NodeLayout& layout, transport::Node node, int level) {
   int last = std::min(level, layout.levels(static_cast<std::size_t>(node.projector)) - 1);
@@ -26,16 +30,18 @@ void PatternMeans::add(int level, const std::vector<ProjectorStack>& patterns) {
   std::size_t pixels = layout_.projectors().count(), nodes = layout_.count(), first = nodes;
   for (std::size_t projector = 0; projector < layout_.projectors().devices(); ++projector)
     first = std::min(first, layout_.index(ancestor(layout_, {static_cast<int>(projector), 0, 0, 0}, level)));
-  std::size_t stride = 3 * patterns.size();
   Batch batch{level, patterns.size(), patterns.size(), std::max(first, pixels), {}, {}};
-  if (first < pixels) batch.pixels.resize(stride * pixels);
+  std::size_t stride = 3 * batch.patterns, bytes = bytesOf(batch.patterns);
+  if (first < pixels) batch.pixels.resize(3 * bytes * pixels);
   batch.blocks.resize(stride * (nodes - batch.first));
   for (std::size_t number = 0; number < patterns.size(); ++number) {
     transport::NodeStack means = layout_.means(patterns[number]);
     if (!batch.pixels.empty())
       parallelFor(0, pixels, 4096, [&](std::size_t node) {
         for (std::size_t c = 0; c < 3; ++c)
-          batch.pixels[node * stride + c * batch.patterns + number] = means[3 * node + c] > 0.5f ? 1 : 0;
+          if (means[3 * node + c] > 0.5f)
+            batch.pixels[(3 * node + c) * bytes + number / 8] |=
+                static_cast<std::uint8_t>(1U << (number % 8));
       });
     parallelFor(batch.first, nodes, 4096, [&](std::size_t node) {
       for (std::size_t c = 0; c < 3; ++c)
@@ -71,8 +77,9 @@ void PatternMeans::read(std::size_t node, const std::array<float*, 3>& means) co
     for (std::size_t c = 0; c < 3; ++c) {
       float* to = means[c] + at;
       if (stored < batch.first) {
-        const std::uint8_t* from = &batch.pixels[stored * stride + c * count];
-        for (std::size_t i = 0; i < batch.used; ++i) to[i] = static_cast<float>(from[i]);
+        const std::uint8_t* from = &batch.pixels[(3 * stored + c) * bytesOf(count)];
+        for (std::size_t i = 0; i < batch.used; ++i)
+          to[i] = static_cast<float>((from[i / 8] >> (i % 8)) & 1U);
       } else {
         const std::uint16_t* from = &batch.blocks[(stored - batch.first) * stride + c * count];
         for (std::size_t i = 0; i < batch.used; ++i) to[i] = static_cast<float>(from[i]) * (1.0f / whole);

@@ -11,8 +11,8 @@ namespace relucent::multiplexing {
 
 /// The means of many binary patterns over all nodes, one node's means beside each other: what the regression
 /// of a camera pixel reads. Nodes inside a block share its value, so that only patterns of single pixels need
-/// a value for each pixel: a byte for each channel of a pixel, two for a coarser node, whose means are
-/// rounded to 1/65535. Patterns of 1024x768 pixels take 3.9 MB each, those in blocks of 2 pixels 1.6 MB, of 4
+/// a value for each pixel: a bit for each of its channels. A coarser node needs two bytes, its means are
+/// rounded to 1/65535. Patterns of 1024x768 pixels take 1.9 MB each, those in blocks of 2 pixels 1.6 MB, of 4
 /// 0.4 MB.
 class PatternMeans {
  public:
@@ -37,8 +37,8 @@ class PatternMeans {
     std::size_t patterns = 0;           // that are stored ...
     std::size_t used = 0;               // ... and not forgotten
     std::size_t first = 0;              // of the nodes in `blocks`
-    std::vector<std::uint8_t> pixels;   // [node][channel][pattern], of patterns of single pixels
-    std::vector<std::uint16_t> blocks;  // likewise, from the first node on
+    std::vector<std::uint8_t> pixels;   // [node][channel][pattern / 8], bits of patterns of single pixels
+    std::vector<std::uint16_t> blocks;  // [node][channel][pattern], from the first node on
   };
 
   std::size_t storedNode(const Batch& batch, std::size_t node, const transport::Node& place) const;

@@ -137,7 +137,7 @@ void RowRegression::gatherKinds(const Row& row) {
   }
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     Eigen::Index kind = kinds_[static_cast<std::size_t>(j)];
-    float light = std::max(0.0f, row.leaves[static_cast<std::size_t>(j)].light),
+    float light = std::max<float>(0.0f, row.leaves[static_cast<std::size_t>(j)].light),
           spread = colourSpread(row, j);
     for (std::size_t k = 0; k < 3; ++k) {
       known_[k].col(kind) += light * design_[k].col(j);
@@ -303,7 +303,7 @@ void RowRegression::adopt(Row& row) {
   for (std::size_t j = 0; j < row.leaves.size(); ++j) {
     Leaf& leaf = row.leaves[j];
     auto kind = static_cast<std::size_t>(kinds_[j]);
-    float before = std::max(0.0f, leaf.light);
+    float before = std::max<float>(0.0f, leaf.light);
     leaf.light = leaf.expected + leaf.spread * light_[at(j)];
     fit_.blocks[j] = leaf.light * row.mixing[kind] + before * off[kind];
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -9,13 +10,24 @@
 
 namespace relucent::multiplexing {
 
+/// A number that is kept in half precision and counts in single precision: there are a hundred million of
+/// them at full scale.
+class Half {
+ public:
+  Half(float value = 0.0f) : value_(value) {}  // NOLINT(google-explicit-constructor): it is one
+  operator float() const { return static_cast<float>(value_); }  // NOLINT(google-explicit-constructor)
+
+ private:
+  Eigen::half value_;
+};
+
 /// One node of a camera pixel's row, as an unknown: its light as a share of all light that the pixel gets.
 struct Leaf {
   std::uint32_t node = 0;
-  float expected = 0.0f;   // before the photographs: mean ...
-  float spread = 0.0f;     // ... and standard deviation
-  float light = 0.0f;      // after them: mean ...
-  float deviation = 0.0f;  // ... and standard deviation
+  Half expected;   // before the photographs: mean ...
+  Half spread;     // ... and standard deviation
+  Half light;      // after them: mean ...
+  Half deviation;  // ... and standard deviation
 };
 
 /// What is known of a camera pixel's row of T. Values are relative to F_c, the pixel's flood in camera
@@ -49,6 +61,6 @@ inline std::size_t kindOf(const transport::Node& node, const RowSettings& settin
 std::vector<Leaf> startingLeaves(const transport::NodeLayout& layout, int start, float spread);
 
 /// The coarsest level with at least `nodes` nodes in all projectors together, or the finest.
-int startingLevel(const transport::NodeLayout& layout, int nodes = 48);
+int startingLevel(const transport::NodeLayout& layout, int nodes = 24);
 
 }  // namespace relucent::multiplexing

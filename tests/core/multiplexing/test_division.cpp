@@ -60,7 +60,7 @@ class TestDivision : public QObject {
     Row row{startingLeaves(layout, level, 0.1f), {}, 0.0f};
     coversOnce(layout, row);
     QVERIFY(row.leaves.size() >= static_cast<std::size_t>(nodes) || level == 0);
-    QVERIFY(std::abs(lightOf(row) - 1.0) < 1e-5);
+    QVERIFY(std::abs(lightOf(row) - 1.0) < 0x1p-11);  // that of halves
   }
 
   void strongLeavesAreDivided() {

@@ -191,9 +191,7 @@ class Measurement {
     const AcquisitionSettings& settings = run_.settings;
     if (progress.stopAndKeep()) return verifyOnly(verified, context, settings, progress);
     if (auto interrupted = context.watch.check(progress)) return interrupted;
-    if (auto interrupted = context.scheme.repairs ? verifyAndRepair(verified, context, settings, progress)
-                                                  : verifyOnly(verified, context, settings, progress))
-      return interrupted;
+    if (auto interrupted = verifyAndRepair(verified, context, settings, progress)) return interrupted;
     return context.watch.check(progress);
   }
 

@@ -52,9 +52,11 @@ class Repair {
       : verified_(verified), rows_(std::move(rows)), context_(context), settings_(settings) {}
 
   std::optional<sentinels::Interruption> run(Progress& progress) {
+    const double least =
+        context_.scheme.repairedFrom * static_cast<double>(countOf(context_.references().usable));
     for (int round = 1; round <= mostRepairs; ++round) {
       std::size_t ill = countOf(verified_.flagged);
-      if (ill == 0) break;
+      if (ill == 0 || static_cast<double>(ill) < least) break;
       verified_.remeasured += round == 1 ? static_cast<int>(ill) : 0;
       Progress part = progress.part(0.25, RELUCENT_PLURAL_MESSAGE("stage.remeasuring-flagged-pixels",
                                                                   "measuring {} flagged pixels again",

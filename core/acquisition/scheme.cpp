@@ -9,6 +9,9 @@ namespace {
 
 // A flood's sum below this many standard deviations says nothing about its mixing.
 constexpr float mixingSigmas = 5.0f;
+// Share of flagged camera pixels that is worth a tree of their rows.
+constexpr double manyFlagged = 0.005;
+constexpr double never = 2.0;
 
 std::vector<LitChannels> lightsOf(LitColours colours) {
   if (colours == LitColours::white) return {{true, true, true}};
@@ -38,14 +41,15 @@ Scheme schemeOf(const AcquisitionSettings& settings, const photography::Referenc
   if (settings.scheme != AcquisitionScheme::sen) {
     scheme.threshold = scaled(references.strongest, settings.relativeThreshold);
     scheme.noiseSigmas = settings.noiseSigmas;
-    scheme.repairs = settings.scheme == AcquisitionScheme::adaptive;
+    if (settings.scheme == AcquisitionScheme::multiplexed) scheme.repairedFrom = manyFlagged;
   } else {
     // One radiance for all has to be that of the dimmest pixels that are to be resolved.
     double dimmest = settings.relativeThreshold * settings.dimShare * static_cast<double>(references.typical);
     double everywhere = settings.absoluteThreshold > 0.0 ? settings.absoluteThreshold : dimmest;
     scheme.threshold.assign(references.strongest.size(), static_cast<float>(everywhere));
     scheme.allExposures = true;
-    scheme.subtractsLeaves = scheme.reconciles = scheme.repairs = false;
+    scheme.subtractsLeaves = scheme.reconciles = false;
+    scheme.repairedFrom = never;
     scheme.restToParent = true;
   }
   scheme.tolerable = scaled(scheme.threshold, 1.0 / settings.noiseSigmas);

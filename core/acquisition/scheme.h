@@ -23,7 +23,8 @@ using LitChannels = std::array<bool, 3>;
 ///   what does not go on  a leaf of its own, signed       added up in a leaf at the parent's level
 ///   flagged rows         measured again                  left as they are
 ///
-/// Dense patterns need no tree. Their T is verified as that of adaptive; flagged rows are left as they are.
+/// Dense patterns need no tree, but for flagged rows if they are many: a tree of some rows alone takes some
+/// 200 photographs, as many as all of the dense patterns.
 /// Source: core/acquisition/README.md; Sen et al. 2005, adaptive multiplexed acquisition.
 struct Scheme {
   std::vector<float> threshold;  // radiance, per camera pixel
@@ -34,7 +35,8 @@ struct Scheme {
   bool subtractsLeaves = true;
   bool reconciles = true;
   bool restToParent = false;
-  bool repairs = true;              // flagged camera pixels are measured again
+  // Flagged camera pixels are measured again from this share of them on; above 1: never.
+  double repairedFrom = 0.0;
   std::vector<LitChannels> lights;  // shown one after the other
 
   /// Whether any of a child's nine values is above what the scheme follows.

@@ -174,6 +174,20 @@ class TestMultiplexed : public QObject {
   }
 
   /// What is asked to be finer takes more photographs, and is.
+  /// What counts as wrong is set so low that many camera pixels are.
+  void manyFlaggedRowsAreMeasuredAgain() {
+    QCOMPARE(undisturbed().remeasured, 0);
+    Venue venue = denseVenue();
+    venue.settings.flagRelative = 0.01;
+    venue.settings.flagSigmas = 0.1;
+    Run run(venue);
+    const Acquisition a = run();
+    QVERIFY2(a.remeasured > 0 && a.patterns > undisturbed().patterns, qPrintable(shown(a, run.truth)));
+    QVERIFY2(
+        a.verificationError < 0.9 * undisturbed().verificationError,
+        qPrintable(QString("%1, %2 before").arg(a.verificationError).arg(undisturbed().verificationError)));
+  }
+
   void finenessDecidesPhotographs() {
     Venue venue = denseVenue();
     venue.noise = 1e-4;

@@ -39,17 +39,26 @@ class TestMultiplexed : public QObject {
     QTest::addColumn<int>("projectors");
     QTest::addColumn<int>("cameras");
     QTest::addColumn<double>("drift");
-    QTest::newRow("one projector") << 1 << 1 << 0.0;
-    QTest::newRow("two projectors, lit together") << 2 << 1 << 0.0;
-    QTest::newRow("two cameras") << 1 << 2 << 0.0;
-    QTest::newRow("a lamp that fades") << 1 << 1 << -0.03;
+    QTest::addColumn<double>("black");
+    QTest::addColumn<double>("shareSeen");
+    QTest::newRow("one projector") << 1 << 1 << 0.0 << 1e-3 << 0.9;
+    QTest::newRow("two projectors, lit together") << 2 << 1 << 0.0 << 1e-3 << 0.9;
+    QTest::newRow("two cameras") << 1 << 2 << 0.0 << 1e-3 << 0.9;
+    QTest::newRow("a lamp that fades") << 1 << 1 << -0.03 << 1e-3 << 0.9;
+    QTest::newRow("black that leaks light") << 1 << 1 << 0.0 << 0.05 << 0.9;
+    QTest::newRow("half of the camera sees no light") << 1 << 1 << 0.0 << 1e-3 << 0.5;
   }
   /// Sizes are no multiples of the blocks.
   void fewPhotographsAreEnough() {
     QFETCH(int, projectors);
     QFETCH(int, cameras);
     QFETCH(double, drift);
+    QFETCH(double, black);
+    QFETCH(double, shareSeen);
     Venue venue = denseVenue();
+    venue.black = black;
+    venue.synthetic.shareSeen = shareSeen;
+    if (shareSeen < 0.9) venue.synthetic.interreflection = 0.0;
     if (projectors == 2) venue.synthetic.projectors.push_back({13, 11});
     if (cameras == 2) venue.synthetic.cameras.push_back({9, 7});
     venue.drift = drift;
@@ -63,6 +72,9 @@ class TestMultiplexed : public QObject {
     // T 1 is the flood, which all photographs together know better than its own.
     QVERIFY(relativeError(a.transport.floodlight(), a.flood) < 1e-3);
     QVERIFY2(relativeError(a.flood, run.truth.floodlight()) < 0.01, qPrintable(shown(a, run.truth)));
+    QVERIFY(std::ranges::all_of(a.leafVariance, [](float value) { return std::isfinite(value); }));
+    QVERIFY(std::ranges::all_of(a.floodVariance, [](float value) { return std::isfinite(value); }));
+    QVERIFY2(flaggedIn(a) == 0, qPrintable(shown(a, run.truth)));
   }
 
   void resumedWithTheSameBits_data() {

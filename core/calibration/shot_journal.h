@@ -11,8 +11,9 @@ namespace relucent::calibration {
 ///
 /// A file is a line of JSON (id, fingerprint, exposures asked for and reported, size, bits, checksum) and
 /// then the samples of every exposure of every camera, row by row, channels interleaved, little endian:
-/// whole codes in 8 or 16 bits where the frame consists of codes, else 32-bit floats. Nothing is
-/// compressed, because that would take longer than the photograph (figures: core/calibration/README.md).
+/// whole codes in 8 or 16 bits where the frame consists of codes, else 32-bit floats. Differences between
+/// neighbouring codes are compressed, at the speed of memory (figures: core/calibration/README.md). Files of
+/// earlier programs, which did not compress, are read too.
 ///
 /// Names: <stage>-<number>-<fingerprint>.shot, so that shots taken with other settings stay.
 class ShotJournal : public rig::ShotLog {

@@ -13,6 +13,7 @@ find_package(CLI11 REQUIRED)
 find_package(embree REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(BLOSC REQUIRED IMPORTED_TARGET blosc)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 # Cameras: without these everything else works, and `relucent-cli devices` says what is missing. A project that finds

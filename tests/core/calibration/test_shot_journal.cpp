@@ -15,6 +15,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
 #include "relucent/base/random.h"
 #include "relucent/calibration/shot_journal.h"
 
@@ -122,6 +123,49 @@ class TestShotJournal : public QObject {
       journal.keep(shot);
       QVERIFY(identical(journal.find(shot.id, fingerprint).value(), shot));
     }
+  }
+
+  /// A smooth picture with the noise that photons have at 15000 electrons takes half of its codes.
+  void photographsAreCompressed_data() {
+    QTest::addColumn<int>("bits");
+    for (int bits : {8, 12, 14}) QTest::addRow("%d bits", bits) << bits;
+  }
+  void photographsAreCompressed() {
+    QFETCH(int, bits);
+    Random random{5};
+    RawFrame frame{Image({640, 480}, 3), bits, 0.5};
+    const double full = std::pow(2.0, bits) - 1.0;
+    for (std::size_t i = 0; i < frame.signal.data().size(); ++i) {
+      const double light = 0.2 + 0.15 * std::sin(static_cast<double>(i) / 40000.0);
+      const double noisy = light + random.normal() * std::sqrt(light / 15000.0);
+      frame.signal.data()[i] = static_cast<float>(std::round(noisy * full) / full);
+    }
+    Shot shot{{"acquisition", 1}, fingerprint, {{frame}}, {0.5}};
+    ShotJournal(folder_).keep(shot);
+    QVERIFY(identical(ShotJournal(folder_).find(shot.id, fingerprint).value(), shot));
+    const double plain = (bits > 8 ? 2.0 : 1.0) * static_cast<double>(frame.signal.data().size());
+    const auto stored = static_cast<double>(fs::file_size(onlyFileIn(folder_)));
+    QVERIFY2(stored < (bits == 14 ? 0.65 : 0.5) * plain, std::to_string(stored / plain).c_str());
+  }
+
+  /// As programs before compression wrote them.
+  void plainFilesOfEarlierProgramsAreRead() {
+    std::string header =
+        R"({"exposures_asked":[0.5],"fingerprint":"0123456789abcdef0123456789abcdef","format":"relucent shot",)"
+        R"("frames":[[{"bits":12,"channels":3,"height":1,"samples":"codes16","seconds":0.5,"width":2}]],)"
+        R"("number":4,"stage":"acquisition","version":1})";
+    const std::uint16_t codes[] = {0, 1, 4095, 7, 300, 2048};
+    const std::string samples(reinterpret_cast<const char*>(codes), sizeof codes);
+    const std::string checksum = Fingerprint().add(header).add(samples).hex();
+    header.insert(1, "\"checksum\":\"" + checksum + "\",");
+    ShotJournal journal(folder_);
+    std::ofstream(folder_ / "acquisition-000004-01234567.shot", std::ios::binary) << header << "\n"
+                                                                                  << samples;
+    std::optional<Shot> found = journal.find({"acquisition", 4}, fingerprint);
+    QVERIFY(found);
+    const std::vector<float>& signal = found->frames[0][0].signal.data();
+    for (std::size_t i = 0; i < 6; ++i)
+      QCOMPARE(signal[i], static_cast<float>(static_cast<double>(codes[i]) / 4095.0));
   }
 
   void severalExposuresAndCamerasKeepTheirPlaces() {

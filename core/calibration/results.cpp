@@ -185,7 +185,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"findings", acquisition.findings},
               {"cost", toJson(cost)}};
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
-    transport::saveTransport(path / "transport.npz", acquisition.transport);
+    transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
     image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
     image::writeStack(path, "black-variance", acquisition.blackVariance, cameras, varianceUnits);
     image::writeStack(path, "flood", acquisition.flood, cameras, radianceUnits);

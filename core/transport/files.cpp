@@ -16,6 +16,7 @@ namespace relucent::transport {
 namespace {
 
 constexpr float largestCode = 32767.0f;
+constexpr const char* codeType = "<i2";
 constexpr std::uint64_t largestInt32 = std::numeric_limits<std::int32_t>::max();
 
 /// Writes integers in 32 bits where they all fit, else in 64.
@@ -79,7 +80,7 @@ Rasters readSizes(const NpzReader& reader, const std::string& name) {
 /// Reads and writes the private arrays of BlockSparse, so that nothing is held twice.
 class TransportFile {
  public:
-  static void add(NpzWriter& writer, const BlockSparse& blocks) {
+  static void add(NpzWriter& writer, const BlockSparse& blocks, StoredValues values) {
     bool wide = blocks.blocks() > largestInt32 || blocks.columns() > largestInt32;
     addFrame(writer, blocks.rows(), blocks.columns());
     const BlockSparse* source = &blocks;
@@ -91,6 +92,14 @@ class TransportFile {
                [source](std::uint64_t begin, std::uint64_t count, char* out) {
                  std::memcpy(out, source->scale_.data() + begin, count * sizeof(float));
                });
+    if (values == StoredValues::codes) {
+      writer.add("data", {codeType, {blocks.blocks(), 3, 3}},
+                 [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                   if (count > 0)
+                     std::memcpy(out, source->code_.front().data() + begin, count * sizeof(std::int16_t));
+                 });
+      return;
+    }
     auto cursor = std::make_shared<RowCursor>();
     writer.add("data", {"<f4", {blocks.blocks(), 3, 3}},
                [source, cursor](std::uint64_t begin, std::uint64_t count, char* out) {
@@ -110,8 +119,14 @@ class TransportFile {
     BlockSparse blocks;
     readShape(reader, blocks);
     readIndices(reader, blocks);
+    const bool codes = reader.header("data").type == codeType;
+    if (codes && !reader.has("scale"))
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.codes-without-scale", "has codes without a scale"));
     readScale(reader, blocks);
-    readData(reader, blocks);
+    if (codes)
+      readCodes(reader, blocks);
+    else
+      readData(reader, blocks);
     return blocks;
   }
 
@@ -186,6 +201,24 @@ class TransportFile {
     });
   }
 
+  static void readCodes(const NpzReader& reader, BlockSparse& blocks) {
+    requireBlockShape(reader, blocks);
+    blocks.code_.resize(blocks.blocks());
+    reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      if (items > 0) std::memcpy(blocks.code_.front().data() + begin, in, items * sizeof(std::int16_t));
+    });
+    for (const auto& code : blocks.code_)
+      if (std::ranges::find(code, std::numeric_limits<std::int16_t>::min()) != code.end())
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-exceed-scale",
+                                             "has values in 'data' that do not fit their row's scale"));
+  }
+
+  static void requireBlockShape(const NpzReader& reader, const BlockSparse& blocks) {
+    if (reader.header("data").shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.block-count-differs",
+                                           "has another number of 3x3 blocks in 'data' than in 'indices'"));
+  }
+
   static void readData(const NpzReader& reader, BlockSparse& blocks) {
     blocks.code_.resize(blocks.blocks());
     constexpr std::size_t parts = 16;
@@ -216,9 +249,7 @@ class TransportFile {
     if (header.type != "<f4" && header.type != "<f8")
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.values-not-float",
                                            "has values that are not floating-point numbers"));
-    if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3, 3})
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.block-count-differs",
-                                           "has another number of 3x3 blocks in 'data' than in 'indices'"));
+    requireBlockShape(reader, blocks);
     bool wide = header.type == "<f8";
     reader.read("data", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       std::uint64_t firstBlock = begin / 9;
@@ -272,7 +303,7 @@ auto withinMemory(const std::filesystem::path& path, const Load& load) {
 
 void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks) {
   NpzWriter writer;
-  TransportFile::add(writer, blocks);
+  TransportFile::add(writer, blocks, StoredValues::floats);
   writer.save(path);
 }
 
@@ -280,11 +311,11 @@ BlockSparse loadBlocks(const std::filesystem::path& path) {
   return withinMemory(path, [&] { return TransportFile::read(NpzReader(path)); });
 }
 
-void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport) {
+void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport, StoredValues values) {
   NpzWriter writer;
   addSizes(writer, "cameras", transport.cameras());
   addSizes(writer, "projectors", transport.projectors());
-  TransportFile::add(writer, transport.leaves());
+  TransportFile::add(writer, transport.leaves(), values);
   writer.save(path);
 }
 

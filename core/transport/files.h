@@ -10,7 +10,8 @@ namespace relucent::transport {
 
 /// Block matrices are stored in SciPy's format, as scipy.sparse.save_npz writes a BSR matrix of 3x3 blocks,
 /// so that scipy.sparse.load_npz reads them:
-///   data (n, 3, 3) float32, indices (n), indptr (rows + 1), shape (3 rows, 3 columns), format b'bsr',
+///   data (n, 3, 3) float32 or int16, indices (n), indptr (rows + 1), shape (3 rows, 3 columns), format
+///   b'bsr',
 /// and additionally `scale` (rows) float32, the rows' quantisation steps, which make saving and loading give
 /// the same bits, and for a light transport `cameras` and `projectors` (devices, 2), their sizes.
 /// Indices are 64-bit where 32 bits are too few.  Source: core/transport/README.md.
@@ -21,8 +22,14 @@ void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks);
 /// Throws: Error{disk}; Error{format} if anything is missing, damaged or inconsistent; Error{memory}.
 BlockSparse loadBlocks(const std::filesystem::path& path);
 
+/// How the values of blocks are written: as numbers for every reader, or as codes, the 16-bit fixed-point
+/// values that a BlockSparse holds (int16; value = scale[row] * code), in little more than half of the bytes.
+/// SciPy opens both.
+enum class StoredValues { floats, codes };
+
 /// T' with its devices; columns are the nodes of NodeLayout. Errors as above.
-void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport);
+void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport,
+                   StoredValues values = StoredValues::floats);
 TransportMatrix loadTransport(const std::filesystem::path& path);
 
 /// T with a column for every projector pixel, for other programs. Errors as above.

@@ -71,7 +71,7 @@ class TestCommands : public QObject {
     QString matrix = folder.filePath("T.npz");
     Run written = runCli({"export", calibration, "--transport", matrix});
     QVERIFY2(written.status == 0, written.errors.constData());
-    if (run("/usr/bin/python3", {"-c", "import scipy.sparse"}).status != 0)
+    if (run("/usr/bin/python3", {"-I", "-c", "import scipy.sparse"}).status != 0)
       QSKIP("python3-scipy is not installed: nobody to open the exported matrix");
     Run predicted =
         run("/usr/bin/python3",

@@ -22,7 +22,7 @@ const QString python = "/usr/bin/python3";
 bool runPython(const fs::path& folder, const QString& script, QString& output) {
   QProcess process;
   process.setWorkingDirectory(QString::fromStdString(folder.string()));
-  process.start(python, {"-c", script});
+  process.start(python, {"-I", "-c", script});  // whatever lies in the folder stays out of it
   if (!process.waitForStarted() || !process.waitForFinished(60000)) return false;
   output = QString::fromUtf8(process.readAllStandardOutput() + process.readAllStandardError()).trimmed();
   return process.exitCode() == 0;
@@ -77,14 +77,44 @@ class TestFiles : public QObject {
     QVERIFY(readFile(path()) == first);
   }
 
+  void transportKeepsItsDevices_data() {
+    QTest::addColumn<StoredValues>("values");
+    QTest::addColumn<double>("bytesOfBlock");
+    QTest::newRow("floats") << StoredValues::floats << 40.0;
+    QTest::newRow("codes") << StoredValues::codes << 22.0;
+  }
   void transportKeepsItsDevices() {
+    QFETCH(StoredValues, values);
+    QFETCH(double, bytesOfBlock);
     TransportMatrix transport = someTransport();
-    saveTransport(path(), transport);
+    saveTransport(path(), transport, values);
+    // Beside the blocks there are a scale and an index of each row, and headers.
+    const auto others = 8.0 * static_cast<double>(transport.leaves().rows()) + 3000.0;
+    QVERIFY(static_cast<double>(fs::file_size(path())) <
+            bytesOfBlock * static_cast<double>(transport.leaves().blocks()) + others);
     TransportMatrix loaded = loadTransport(path());
     QVERIFY(loaded.cameras() == transport.cameras());
     QVERIFY(loaded.projectors() == transport.projectors());
     QVERIFY(loaded.leaves() == transport.leaves());
     QVERIFY(loadBlocks(path()) == transport.leaves());
+  }
+
+  void scipyOpensCodes() {
+    if (!scipyIsThere()) QSKIP("this machine has no SciPy");
+    TransportMatrix transport = someTransport();
+    saveTransport(path(), transport, StoredValues::codes);
+    QString output;
+    bool ran = runPython(folder(),
+                         "import scipy.sparse as s, numpy as n; m = s.load_npz('matrix.npz'); "
+                         "scale = n.repeat(n.load('matrix.npz')['scale'], 3); "
+                         "t = s.diags(scale.astype(float)) @ m.astype(float); "
+                         "print(m.dtype, '%.17g' % t.sum())",
+                         output);
+    QVERIFY2(ran, qPrintable(output));
+    const QStringList words = output.split(' ');
+    QCOMPARE(words[0], QString("int16"));
+    const double expected = denseOf(transport.leaves()).sum();
+    QVERIFY(std::abs(words[1].toDouble() - expected) < 1e-9 * std::abs(expected));
   }
 
   void scipyOpensIt() {
@@ -208,6 +238,31 @@ class TestFiles : public QObject {
     expectError(ErrorKind::format, "NumPy", [&] { loadBlocks(path()); });
     writeFileAtomically(path(), "P6 8 8 255 this is a picture");
     expectError(ErrorKind::format, "NumPy", [&] { loadBlocks(path()); });
+  }
+
+  /// -32768 is no code, and codes mean nothing without their scale.
+  void brokenCodesAreRefused_data() {
+    QTest::addColumn<QString>("change");
+    QTest::addColumn<QString>("word");
+    QTest::newRow("beyond the scale") << "a['data'][3, 1, 2] = -32768"
+                                      << "scale";
+    QTest::newRow("no scale") << "del a['scale']"
+                              << "scale";
+    QTest::newRow("fewer blocks") << "a['data'] = a['data'][1:]"
+                                  << "3x3 blocks";
+  }
+  void brokenCodesAreRefused() {
+    if (!scipyIsThere()) QSKIP("this machine has no SciPy");
+    QFETCH(QString, change);
+    QFETCH(QString, word);
+    saveTransport(path(), someTransport(), StoredValues::codes);
+    QString output;
+    QVERIFY2(runPython(folder(),
+                       "import numpy as n; a = dict(n.load('matrix.npz')); " + change +
+                           "; n.savez('matrix.npz', **a)",
+                       output),
+             qPrintable(output));
+    expectError(ErrorKind::format, word, [&] { loadTransport(path()); });
   }
 
   void damagedBytesAreFound() {

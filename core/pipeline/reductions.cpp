@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/pipeline/reductions.h"
+
+#include <algorithm>
+
+#include "relucent/base/error.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/reduction/choice.h"
+#include "relucent/reduction/reduced_rig.h"
+
+namespace relucent::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using reduction::Reduction;
+
+bool hasPhotographs(const calibration::CalibrationFolder& folder, calibration::Stage stage) {
+  const std::string begin = fmt::format("{}-", nameOf(stage));
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
+    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(begin)) return true;
+  return false;
+}
+
+}  // namespace
+
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress) {
+  if (hasReductions(folder) || hasPhotographs(folder, calibration::Stage::linearization)) return;
+  const CalibrateSettings settings = settingsOf(folder);
+  const std::vector<Reduction> chosen =
+      reduction::chooseReductions(rig, settings.pixels, settings.linearization.seed, progress);
+  // Where there was nothing to choose, the manifest is what it would be without any of this.
+  if (!chosen.empty()) keepReductions(folder, chosen);
+}
+
+void changePixels(calibration::CalibrationFolder& folder, const reduction::PixelUse& use) {
+  CalibrateSettings settings = settingsOf(folder);
+  if (settings.pixels == use) return;
+  setShotsAside(folder, calibration::Stage::linearization);
+  setShotsAside(folder, calibration::Stage::acquisition);
+  settings.pixels = use;
+  changeSettings(folder, settings);
+  forgetReductions(folder);
+}
+
+rig::Rig reducedRig(const calibration::CalibrationFolder& folder, rig::Rig& rig) {
+  return reduction::reduced(rig, reductionsOf(folder));
+}
+
+std::vector<Message> findingsOf(const std::vector<Reduction>& reductions) {
+  std::vector<Message> findings;
+  for (const Reduction& reduction : reductions) {
+    if (reduction.isNothing()) continue;
+    findings.push_back(
+        reduction.bin == 1
+            ? RELUCENT_MESSAGE("reduction.cropped",
+                               "Of the camera's {} pixels, the {} around what is lit are used.")
+                  .with(as::size(reduction.camera), as::size(reduction.size()))
+            : RELUCENT_MESSAGE("reduction.binned",
+                               "Of the camera's {} pixels, {} are made: the part around what is lit, where "
+                               "{} pixels become one.")
+                  .with(as::size(reduction.camera), as::size(reduction.size()),
+                        as::size({reduction.bin, reduction.bin})));
+  }
+  return findings;
+}
+
+}  // namespace relucent::pipeline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "relucent/base/progress.h"
+#include "relucent/reduction/pixel_use.h"
+#include "relucent/reduction/reduction.h"
+
+namespace relucent::reduction {
+
+/// Whether anything is to be photographed to choose reductions: somebody wants bins, or a camera has more
+/// pixels than all projectors together.
+bool needsLook(const rig::Rig& rig, const PixelUse& use);
+
+/// Photographs white and black and chooses a reduction for every camera:
+///  1. exposures, as the linearization does (linearization/exposure_choice.h), by every n-th pixel both ways,
+///     300 000 at most: samples as they are, so that saturation and noise are those of a sample;
+///  2. of a camera that is not linear the response, by random greys;
+///  3. what is lit (lit_part.h) and its surroundings;
+///  4. bins, the largest for which lit pixels / bin^2 >= 0.75 projector pixels, all projectors' together,
+///     unless somebody wants others;
+///  5. with bins, samples that are bright in the dark: full size, twice, at the longest exposure.
+/// Automatically, a camera with no more pixels than the projectors stays as it is, and so does one of which
+/// more than three quarters would remain.
+/// Some 6 to 10 photographs, 2 more at full size. `seed`: of the greys.
+/// Empty if there was nothing to look for. Throws: as chooseExposures(); Cancelled.
+std::vector<Reduction> chooseReductions(rig::Rig& rig, const PixelUse& use, std::uint64_t seed,
+                                        Progress& progress);
+
+/// The samples of two equal photographs in the dark that are brighter than all around them, by eight
+/// deviations of their noise and by 0.02: ascending 3 * pixel + channel. None if that is more than one in a
+/// hundred: this is light then.
+std::vector<std::uint32_t> hotSamples(const image::Image& dark, const image::Image& again);
+
+}  // namespace relucent::reduction

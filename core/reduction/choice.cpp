@@ -94,23 +94,6 @@ int binFor(std::size_t lit, std::size_t projectors, Size part) {
   return std::clamp(static_cast<int>(most), 1, std::min({mostBin, part.width, part.height}));
 }
 
-Reduction reductionFor(Size camera, std::size_t projectors, const PixelUse& use, const image::Image& light) {
-  const int stride = strideFor(camera, mostLookedAt);
-  LitPart part = litPart(light);
-  if (part.size.empty()) return noReduction(camera);
-  const auto each = static_cast<std::size_t>(stride * stride);
-  part.begin = {part.begin.x * stride, part.begin.y * stride};
-  part.size = {std::min(part.size.width * stride, camera.width - part.begin.x),
-               std::min(part.size.height * stride, camera.height - part.begin.y)};
-  const int bin = use.kind == PixelUse::Kind::binned ? std::min({use.bin, camera.width, camera.height})
-                                                     : binFor(part.pixels * each, projectors, part.size);
-  part = withSurroundings(part, camera);
-  const Reduction reduction = reductionTo(camera, part.begin, part.size, bin);
-  const bool little =
-      static_cast<double>(reduction.size().count()) > worthwhile * static_cast<double>(camera.count());
-  return use.kind == PixelUse::Kind::automatic && little ? noReduction(camera) : reduction;
-}
-
 /// The middle one of the eight samples of the same channel around each.
 float around(const image::Image& picture, int x, int y, int channel) {
   std::array<float, 8> values{};
@@ -157,26 +140,45 @@ std::vector<std::uint32_t> hotSamples(const image::Image& dark, const image::Ima
   return found;
 }
 
-bool needsLook(const rig::Rig& rig, const PixelUse& use) {
+bool needsLook(Size camera, std::size_t projectorPixels, const PixelUse& use) {
   if (use.kind != PixelUse::Kind::automatic) return use.kind == PixelUse::Kind::binned;
-  const std::size_t projectors = rig.projectorRasters().count();
-  return std::ranges::any_of(
-      rig.cameras, [projectors](const auto& camera) { return camera->size().count() > projectors; });
+  return camera.count() > projectorPixels;
+}
+
+Reduction reductionFor(Size camera, std::size_t projectorPixels, const PixelUse& use,
+                       const image::Image& light, int stride) {
+  require(stride >= 1, "every {}-th pixel", stride);
+  LitPart part = litPart(light);
+  if (part.size.empty()) return noReduction(camera);
+  const auto each = static_cast<std::size_t>(stride * stride);
+  part.begin = {part.begin.x * stride, part.begin.y * stride};
+  part.size = {std::min(part.size.width * stride, camera.width - part.begin.x),
+               std::min(part.size.height * stride, camera.height - part.begin.y)};
+  const int bin = use.kind == PixelUse::Kind::binned ? std::min({use.bin, camera.width, camera.height})
+                                                     : binFor(part.pixels * each, projectorPixels, part.size);
+  part = withSurroundings(part, camera);
+  const Reduction reduction = reductionTo(camera, part.begin, part.size, bin);
+  const bool little =
+      static_cast<double>(reduction.size().count()) > worthwhile * static_cast<double>(camera.count());
+  return use.kind == PixelUse::Kind::automatic && little ? noReduction(camera) : reduction;
 }
 
 std::vector<Reduction> chooseReductions(rig::Rig& rig, const PixelUse& use, std::uint64_t seed,
                                         Progress& progress) {
-  if (!needsLook(rig, use)) return {};
   const std::size_t projectors = rig.projectorRasters().count();
+  if (std::ranges::none_of(rig.cameras,
+                           [&](const auto& camera) { return needsLook(camera->size(), projectors, use); }))
+    return {};
   Look look(rig, seed, progress);
   std::vector<Reduction> reductions;
   bool bins = false;
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     const Size size = rig.cameras[camera]->size();
     reductions.push_back(noReduction(size));
-    if (use.kind == PixelUse::Kind::automatic && size.count() <= projectors) continue;
+    if (!needsLook(size, projectors, use)) continue;
     const Responses responses = look.responsesOf(camera, progress);
-    reductions.back() = reductionFor(size, projectors, use, look.light(camera, responses));
+    reductions.back() =
+        reductionFor(size, projectors, use, look.light(camera, responses), strideFor(size, mostLookedAt));
     if (reductions.back().bin == 1) continue;
     bins = true;
     reductions.back().response = responses;

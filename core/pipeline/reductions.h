@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "relucent/acquisition/settings.h"
 #include "relucent/base/progress.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/linearization/exposure_choice.h"
 #include "relucent/reduction/pixel_use.h"
 #include "relucent/reduction/reduction.h"
 
@@ -22,6 +24,21 @@ void changePixels(calibration::CalibrationFolder& folder, const reduction::Pixel
 
 /// Devices as a calibration measures with them; they stay `rig`'s. Throws: as reduced(), reductionsOf().
 rig::Rig reducedRig(const calibration::CalibrationFolder& folder, rig::Rig& rig);
+
+/// What a choice of pixels comes to.
+struct PixelForecast {
+  reduction::PixelUse use;
+  Size camera;    // all that it delivers
+  Size used;      // what is made of them
+  WorkLeft work;  // of measuring the light transport with these
+};
+
+/// Of the first camera: automatic, all, and bins of 2 to 4, by the photographs that chose the exposures and
+/// what they took. Empty for a camera with no more pixels than the projectors. Of a camera that is not linear
+/// more seems to be lit than is, so that this is rather too much.
+std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearization::ExposureChoice& exposures,
+                                          const rig::ShotTimes& took,
+                                          const acquisition::AcquisitionSettings& settings);
 
 /// What is made of the pixels of every camera that is reduced, a sentence each.
 std::vector<Message> findingsOf(const std::vector<reduction::Reduction>& reductions);

@@ -15,6 +15,7 @@ namespace {
 constexpr const char* movedScreen = "screen";
 /// There, how the cameras are reduced: for no person to read. calibration/stage.h names it too.
 constexpr const char* reductionSection = "reduction";
+constexpr const char* toBeChosen = "to be chosen";
 
 void flatten(const calibration::Json& json, const std::string& name, std::vector<StoredSetting>& list) {
   if (json.is_object())
@@ -65,19 +66,22 @@ std::vector<reduction::Reduction> reductionsOf(const calibration::CalibrationFol
 }
 
 bool hasReductions(const calibration::CalibrationFolder& folder) {
-  return folder.settings().contains(reductionSection);
+  return folder.settings().contains(reductionSection) && folder.settings().at(reductionSection).is_array();
 }
 
 void keepReductions(calibration::CalibrationFolder& folder,
                     const std::vector<reduction::Reduction>& reductions) {
   calibration::Json settings = folder.settings();
-  settings[reductionSection] = reductionsToJson(reductions);
+  if (reductions.empty())
+    settings.erase(reductionSection);
+  else
+    settings[reductionSection] = reductionsToJson(reductions);
   folder.setSettings(std::move(settings));
 }
 
 void forgetReductions(calibration::CalibrationFolder& folder) {
   calibration::Json settings = folder.settings();
-  settings.erase(reductionSection);
+  settings[reductionSection] = toBeChosen;
   folder.setSettings(std::move(settings));
 }
 

@@ -39,9 +39,11 @@ void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSetti
 std::vector<reduction::Reduction> reductionsOf(const calibration::CalibrationFolder& folder);
 /// Whether anything was chosen, that they stay as they are included.
 bool hasReductions(const calibration::CalibrationFolder& folder);
-/// Throws: Error{disk}.
+/// None: all pixels are used. Throws: Error{disk}.
 void keepReductions(calibration::CalibrationFolder& folder,
                     const std::vector<reduction::Reduction>& reductions);
+/// They are to be chosen anew: what was measured before is out of date, whatever it was measured with.
+/// Throws: Error{disk}.
 void forgetReductions(calibration::CalibrationFolder& folder);
 
 /// Exchanges the devices of a calibration with which nothing has been measured yet.

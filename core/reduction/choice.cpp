@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
@@ -17,10 +18,10 @@
 namespace relucent::reduction {
 namespace {
 
-constexpr std::size_t mostLookedAt = 300000;  // pixels of a camera
-constexpr double asMany = 0.75;               // as the projectors' pixels: about as many
-constexpr double worthwhile = 0.75;           // of the camera's pixels may remain
-constexpr double saturationMargin = 0.97;     // of what a camera clips at, in ExposureChoice::saturation
+constexpr double asMany = 0.75;            // as the projectors' pixels: about as many
+constexpr double worthwhile = 0.75;        // of the camera's pixels may remain
+constexpr double saturationMargin = 0.97;  // of what a camera clips at, in ExposureChoice::saturation
+constexpr double mostClipped = 0.005;      // of the samples: hardly any
 constexpr double hotDeviations = 8.0;
 constexpr double hotLeast = 0.02;
 constexpr double mostHot = 0.01;
@@ -57,28 +58,7 @@ class Look {
     return linearization::cameraResponse(*greys_, camera, saturation(camera)).curves;
   }
 
-  /// White less black at the longest exposure at which hardly anything clips, or the shortest.
-  image::Image light(std::size_t camera, const Responses& responses) const {
-    std::vector<double> asked = choice_.black.exposuresAsked;
-    std::ranges::sort(asked, std::greater<>());
-    image::Image light;
-    for (double seconds : asked) {
-      const rig::Shot white = linearization::atExposures(choice_.whites, {seconds}).value();
-      const rig::Shot black = linearization::atExposures({choice_.black}, {seconds}).value();
-      const image::Image& bright = white.frames[0][camera].signal;
-      const image::Image& dark = black.frames[0][camera].signal;
-      light = image::Image(bright.size(), 3);
-      std::size_t clipped = 0;
-      for (std::size_t i = 0; i < light.data().size(); ++i) {
-        const hdr::ResponseCurve& response = responses[i % 3];
-        clipped += static_cast<double>(bright.data()[i]) >= saturation(camera);
-        light.data()[i] = static_cast<float>(response(static_cast<double>(bright.data()[i])) -
-                                             response(static_cast<double>(dark.data()[i])));
-      }
-      if (static_cast<double>(clipped) <= 0.005 * static_cast<double>(light.data().size())) break;
-    }
-    return light;
-  }
+  const linearization::ExposureChoice& exposures() const { return choice_; }
 
  private:
   rig::NoShotLog log_;
@@ -140,6 +120,35 @@ std::vector<std::uint32_t> hotSamples(const image::Image& dark, const image::Ima
   return found;
 }
 
+image::Image lightOf(const linearization::ExposureChoice& exposures, std::size_t camera,
+                     const Responses& responses, int stride) {
+  std::vector<double> asked = exposures.black.exposuresAsked;
+  std::ranges::sort(asked, std::greater<>());
+  image::Image light;
+  for (double seconds : asked) {
+    // Whole shots are large: only what is looked at is copied.
+    auto signalOf = [&](std::span<const rig::Shot> shots) {
+      for (const rig::Shot& shot : shots)
+        for (std::size_t exposure = 0; exposure < shot.exposuresAsked.size(); ++exposure)
+          if (shot.exposuresAsked[exposure] == seconds)
+            return everyNth(shot.frames[exposure][camera].signal, stride);
+      require(false, "white was not photographed at {} s, as black was", seconds);
+      return image::Image();
+    };
+    const image::Image bright = signalOf(exposures.whites), dark = signalOf({&exposures.black, 1});
+    light = image::Image(bright.size(), 3);
+    std::size_t clipped = 0;
+    for (std::size_t i = 0; i < light.data().size(); ++i) {
+      const hdr::ResponseCurve& response = responses[i % 3];
+      clipped += static_cast<double>(bright.data()[i]) >= exposures.saturation[camera];
+      light.data()[i] = static_cast<float>(response(static_cast<double>(bright.data()[i])) -
+                                           response(static_cast<double>(dark.data()[i])));
+    }
+    if (static_cast<double>(clipped) <= mostClipped * static_cast<double>(light.data().size())) break;
+  }
+  return light;
+}
+
 bool needsLook(Size camera, std::size_t projectorPixels, const PixelUse& use) {
   if (use.kind != PixelUse::Kind::automatic) return use.kind == PixelUse::Kind::binned;
   return camera.count() > projectorPixels;
@@ -177,8 +186,8 @@ std::vector<Reduction> chooseReductions(rig::Rig& rig, const PixelUse& use, std:
     reductions.push_back(noReduction(size));
     if (!needsLook(size, projectors, use)) continue;
     const Responses responses = look.responsesOf(camera, progress);
-    reductions.back() =
-        reductionFor(size, projectors, use, look.light(camera, responses), strideFor(size, mostLookedAt));
+    reductions.back() = reductionFor(size, projectors, use, lightOf(look.exposures(), camera, responses),
+                                     strideFor(size, mostLookedAt));
     if (reductions.back().bin == 1) continue;
     bins = true;
     reductions.back().response = responses;

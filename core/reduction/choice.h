@@ -5,10 +5,19 @@
 #include <vector>
 
 #include "relucent/base/progress.h"
+#include "relucent/linearization/exposure_choice.h"
 #include "relucent/reduction/pixel_use.h"
 #include "relucent/reduction/reduction.h"
 
 namespace relucent::reduction {
+
+/// Pixels of a camera that a choice looks at.
+inline constexpr std::size_t mostLookedAt = 300000;
+
+/// White less black, linear, of every stride-th pixel of a camera: at the longest exposure at which hardly
+/// anything clips, or the shortest.
+image::Image lightOf(const linearization::ExposureChoice& exposures, std::size_t camera,
+                     const std::array<hdr::ResponseCurve, 3>& responses, int stride = 1);
 
 /// Whether anybody wants to know what is lit of a camera of this size: somebody wants bins, or it has more
 /// pixels than all projectors together.

@@ -59,17 +59,6 @@ rig::Rig borrowed(rig::Rig& rig, const std::function<std::unique_ptr<rig::Camera
               camera);
 }
 
-rig::RawFrame everyNth(const rig::RawFrame& frame, int stride, Size size) {
-  rig::RawFrame result{image::Image(size, 3), frame.bits, frame.seconds};
-  const Size from = frame.signal.size();
-  for (std::size_t i = 0; i < result.signal.pixels(); ++i) {
-    const Pixel at = pixelAt(size, i);
-    std::ranges::copy(frame.signal.pixel(indexOf(from, {at.x * stride, at.y * stride})),
-                      result.signal.pixel(i).begin());
-  }
-  return result;
-}
-
 }  // namespace
 
 rig::Rig reduced(rig::Rig& rig, const std::vector<Reduction>& reductions) {
@@ -90,6 +79,16 @@ rig::Rig reduced(rig::Rig& rig, const std::vector<Reduction>& reductions) {
   });
 }
 
+image::Image everyNth(const image::Image& picture, int stride) {
+  const Size from = picture.size();
+  image::Image result({(from.width - 1) / stride + 1, (from.height - 1) / stride + 1}, picture.channels());
+  for (std::size_t i = 0; i < result.pixels(); ++i) {
+    const Pixel at = pixelAt(result.size(), i);
+    std::ranges::copy(picture.pixel(indexOf(from, {at.x * stride, at.y * stride})), result.pixel(i).begin());
+  }
+  return result;
+}
+
 int strideFor(Size camera, std::size_t mostPixels) {
   int stride = 1;
   while (camera.count() / static_cast<std::size_t>(stride * stride) > mostPixels) ++stride;
@@ -102,8 +101,8 @@ rig::Rig sparse(rig::Rig& rig, std::size_t mostPixels) {
     const Size from = camera.size();
     const int stride = strideFor(from, mostPixels);
     const Size size{(from.width - 1) / stride + 1, (from.height - 1) / stride + 1};
-    return std::make_unique<SmallerCamera>(camera, from, size, [stride, size](const rig::RawFrame& frame) {
-      return everyNth(frame, stride, size);
+    return std::make_unique<SmallerCamera>(camera, from, size, [stride](const rig::RawFrame& frame) {
+      return rig::RawFrame{everyNth(frame.signal, stride), frame.bits, frame.seconds};
     });
   });
 }

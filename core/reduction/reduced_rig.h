@@ -17,6 +17,8 @@ rig::Rig reduced(rig::Rig& rig, const std::vector<Reduction>& reductions);
 /// The same cameras, every `stride`-th pixel both ways: samples as they were taken, for what needs no more of
 /// them. The devices stay the rig's.
 rig::Rig sparse(rig::Rig& rig, std::size_t mostPixels);
+/// The same of a picture.
+image::Image everyNth(const image::Image& picture, int stride);
 /// The stride that this leaves no more than `mostPixels` of.
 int strideFor(Size camera, std::size_t mostPixels);
 

@@ -145,9 +145,11 @@ class TestReductions : public QObject {
 
   void othersMayBeWantedLater() {
     Progress quiet;
-    CalibrationFolder folder = beginCalibration(path("changed"), settingsFor({128, 96}));
+    CalibrationFolder folder =
+        beginCalibration(path("changed"), settingsFor({128, 96}, {PixelUse::Kind::all}));
     OpenedRig devices = openRig(settingsOf(folder).rig, cache(), quiet);
     measureLinearization(folder, devices.rig, quiet);
+    QVERIFY(reductionsOf(folder).empty());
     const PixelUse halves{PixelUse::Kind::binned, 2};
     changePixels(folder, halves);
     QVERIFY(progressOf(folder, Stage::linearization) != StageProgress::done);
@@ -155,6 +157,9 @@ class TestReductions : public QObject {
     QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
     QCOMPARE(reductionsOf(folder).at(0).bin, 2);
     QVERIFY(settingsOf(folder).pixels == halves);
+    // What was measured with all of them is still there.
+    changePixels(folder, {PixelUse::Kind::all});
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
   }
 
   /// People look at all that the camera sees; figures are of what was measured.

@@ -86,16 +86,15 @@ std::vector<Message> findingsOf(const std::vector<Reduction>& reductions) {
   std::vector<Message> findings;
   for (const Reduction& reduction : reductions) {
     if (reduction.isNothing()) continue;
-    findings.push_back(
-        reduction.bin == 1
-            ? RELUCENT_MESSAGE("reduction.cropped",
-                               "Of the camera's {} pixels, the {} around what is lit are used.")
-                  .with(as::size(reduction.camera), as::size(reduction.size()))
-            : RELUCENT_MESSAGE("reduction.binned",
-                               "Of the camera's {} pixels, {} are made: the part around what is lit, where "
-                               "{} pixels become one.")
-                  .with(as::size(reduction.camera), as::size(reduction.size()),
-                        as::size({reduction.bin, reduction.bin})));
+    findings.push_back(reduction.bin == 1
+                           ? RELUCENT_MESSAGE("reduction.cropped",
+                                              "of the camera's {} pixels, the {} around what is lit are used")
+                                 .with(as::size(reduction.camera), as::size(reduction.size()))
+                           : RELUCENT_MESSAGE("reduction.binned",
+                                              "of the camera's {} pixels, {} are made: of the part around "
+                                              "what is lit, every {} become one")
+                                 .with(as::size(reduction.camera), as::size(reduction.size()),
+                                       as::size({reduction.bin, reduction.bin})));
   }
   return findings;
 }

@@ -2004,6 +2004,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>من بكسلات الكاميرا وعددها ⁨{}⁩ تنتج ⁨{}⁩: في الجزء المضاء وما حوله يصير كل ⁨{}⁩ بكسلًا واحدًا</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>من بكسلات الكاميرا وعددها ⁨{}⁩ تُستخدم ⁨{}⁩ المحيطة بالجزء المضاء</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>تعطي الكاميرا ⁨{}⁩ بكسل، بينما جرت المعايرة بعدد ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>اضبط الكاميرا على الحجم السابق، أو أعد المعايرة</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2868,6 +2896,42 @@
     <message>
         <source>All of the view.</source>
         <translation>المشهد كله.</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>بكسلات الكاميرا</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>بقدر الحاجة: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>الكل: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>⁨%1⁩ تصير واحدًا: ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>بكسلات الكاميرا المستخدمة</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>الذاكرة</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>القرص</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>الوقت</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>زيادة بكسلات الكاميرا على بكسلات جهاز العرض لا تُظهر شيئًا إضافيًا. أما الصور التي تثبت النتيجة فتبقى بحجمها.</translation>
     </message>
 </context>
 <context>
@@ -5362,6 +5426,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>البحث عن بكسلات الكاميرا اللازمة</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5549,6 +5620,13 @@ projector %2</source>
     <message>
         <source>Linearizing</source>
         <translation>جعل الاستجابة خطية</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>البحث عن البكسلات الساخنة في الكاميرا</translation>
     </message>
 </context>
 <context>

@@ -1992,6 +1992,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>von den {} Pixeln der Kamera werden {}: vom Teil um das Beleuchtete werden je {} zu einem</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>von den {} Pixeln der Kamera werden die {} um das Beleuchtete verwendet</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>die Kamera liefert {} Pixel, kalibriert wurden {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>stellen Sie die Kamera auf die frühere Größe ein oder kalibrieren Sie neu</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2804,6 +2832,42 @@
     <message>
         <source>All of the view.</source>
         <translation>Das ganze Bild.</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>Kamerapixel</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>So viele wie nötig: %1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>Alle: %1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 werden zu einem: %2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>Kamerapixel, die verwendet werden</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Arbeitsspeicher</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Laufwerk</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>Mehr Kamerapixel als Projektorpixel zeigen nicht mehr. Die Fotos, die das Ergebnis belegen, bleiben so groß, wie sie sind.</translation>
     </message>
 </context>
 <context>
@@ -5246,6 +5310,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>Suche nach den nötigen Kamerapixeln</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5429,6 +5500,13 @@ Projektor %2</translation>
     <message>
         <source>Linearizing</source>
         <translation>Linearisierung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>Suche nach hellen Fehlpixeln der Kamera</translation>
     </message>
 </context>
 <context>

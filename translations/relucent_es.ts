@@ -1992,6 +1992,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>de los {} píxeles de la cámara se hacen {}: de la parte en torno a lo iluminado, cada {} se convierten en uno</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>de los {} píxeles de la cámara se usan los {} en torno a lo iluminado</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>la cámara entrega {} píxeles, pero se calibraron {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>ajuste la cámara al tamaño que tenía o calibre de nuevo</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2804,6 +2832,42 @@
     <message>
         <source>All of the view.</source>
         <translation>Toda la vista.</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>Píxeles de la cámara</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>Los necesarios: %1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>Todos: %1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 pasan a uno: %2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>Píxeles de la cámara que se usan</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Memoria</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Tiempo</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>Más píxeles de cámara que de proyector no muestran nada más. Las fotografías que prueban el resultado conservan su tamaño.</translation>
     </message>
 </context>
 <context>
@@ -5246,6 +5310,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>Buscando los píxeles de cámara necesarios</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5429,6 +5500,13 @@ proyector %2</translation>
     <message>
         <source>Linearizing</source>
         <translation>Linealizando</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>Buscando píxeles calientes de la cámara</translation>
     </message>
 </context>
 <context>

@@ -1992,6 +1992,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>des {} pixels de la caméra, on en fait {} : dans la partie autour de ce qui est éclairé, chaque groupe de {} devient un seul pixel</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>des {} pixels de la caméra, seuls les {} autour de ce qui est éclairé sont utilisés</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>la caméra fournit {} pixels alors que {} ont été calibrés</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>réglez la caméra sur la taille qu’elle avait, ou recommencez la calibration</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2804,6 +2832,42 @@
     <message>
         <source>All of the view.</source>
         <translation>Tout le champ.</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>Pixels de la caméra</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>Autant que nécessaire : %1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>Tous : %1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 en un seul : %2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>Pixels de la caméra utilisés</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Mémoire</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disque</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Temps</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>Plus de pixels de caméra que de projecteur ne montrent rien de plus. Les photos qui prouvent le résultat gardent leur taille.</translation>
     </message>
 </context>
 <context>
@@ -5246,6 +5310,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>Recherche des pixels de caméra nécessaires</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5429,6 +5500,13 @@ projecteur %2</translation>
     <message>
         <source>Linearizing</source>
         <translation>Linéarisation</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>Recherche des pixels chauds de la caméra</translation>
     </message>
 </context>
 <context>

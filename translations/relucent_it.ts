@@ -1992,6 +1992,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>dei {} pixel della fotocamera ne risultano {}: nella parte attorno a ciò che è illuminato, ogni {} diventano uno</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>dei {} pixel della fotocamera si usano i {} attorno a ciò che è illuminato</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>la fotocamera fornisce {} pixel, ma ne sono stati calibrati {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>impostare la fotocamera sulla dimensione che aveva o calibrare di nuovo</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2804,6 +2832,42 @@
     <message>
         <source>All of the view.</source>
         <translation>Tutta l’inquadratura.</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>Pixel della fotocamera</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>Quanti ne servono: %1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>Tutti: %1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 diventano uno: %2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>Pixel della fotocamera utilizzati</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Memoria</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>Disco</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Tempo</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>Più pixel della fotocamera che del proiettore non mostrano nulla di più. Le foto che provano il risultato restano grandi come sono.</translation>
     </message>
 </context>
 <context>
@@ -5246,6 +5310,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>Ricerca dei pixel della fotocamera necessari</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5429,6 +5500,13 @@ proiettore %2</translation>
     <message>
         <source>Linearizing</source>
         <translation>Linearizzazione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>Ricerca dei pixel caldi della fotocamera</translation>
     </message>
 </context>
 <context>

@@ -1989,6 +1989,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>カメラの {} 画素から {} を作ります。照らされた部分とその周囲で、{} 画素ごとに 1 つにまとめます</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>カメラの {} 画素のうち、照らされた部分とその周囲の {} を使います</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>カメラは {} 画素ですが、校正は {} 画素で行われました</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>カメラを元のサイズに戻すか、もう一度校正してください</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2788,6 +2816,42 @@
     <message>
         <source>All of the view.</source>
         <translation>視野全体。</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>カメラの画素</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>必要なだけ: %1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>すべて: %1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 を 1 つに: %2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>使用するカメラの画素</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>メモリ</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>ディスク</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>時間</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>プロジェクターより多いカメラ画素があっても、得られるものは増えません。結果を確かめる写真は元の大きさのままです。</translation>
     </message>
 </context>
 <context>
@@ -5217,6 +5281,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>必要なカメラ画素の確認</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5399,6 +5470,13 @@ projector %2</source>
     <message>
         <source>Linearizing</source>
         <translation>線形化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>カメラのホットピクセルの確認</translation>
     </message>
 </context>
 <context>

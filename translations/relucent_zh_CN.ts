@@ -1989,6 +1989,34 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: of the part around what is lit, every {} become one</source>
+        <translation>相机的 {} 个像素合成为 {}：在被照亮部分及其周围，每 {} 个像素合为一个</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.cropped</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
+        <translation>在相机的 {} 个像素中，使用被照亮部分及其周围的 {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.other-size</name>
+    <message>
+        <source>the camera delivers {} pixels where {} were calibrated</source>
+        <translation>相机提供 {} 个像素，而校准时为 {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.restore-camera-size</name>
+    <message>
+        <source>set the camera to the size that it had, or calibrate again</source>
+        <translation>将相机设为原来的尺寸，或重新校准</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::AcquirePage</name>
     <message>
         <source>Paused, %1</source>
@@ -2788,6 +2816,42 @@
     <message>
         <source>All of the view.</source>
         <translation>整个视野。</translation>
+    </message>
+    <message>
+        <source>Camera pixels</source>
+        <translation>相机像素</translation>
+    </message>
+    <message>
+        <source>As many as needed: %1</source>
+        <translation>按需要：%1</translation>
+    </message>
+    <message>
+        <source>All: %1</source>
+        <translation>全部：%1</translation>
+    </message>
+    <message>
+        <source>%1 become one: %2</source>
+        <translation>%1 合为一个：%2</translation>
+    </message>
+    <message>
+        <source>Camera pixels that are used</source>
+        <translation>使用的相机像素</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>内存</translation>
+    </message>
+    <message>
+        <source>Disk</source>
+        <translation>磁盘</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
+        <translation>相机像素多于投影机像素并不会显示更多内容。用来验证结果的照片保持原有大小。</translation>
     </message>
 </context>
 <context>
@@ -5217,6 +5281,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.choosing-camera-pixels</name>
+    <message>
+        <source>Finding the camera pixels that are needed</source>
+        <translation>正在查找所需的相机像素</translation>
+    </message>
+</context>
+<context>
     <name>stage.clustering-light-transport</name>
     <message>
         <source>Clustering the light transport</source>
@@ -5399,6 +5470,13 @@ projector %2</source>
     <message>
         <source>Linearizing</source>
         <translation>正在线性化</translation>
+    </message>
+</context>
+<context>
+    <name>stage.looking-for-hot-pixels</name>
+    <message>
+        <source>Looking for hot pixels of the camera</source>
+        <translation>正在查找相机的热像素</translation>
     </message>
 </context>
 <context>

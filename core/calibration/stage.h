@@ -28,6 +28,8 @@ struct StageDescription {
   std::optional<Stage> predecessor;          // whose result it works on; none: the devices
   std::array<std::string_view, 2> sections;  // of the manifest's settings that it depends on; empty: no more
   int version;  // of its algorithm: one more makes results of the old algorithm out of date
+  std::string_view
+      choice{};  // a section that only some settings have: the others' fingerprints do not know it
 };
 
 /// A description with the type of the stage's result.
@@ -39,8 +41,13 @@ struct StageRecord : StageDescription {
 /// The one table of stages, a record each, in the order of the enumeration.
 inline constexpr std::tuple stageTable{
     StageRecord<CameraCheckResult>{{Stage::camera, "camera", StageKind::decided, {}, {}, 1}},
-    StageRecord<LinearizationResult>{
-        {Stage::linearization, "linearization", StageKind::measured, Stage::camera, {"linearization"}, 1}},
+    StageRecord<LinearizationResult>{{Stage::linearization,
+                                      "linearization",
+                                      StageKind::measured,
+                                      Stage::camera,
+                                      {"linearization"},
+                                      1,
+                                      "reduction"}},
     StageRecord<AcquisitionResult>{
         {Stage::acquisition, "acquisition", StageKind::measured, Stage::linearization, {"acquisition"}, 1}},
     StageRecord<ThresholdResult>{

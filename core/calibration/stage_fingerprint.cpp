@@ -20,6 +20,10 @@ std::string fingerprintAfter(const std::string& inputs, const StageDescription& 
       fingerprint = hashOf(Json{{"inputs", fingerprint},
                                 {"stage", section},
                                 {"settings", settings.value(std::string(section), Json::object())}});
+  if (!stage.choice.empty() && settings.contains(stage.choice))
+    fingerprint = hashOf(Json{{"inputs", fingerprint},
+                              {"stage", stage.choice},
+                              {"settings", settings.at(std::string(stage.choice))}});
   if (stage.version > 1)
     fingerprint = hashOf(Json{{"inputs", fingerprint}, {"stage", stage.name}, {"version", stage.version}});
   return fingerprint;

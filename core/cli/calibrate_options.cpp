@@ -43,6 +43,7 @@ void addDevices(CLI::App* sub, DeviceOptions& devices) {
 }
 
 void addMeasurement(CLI::App* sub, pipeline::CalibrateSettings& settings) {
+  addPixelUse(sub, settings.pixels);
   // Before all that changes single settings: a mode sets all of them.
   addNamed<acquisition::AcquisitionMode>(
       sub, "--acquisition",

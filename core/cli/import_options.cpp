@@ -16,6 +16,7 @@ std::function<Command()> addImportOptions(CLI::App* sub) {
                   "Folder of the photographs, linear, paired with the patterns in the order of their names")
       ->type_name("DIR")
       ->required();
+  addPixelUse(sub, command->settings.pixels);
   sub->add_option("--hold-out", command->settings.import.holdOutEvery,
                   "Hold out one of every N patterns from the fit and predict it instead")
       ->type_name("N")

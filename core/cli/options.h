@@ -10,6 +10,7 @@
 #include "relucent/base/enum_names.h"
 #include "relucent/cli/arguments.h"
 #include "relucent/devices/camera_registry.h"
+#include "relucent/reduction/pixel_use.h"
 
 /// Options that several subcommands share; met inside the parser only.
 namespace relucent::cli {
@@ -80,6 +81,24 @@ inline void readCamera(const std::string& text, pipeline::CommandRigSettings& co
         fmt::format("'{}' is not a camera: write {}", text, devices::cameraRegistry().addressForms()));
   else
     size = parseSize(text);
+}
+
+inline CLI::Option* addPixelUse(CLI::App* sub, reduction::PixelUse& use) {
+  return sub
+      ->add_option_function<std::string>(
+          "--camera-pixels",
+          [&use](const std::string& text) {
+            const std::optional<reduction::PixelUse> read = reduction::pixelUseFrom(text);
+            if (!read)
+              throw WrongUsage(
+                  fmt::format("'{}' is no choice of camera pixels: write auto, all or 1/N, N from 1 to {}",
+                              text, reduction::mostBin));
+            use = *read;
+          },
+          "Pixels of the camera to use: auto (about as many of what is lit as the projector has), all, or "
+          "1/N (of what is lit, NxN become one)")
+      ->type_name("auto|all|1/N")
+      ->default_str(reduction::toString(use));
 }
 
 /// Each defines the options of one subcommand and returns what makes its command once they are read.

@@ -12,12 +12,14 @@
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/rig_settings.h"
+#include "relucent/reduction/pixel_use.h"
 #include "relucent/transport/transport_matrix.h"
 
 namespace relucent::pipeline {
 
 struct CalibrateSettings {
   RigSettings rig;
+  reduction::PixelUse pixels;  // of the cameras; what follows from it is in reductions.h
   linearization::LinearizationSettings linearization;
   acquisition::AcquisitionSettings acquisition = settingsOf(acquisition::AcquisitionMode::multiplexed);
   transport::ThresholdSettings threshold;  // none by default: every leaf that was measured counts

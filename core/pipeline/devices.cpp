@@ -8,6 +8,7 @@
 #include "relucent/devices/command/command_projector.h"
 #include "relucent/devices/recording/recording.h"
 #include "relucent/devices/whole_frames.h"
+#include "relucent/pipeline/reductions.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -111,16 +112,21 @@ OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cach
 }
 
 rig::Rig& RigSource::open(const RigSettings& settings, const transport::TransportMatrix& transport,
-                          const std::filesystem::path& calibration, Progress& progress) {
-  rig::Rig& rig = given_ != nullptr ? *given_ : opened_.emplace(openRig(settings, cache_, progress)).rig;
-  if (!(rig.cameraRasters() == transport.cameras() && rig.projectorRasters() == transport.projectors()))
+                          const calibration::CalibrationFolder& folder, Progress& progress) {
+  if (given_ == nullptr) opened_.emplace(openRig(settings, cache_, progress));
+  used_ = reducedRig(folder, whole());
+  if (!(used_.cameraRasters() == transport.cameras() && used_.projectorRasters() == transport.projectors()))
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.device-sizes-differ",
                                          "the devices have other sizes than those that were calibrated"),
                 RELUCENT_ENGLISH_MESSAGE("calibration.restore-sizes-or-recalibrate",
                                          "set projector and camera as they were, or calibrate again"),
-                calibration.string());
-  return rig;
+                folder.path().string());
+  return used_;
+}
+
+rig::Rig& RigSource::whole() {
+  return given_ != nullptr ? *given_ : opened_.value().rig;
 }
 
 }  // namespace relucent::pipeline

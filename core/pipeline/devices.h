@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "relucent/base/progress.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "relucent/devices/screen_rig.h"
 #include "relucent/pipeline/rig_settings.h"
 #include "relucent/rig/rig.h"
@@ -40,15 +41,18 @@ class RigSource {
   explicit RigSource(std::filesystem::path cache) : cache_(std::move(cache)) {}
   explicit RigSource(rig::Rig& open) : given_(&open) {}
 
-  /// The devices, which stay open as long as this. `calibration` is named in errors.
-  /// Throws: as openRig(); Error{input} if they have other sizes than T.
+  /// The devices as the calibration measured with them (reductions.h); they stay open as long as this.
+  /// Throws: as openRig() and reducedRig(); Error{input} if they have other sizes than T.
   rig::Rig& open(const RigSettings& settings, const transport::TransportMatrix& transport,
-                 const std::filesystem::path& calibration, Progress& progress);
+                 const calibration::CalibrationFolder& folder, Progress& progress);
+  /// The same devices, whose cameras deliver all that they have. Contract: they are open.
+  rig::Rig& whole();
 
  private:
   std::filesystem::path cache_;
   rig::Rig* given_ = nullptr;
   std::optional<OpenedRig> opened_;
+  rig::Rig used_;
 };
 
 }  // namespace relucent::pipeline

@@ -14,6 +14,7 @@
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/projection.h"
 #include "relucent/pipeline/standard_images.h"
+#include "relucent/reduction/reduced_transport.h"
 #include "relucent/transport/difference.h"
 
 // The only place that asks a simulated venue for its true light transport.
@@ -40,8 +41,12 @@ double sumOf(const Stack& stack) {
   return std::accumulate(stack.begin(), stack.end(), 0.0);
 }
 
-TransportScore scoreOf(const transport::TransportMatrix& transport, const venue::SimulatedVenue& venue) {
-  const transport::TransportMatrix& truth = venue.trueTransport();
+TransportScore scoreOf(const transport::TransportMatrix& transport, const venue::SimulatedVenue& venue,
+                       const std::vector<reduction::Reduction>& reductions) {
+  const transport::TransportMatrix reduced =
+      reductions.empty() ? transport::TransportMatrix()
+                         : reduction::reducedTransport(venue.trueTransport(), reductions);
+  const transport::TransportMatrix& truth = reductions.empty() ? venue.trueTransport() : reduced;
   transport::TransportDifference apart = transport::difference(transport, truth);
   ProjectorStack natural(patternFrom(standardImages().front().linear, transport.projectors()));
   ProjectorStack binary(natural.size());
@@ -72,15 +77,16 @@ class Judge {
   Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue)
       : measured_(measured), venue_(venue), rasters_(measured.venue.transport.cameras()) {
     ProjectorStack white(measured.venue.transport.projectors().count() * 3, 1.0f);
-    brightest_ = venue.trueTransport().apply(white);
-    for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += venue.trueBlack()[i];
+    black_ = reduction::reducedRadiance(venue.trueBlack(), measured.reductions);
+    brightest_ = reduction::reducedRadiance(venue.trueTransport().apply(white), measured.reductions);
+    for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += black_[i];
   }
 
   /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
   CameraMask reachable(const compensation::Target& target) const {
     CameraMask reachable = target.inside;
     for (std::size_t i = 0; i < target.wanted.size(); ++i)
-      if (target.wanted[i] < venue_.trueBlack()[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
+      if (target.wanted[i] < black_[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
     return reachable;
   }
 
@@ -88,7 +94,8 @@ class Judge {
   image::Image seen(const compensation::Compensation& compensation) const {
     std::vector<image::Image> drive =
         encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
-    return image::imageFromStack(venue_.trueRadiance(drive), rasters_, 0);
+    const CameraStack seen = reduction::reducedRadiance(venue_.trueRadiance(drive), measured_.reductions);
+    return image::imageFromStack(seen, rasters_, 0);
   }
 
   image::Image wanted(const compensation::Target& target) const {
@@ -117,7 +124,7 @@ class Judge {
   const MeasuredCalibration& measured_;
   const venue::SimulatedVenue& venue_;
   Rasters rasters_;
-  Stack brightest_;
+  CameraStack black_, brightest_;
 };
 
 double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uint8_t>& whole) {
@@ -157,7 +164,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   result.venue = venue.settings().name;
   result.projector = venue.settings().projector;
   result.camera = venue.settings().camera;
-  result.transport = scoreOf(measured.venue.transport, venue);
+  result.transport = scoreOf(measured.venue.transport, venue, measured.reductions);
 
   Judge judge(measured, venue);
   compensation::Compensator compensator(measured.venue, measured.inverse, settings.compensator);
@@ -167,7 +174,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
     compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
     CameraMask reachable = judge.reachable(target);
     ImageScore score{image.name, shareOf(reachable, target.inside), {}};
-    std::size_t pixels = venue.settings().camera.count();
+    std::size_t pixels = measured.venue.transport.cameras().size(0).count();
     EvaluatedPictures pictures{image.name,   judge.wanted(target), {},
                                target.white, target.inside,        score.reachable};
     pictures.inside.resize(pixels);

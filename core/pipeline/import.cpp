@@ -2,6 +2,8 @@
 #include "relucent/pipeline/import.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <set>
 
 #include "relucent/base/error.h"
@@ -16,8 +18,10 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/photograph_sequence.h"
+#include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/platform/process.h"
+#include "relucent/reduction/choice.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -90,33 +94,66 @@ void clampToDrive(image::Image& image) {
   for (float& value : image.data()) value = std::clamp(value, 0.0f, 1.0f);
 }
 
-/// Reads all pictures of a folder, which must be of one size.
+/// A picture as the estimate takes it: drive from 0 to 1, or linear light.
+image::Image readPictureAs(const fs::path& path, bool drive) {
+  image::Image image =
+      devices::isRawName(path) ? devices::readRawPicture(path) : image::readPicture(path).encoded;
+  image::checkFinite(image, path);
+  if (drive)
+    clampToDrive(image);
+  else if (isDeveloped(path))
+    image = image::srgbDecoded(image);
+  return image;
+}
+
+/// Reads all pictures of a folder, which must be of one size: `size`, if that is known. What `smaller` makes
+/// of them is kept.
 importing::PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive,
+                                        const std::function<image::Image(image::Image)>& smaller,
                                         Fingerprint& fingerprint, Progress& progress) {
   importing::PictureSequence sequence;
+  Size size;
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    image::Image image = devices::isRawName(paths[k]) ? devices::readRawPicture(paths[k])
-                                                      : image::readPicture(paths[k]).encoded;
-    image::checkFinite(image, paths[k]);
-    if (drive)
-      clampToDrive(image);
-    else if (isDeveloped(paths[k]))
-      image = image::srgbDecoded(image);
-    if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
-    if (image.size() != sequence.size())
+    image::Image image = readPictureAs(paths[k], drive);
+    if (k == 0) size = image.size();
+    if (image.size() != size)
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("import.picture-size-differs", "the picture has {} pixels, but {} has {}")
               .with(as::size(image.width(), image.height()), paths.front().filename().string(),
-                    as::size(sequence.size())),
+                    as::size(size)),
           RELUCENT_ENGLISH_MESSAGE("import.take-out-foreign-pictures",
                                    "take out pictures that do not belong there"),
           paths[k].string());
-    sequence.set(static_cast<int>(k), image);
     fingerprint.add(image.data());
+    image = smaller(std::move(image));
+    if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
+    sequence.set(static_cast<int>(k), image);
     progress.report(static_cast<double>(k + 1) / static_cast<double>(paths.size()));
   }
   return sequence;
+}
+
+double lightOf(const image::Image& pattern) {
+  return std::accumulate(pattern.data().begin(), pattern.data().end(), 0.0);
+}
+
+/// From the photographs of the brightest and the darkest pattern.
+reduction::Reduction reductionOf(const importing::PictureSequence& patterns,
+                                 const std::vector<fs::path>& photographs, const reduction::PixelUse& use) {
+  std::vector<double> lights;
+  for (int k = 0; k < patterns.pictures(); ++k) lights.push_back(lightOf(patterns.picture(k)));
+  const auto [darkest, brightest] = std::ranges::minmax_element(lights);
+  auto photograph = [&](auto pattern) {
+    return readPictureAs(photographs[static_cast<std::size_t>(pattern - lights.begin())], false);
+  };
+  image::Image light = photograph(brightest);
+  const std::size_t projector = patterns.size().count();
+  if (!reduction::needsLook(light.size(), projector, use)) return reduction::noReduction(light.size());
+  const image::Image black = photograph(darkest);
+  if (black.size() != light.size()) return reduction::noReduction(light.size());  // told as they are read
+  for (std::size_t i = 0; i < light.data().size(); ++i) light.data()[i] -= black.data()[i];
+  return reduction::reductionFor(light.size(), projector, use, light);
 }
 
 /// Before minutes are spent: what CalibrationFolder::create() would refuse in the end.
@@ -133,8 +170,9 @@ void checkFolderIsFree(const fs::path& folder) {
 
 struct Pictures {
   importing::PictureSequence patterns, photographs;
-  bool developed = false;  // some of the photographs were not linear
-  Message finding;         // on the order of the photographs; empty: nothing to be said
+  bool developed = false;          // some of the photographs were not linear
+  Message finding;                 // on the order of the photographs; empty: nothing to be said
+  reduction::Reduction reduction;  // of the photographs
   ImportedRigSettings rig;
 };
 
@@ -151,14 +189,19 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   Fingerprint fingerprint;
   Pictures pictures;
   Progress first = progress.part(0.4, RELUCENT_MESSAGE("stage.reading-patterns", "Reading the patterns"));
-  pictures.patterns = readSequence(patterns, true, fingerprint, first);
+  auto asItIs = [](image::Image image) { return image; };
+  pictures.patterns = readSequence(patterns, true, asItIs, fingerprint, first);
+  pictures.reduction = reductionOf(pictures.patterns, photographs, settings.pixels);
   Progress second =
       progress.part(0.6, RELUCENT_MESSAGE("stage.reading-photographs", "Reading the photographs"));
-  pictures.photographs = readSequence(photographs, false, fingerprint, second);
+  auto smaller = [reducer = reduction::Reducer(pictures.reduction)](image::Image image) {
+    return reducer.reduction().isNothing() ? std::move(image) : reducer({std::move(image), 0, 1.0}).signal;
+  };
+  pictures.photographs = readSequence(photographs, false, smaller, fingerprint, second);
   pictures.finding = sequence.finding;
   pictures.developed = std::any_of(photographs.begin(), photographs.end(), isDeveloped);
   pictures.rig = {pictures.patterns.size(),
-                  pictures.photographs.size(),
+                  pictures.reduction.camera,
                   static_cast<int>(patterns.size()),
                   fs::absolute(settings.patterns).string(),
                   fs::absolute(settings.photographs).string(),
@@ -173,9 +216,10 @@ double flaggedShare(const transport::Acquisition& acquisition) {
   return flagged / static_cast<double>(acquisition.flagged.size());
 }
 
-void store(const fs::path& path, const CalibrateSettings& settings, const importing::Import& import,
-           double seconds) {
+void store(const fs::path& path, const CalibrateSettings& settings, const reduction::Reduction& reduction,
+           const importing::Import& import, double seconds) {
   calibration::CalibrationFolder folder = createCalibration(path, settings);
+  if (!reduction.isNothing()) keepReductions(folder, {reduction});
   calibration::storeLinearization(folder,
                                   calibration::fingerprintOf(folder, calibration::Stage::linearization),
                                   import.linearization, {});
@@ -192,16 +236,21 @@ void storeInverse(const fs::path& path, const compensation::RidgeChoice& choice,
   storeInverse(folder, inverseResultOf(choice, {seconds}));
 }
 
-/// What is estimated from the pictures, which are let go of. Sets the rig that they came from.
+/// What is estimated from the pictures, which are let go of. Sets the rig that they came from, and how they
+/// were reduced.
 importing::Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages,
-                            Progress& progress) {
+                            reduction::Reduction& reduction, Progress& progress) {
   Progress reading = progress.part(0.1, RELUCENT_MESSAGE("stage.reading-pictures", "Reading the pictures"));
   Pictures pictures = readPictures(settings, reading);
   stages.rig = pictures.rig;
+  stages.pixels = settings.pixels;
+  reduction = pictures.reduction;
   Progress estimating = progress.part(
       0.7, RELUCENT_MESSAGE("stage.estimating-light-transport", "Estimating the light transport"));
   importing::Import import =
       importing::importTransport(pictures.patterns, pictures.photographs, settings.import, estimating);
+  for (Message& finding : findingsOf({reduction}))
+    import.linearization.findings.push_back(std::move(finding));
   if (!pictures.finding.empty()) import.linearization.findings.push_back(pictures.finding);
   if (pictures.developed)
     import.linearization.findings.emplace_back(RELUCENT_MESSAGE(
@@ -241,10 +290,11 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   CalibrateSettings stages;
   compensation::MeasuredVenue venue;
   {
-    const importing::Import import = estimated(settings, stages, progress);
+    reduction::Reduction reduction;
+    const importing::Import import = estimated(settings, stages, reduction, progress);
     result = resultOf(import, std::get<ImportedRigSettings>(stages.rig));
     // What was estimated is safe before it is inverted.
-    store(path, stages, import, watch.seconds());
+    store(path, stages, reduction, import, watch.seconds());
     venue = measuredVenueOf(import.acquisition, stages.threshold);
   }
   Stopwatch invertingWatch;

@@ -9,6 +9,7 @@
 #include "relucent/base/progress.h"
 #include "relucent/base/raster.h"
 #include "relucent/importing/import.h"
+#include "relucent/reduction/pixel_use.h"
 
 namespace relucent::pipeline {
 
@@ -18,6 +19,7 @@ struct ImportPicturesSettings {
   /// files give the sensor's own values at half its size; of a photograph that is there twice the raw file
   /// counts.
   std::filesystem::path photographs;
+  reduction::PixelUse pixels;  // of the photographs, which are reduced as they are read
   importing::ImportSettings import;
 };
 std::vector<Message> problems(const ImportPicturesSettings& settings);

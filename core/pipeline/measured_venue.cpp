@@ -9,6 +9,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/compensation/direct_light.h"
+#include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -28,6 +29,7 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
         folder.path().string());
   MeasuredCalibration measured;
   measured.rig = settings.rig;
+  measured.reductions = reductionsOf(folder);
   measured.linearization = calibration::loadLinearization(*linearization);
   progress.report(0.1);
   const transport::Acquisition stored = calibration::loadAcquisition(*acquisition);

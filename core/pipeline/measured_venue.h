@@ -8,6 +8,7 @@
 #include "relucent/inverse/windows.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/reduction/reduction.h"
 #include "relucent/transport/acquisition.h"
 
 namespace relucent::pipeline {
@@ -25,6 +26,7 @@ AcquisitionFigures figuresOf(const transport::Acquisition& acquisition);
 /// A finished calibration in memory: all that compensation, export and the report need.
 struct MeasuredCalibration {
   RigSettings rig;
+  std::vector<reduction::Reduction> reductions;  // of its cameras; empty: they are used as they are
   linearization::Linearization linearization;
   AcquisitionFigures acquisition;
   compensation::MeasuredVenue venue;

@@ -10,6 +10,7 @@
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -35,8 +36,9 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
                                 const sentinels::AlarmHandler& handler,
                                 sentinels::AcquisitionObserver& observer, Progress& progress) {
   Stopwatch watch;
+  rig::Rig used = reducedRig(folder, rig);
   calibration::ShotJournal journal(folder.shotFolder());
-  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::acquisition)));
+  rig::ShotTaker shots(used, journal, std::string(nameOf(calibration::Stage::acquisition)));
   transport::Acquisition acquisition = acquisition::acquire(
       {shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
@@ -56,14 +58,21 @@ calibration::CalibrationFolder beginCalibration(const fs::path& path, const Cali
 
 linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                                   Progress& progress) {
-  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::linearization);
-  if (auto done = folder.find(calibration::Stage::linearization, inputs))
+  if (auto done = folder.find(calibration::Stage::linearization,
+                              calibration::fingerprintOf(folder, calibration::Stage::linearization)))
     return calibration::loadLinearization(*done);
   Stopwatch watch;
+  Progress choosing = progress.part(
+      0.0, RELUCENT_MESSAGE("stage.choosing-camera-pixels", "Finding the camera pixels that are needed"));
+  chooseReductions(folder, rig, choosing);
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::linearization);
+  rig::Rig used = reducedRig(folder, rig);
   calibration::ShotJournal journal(folder.shotFolder());
-  rig::ShotTaker shots(rig, journal, std::string(nameOf(calibration::Stage::linearization)));
+  rig::ShotTaker shots(used, journal, std::string(nameOf(calibration::Stage::linearization)));
   linearization::Linearization linearization =
       linearization::linearize(shots, settingsOf(folder).linearization, progress);
+  for (Message& finding : findingsOf(reductionsOf(folder)))
+    linearization.findings.push_back(std::move(finding));
   calibration::storeLinearization(folder, inputs, linearization, costOf(watch, shots));
   return linearization;
 }

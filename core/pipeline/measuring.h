@@ -18,10 +18,11 @@ namespace relucent::pipeline {
 calibration::CalibrationFolder beginCalibration(const std::filesystem::path& path,
                                                 const CalibrateSettings& settings);
 
-/// Throws: as linearize() and storeLinearization().
+/// `rig`: the devices as they are; what of the cameras is used is chosen first, see reductions.h.
+/// Throws: as linearize(), chooseReductions(), reduced() and storeLinearization().
 linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                                   Progress& progress);
-/// Throws: as acquire() and storeAcquisition().
+/// Throws: as acquire(), reduced() and storeAcquisition().
 transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                           const linearization::Linearization& linearization,
                                           const sentinels::AlarmHandler& handler, Progress& progress);

@@ -18,6 +18,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/reduction/reduction.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -30,6 +31,7 @@ struct Photographed {
   ProvedProjection error;
   CameraStack camera;  // radiance
   image::Image deltaE;
+  image::Image whole;  // radiance, see wholePhotograph()
 };
 
 PictureError errorOf(const compensation::Prediction& seen) {
@@ -116,6 +118,33 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
   return result;
 }
 
+/// The first camera's photograph of what is shown now, all that the camera delivers; empty where that is what
+/// was measured with.
+image::Image wholePhotograph(rig::Rig& rig, const MeasuredCalibration& measured, int number,
+                             const Progress& progress) {
+  if (measured.reductions.empty() || measured.reductions.front().isNothing()) return {};
+  rig::Camera& camera = *rig.cameras.front();
+  rig::Shot shot{{"whole", number}, {}, {}, measured.linearization.exposures};
+  for (std::size_t exposure = 0; exposure < shot.exposuresAsked.size(); ++exposure) {
+    progress.checkpoint();
+    shot.frames.emplace_back().push_back(
+        camera.capture({shot.id, static_cast<int>(exposure), shot.exposuresAsked[exposure]}));
+    rig::checkFrame(shot.frames.back().front(), camera.size(), camera.name());
+  }
+  const hdr::CameraModel model =
+      reduction::wholeModel(measured.reductions.front(), measured.linearization.cameras.front());
+  const hdr::HdrFrame frame = hdr::mergeBracket(shot, {model}, Rasters(camera.size()));
+  return image::imageFromStack(frame.radiance, Rasters(camera.size()), 0);
+}
+
+/// White as the camera itself sees it.
+std::array<float, 3> wholeWhite(const compensation::Target& target, const MeasuredCalibration& measured) {
+  std::array<float, 3> white = target.white;
+  const std::array<float, 3> factor = reduction::wholeFromReduced(measured.reductions.front());
+  for (std::size_t c = 0; c < 3; ++c) white[c] *= factor[c];
+  return white;
+}
+
 /// Pictures of one size side by side, row by row; an empty one leaves its place dark.
 image::Image sheet(const std::vector<std::vector<image::Image>>& rows, Size size) {
   int columns = static_cast<int>(rows.front().size()), lines = static_cast<int>(rows.size());
@@ -176,7 +205,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   MeasuredCalibration measured = loadCalibration(folder, loading);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   const transport::TransportMatrix& transport = measured.venue.transport;
-  rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, path, opening);
+  rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);
 
   compensation::Target target = fitTarget(content, measured.venue, settings.target);
   compensation::Compensator compensator(measured.venue, measured.inverse);
@@ -203,14 +232,22 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   rig::ShotTaker shots(rig, log, "prove");
   photography::Photographer photographer(shots, measured.linearization);
   Photographed before = photograph(photographer, measured, target, plain, photographing);
+  before.whole = wholePhotograph(source.whole(), measured, 0, photographing);
   photographing.report(0.5);
   Photographed after = photograph(photographer, measured, target, compensated, photographing);
+  after.whole = wholePhotograph(source.whole(), measured, 1, photographing);
   photographing.report(1.0);
   result.before = before.error;
   result.after = after.error;
   result.seconds = watch.seconds();
   result.exposures = shots.exposures();
   result.files = writePictures(settings.out, target, transport.cameras(), before, after);
+  for (const auto& [name, photographed] :
+       {std::pair("before_whole", &before), std::pair("after_whole", &after)}) {
+    if (photographed->whole.empty()) continue;
+    result.files.push_back(settings.out / fmt::format("{}.png", name));
+    image::writePng(result.files.back(), image::viewed(photographed->whole, wholeWhite(target, measured)), 8);
+  }
   progress.report(1.0);
   return result;
 }

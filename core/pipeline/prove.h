@@ -55,7 +55,8 @@ struct ProveResult {
 /// Nothing of the calibration is changed. Writes into `out`: before.exr, after.exr (measured, camera signal
 /// per second), target.png, before.png, after.png (to look at), before_delta_e.exr, after_delta_e.exr, and
 /// comparison.png: target, before and after beside each other, below them the CIEDE2000 of before and after
-/// from 0 (dark) to 20 (bright).
+/// from 0 (dark) to 20 (bright). Where the camera is reduced (reductions.h), before_whole.png and
+/// after_whole.png are all that it delivers, photographed once more.
 /// Throws: Error{input} if the calibration is not finished, was imported, has other sizes than the devices,
 /// nothing of the picture can be shown, or what was shown has another size than the projectors;
 /// Error{device, disk}; Cancelled.

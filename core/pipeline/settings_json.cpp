@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/settings_json.h"
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
 #include "relucent/base/error.h"
 #include "relucent/calibration/enum_json.h"
 
@@ -76,6 +80,61 @@ std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
   auto content = settings.find("content");
   if (content == settings.end() || !content->contains("corners")) return std::nullopt;
   return content->at("corners").get<compensation::Corners>();
+}
+
+/// A calibration of a version that knew no other has all of them.
+reduction::PixelUse pixelsFromJson(const Sorted& settings) {
+  const std::string text = settings.value("camera_pixels", "all");
+  if (const std::optional<reduction::PixelUse> use = reduction::pixelUseFrom(text)) return *use;
+  throw Error(ErrorKind::format,
+              RELUCENT_ENGLISH_MESSAGE("calibration.camera-pixels-unknown",
+                                       "'{}' is no choice of camera pixels that this version knows")
+                  .with(text),
+              RELUCENT_ENGLISH_MESSAGE("calibration.open-with-newer-version",
+                                       "open it with the version that made it"));
+}
+
+using reduction::Reduction;
+
+Sorted reductionToJson(const Reduction& reduction) {
+  Sorted responses = Sorted::array();
+  for (const hdr::ResponseCurve& curve : reduction.response)
+    if (!curve.isIdentity()) responses.push_back({{"signal", curve.x()}, {"linear", curve.y()}});
+  return {{"camera", {reduction.camera.width, reduction.camera.height}},
+          {"begin", {reduction.begin.x, reduction.begin.y}},
+          {"part", {reduction.part.width, reduction.part.height}},
+          {"bin", reduction.bin},
+          {"clip", reduction.clip},
+          {"response", std::move(responses)},
+          {"defective", reduction.defective}};
+}
+
+Reduction reductionFromJson(const Sorted& json) {
+  auto pair = [&json](const char* name) { return json.at(name).get<std::array<int, 2>>(); };
+  Reduction reduction;
+  reduction.camera = {pair("camera")[0], pair("camera")[1]};
+  reduction.begin = {pair("begin")[0], pair("begin")[1]};
+  reduction.part = {pair("part")[0], pair("part")[1]};
+  reduction.bin = json.at("bin");
+  reduction.clip = json.at("clip");
+  const Sorted& responses = json.at("response");
+  for (std::size_t c = 0; c < responses.size() && c < 3; ++c)
+    reduction.response[c] = hdr::ResponseCurve(responses[c].at("signal").get<std::vector<double>>(),
+                                               responses[c].at("linear").get<std::vector<double>>());
+  reduction.defective = json.at("defective").get<std::vector<std::uint32_t>>();
+  return reduction;
+}
+
+/// Whether it is one that reductionTo() makes.
+bool isSound(const Reduction& reduction) {
+  auto along = [&reduction](int begin, int length, int all) {
+    return begin >= 0 && length >= reduction.bin && length % reduction.bin == 0 && length <= all - begin;
+  };
+  return reduction.bin >= 1 && reduction.clip > 0.0 && reduction.clip <= 1.0 &&
+         along(reduction.begin.x, reduction.part.width, reduction.camera.width) &&
+         along(reduction.begin.y, reduction.part.height, reduction.camera.height) &&
+         std::ranges::all_of(reduction.defective,
+                             [&](std::uint32_t value) { return value < 3 * reduction.camera.count(); });
 }
 
 Sorted commandRigToJson(const CommandRigSettings& settings) {
@@ -231,10 +290,28 @@ void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings) 
   }
 }
 
+calibration::Json reductionsToJson(const std::vector<Reduction>& reductions) {
+  Sorted all = Sorted::array();
+  for (const Reduction& reduction : reductions) all.push_back(reductionToJson(reduction));
+  return calibration::Json(all);
+}
+
+std::vector<Reduction> reductionsFromJson(const calibration::Json& json) {
+  std::vector<Reduction> reductions;
+  try {
+    for (const Sorted& camera : Sorted(json)) reductions.push_back(reductionFromJson(camera));
+  } catch (const Sorted::exception& cause) {
+    failForeign(cause);
+  }
+  if (!std::ranges::all_of(reductions, isSound)) failForeign(std::runtime_error("reduction"));
+  return reductions;
+}
+
 calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
-  return calibration::Json(Sorted{{"linearization", settings.linearization},
+  return calibration::Json(Sorted{{"camera_pixels", reduction::toString(settings.pixels)},
+                                  {"linearization", settings.linearization},
                                   {"acquisition", settings.acquisition},
                                   {"threshold", settings.threshold},
                                   {"windows", settings.windows},
@@ -246,6 +323,7 @@ calibration::Json stagesToJson(const CalibrateSettings& settings) {
 void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) {
   try {
     Sorted sorted(json);
+    settings.pixels = pixelsFromJson(sorted);
     settings.linearization = sorted.value("linearization", settings.linearization);
     settings.acquisition = sorted.value("acquisition", settings.acquisition);
     settings.threshold = sorted.value("threshold", settings.threshold);

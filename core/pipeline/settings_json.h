@@ -3,6 +3,7 @@
 
 #include "relucent/calibration/json_fwd.h"
 #include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/reduction/reduction.h"
 
 namespace relucent::pipeline {
 
@@ -20,5 +21,10 @@ void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings);
 calibration::Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
 void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings);
+
+/// How the cameras are reduced, one object a camera.
+calibration::Json reductionsToJson(const std::vector<reduction::Reduction>& reductions);
+/// Throws: Error{format}, also for what reductionTo() would never make.
+std::vector<reduction::Reduction> reductionsFromJson(const calibration::Json& json);
 
 }  // namespace relucent::pipeline

@@ -13,6 +13,9 @@ namespace {
 /// In a manifest's settings: where the projector's screen hangs now, if not where it was measured. No
 /// fingerprint knows it.
 constexpr const char* movedScreen = "screen";
+/// There, how the cameras are reduced: for no person to read. calibration/stage.h names it too.
+constexpr const char* reductionSection = "reduction";
+constexpr const char* toBeChosen = "to be chosen";
 
 void flatten(const calibration::Json& json, const std::string& name, std::vector<StoredSetting>& list) {
   if (json.is_object())
@@ -40,7 +43,9 @@ CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
 
 std::vector<StoredSetting> settingsListOf(const calibration::CalibrationFolder& folder) {
   std::vector<StoredSetting> list;
-  flatten(folder.settings(), "", list);
+  calibration::Json asked = folder.settings();
+  asked.erase(reductionSection);
+  flatten(asked, "", list);
   return list;
 }
 
@@ -53,6 +58,31 @@ void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSetti
   calibration::Json changed = folder.settings();
   changed.update(stagesToJson(settings));
   folder.setSettings(std::move(changed));
+}
+
+std::vector<reduction::Reduction> reductionsOf(const calibration::CalibrationFolder& folder) {
+  if (!hasReductions(folder)) return {};
+  return reductionsFromJson(folder.settings().at(reductionSection));
+}
+
+bool hasReductions(const calibration::CalibrationFolder& folder) {
+  return folder.settings().contains(reductionSection) && folder.settings().at(reductionSection).is_array();
+}
+
+void keepReductions(calibration::CalibrationFolder& folder,
+                    const std::vector<reduction::Reduction>& reductions) {
+  calibration::Json settings = folder.settings();
+  if (reductions.empty())
+    settings.erase(reductionSection);
+  else
+    settings[reductionSection] = reductionsToJson(reductions);
+  folder.setSettings(std::move(settings));
+}
+
+void forgetReductions(calibration::CalibrationFolder& folder) {
+  calibration::Json settings = folder.settings();
+  settings[reductionSection] = toBeChosen;
+  folder.setSettings(std::move(settings));
 }
 
 void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
@@ -68,10 +98,8 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry", "change that setting and try again"));
-  if (calibration::Json asked = folder.settings(); asked.contains(movedScreen)) {
-    asked.erase(movedScreen);
-    folder.setSettings(std::move(asked));
-  }
+  calibration::Json asked = folder.settings();
+  if (asked.erase(movedScreen) + asked.erase(reductionSection) > 0) folder.setSettings(std::move(asked));
   folder.setRig(rigToJson(rig));
 }
 

@@ -7,6 +7,7 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/reduction/reduction.h"
 
 namespace relucent::pipeline {
 
@@ -32,6 +33,18 @@ RigSettings measuredRigOf(const calibration::CalibrationFolder& folder);
 
 /// Changes what later runs are asked for, and nothing else: the rig is what the calibration was begun with.
 void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSettings& settings);
+
+/// How the cameras are reduced, as it was chosen (reductions.h), one a camera; empty: they are used as they
+/// are. Throws: Error{format}.
+std::vector<reduction::Reduction> reductionsOf(const calibration::CalibrationFolder& folder);
+/// Whether anything was chosen, that they stay as they are included.
+bool hasReductions(const calibration::CalibrationFolder& folder);
+/// None: all pixels are used. Throws: Error{disk}.
+void keepReductions(calibration::CalibrationFolder& folder,
+                    const std::vector<reduction::Reduction>& reductions);
+/// They are to be chosen anew: what was measured before is out of date, whatever it was measured with.
+/// Throws: Error{disk}.
+void forgetReductions(calibration::CalibrationFolder& folder);
 
 /// Exchanges the devices of a calibration with which nothing has been measured yet.
 /// Throws: Error{input} if something has, or for settings with problems(); Error{disk}.

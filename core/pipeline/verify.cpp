@@ -52,7 +52,7 @@ VerifyResult verified(const fs::path& path, const VerifySettings& settings, RigS
   progress.report(0.2);
 
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
-  rig::Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, path, opening);
+  rig::Rig& rig = source.open(settings.rig.value_or(calibrated.rig), acquisition.transport, folder, opening);
 
   Progress verifying = progress.part(
       0.6, RELUCENT_MESSAGE("stage.photographing-test-patterns", "Photographing test patterns"));

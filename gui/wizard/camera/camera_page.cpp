@@ -30,6 +30,7 @@ struct CameraPage::Shared {
   QMutex guard;
   std::optional<pipeline::RigCheck> check;
   std::optional<linearization::ExposureChoice> choice;
+  std::vector<pipeline::PixelForecast> pixels;
   std::optional<CameraLook> look;
   std::optional<double> tooBright, tooDark;
   std::size_t exposure = 0;
@@ -66,6 +67,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     check_.reset();
     look_.reset();
     exposures_ = {};
+    pixels_.clear();
     tooBright_.reset();
     tooDark_.reset();
     best_ = 0.0;
@@ -127,6 +129,7 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
     look_.reset();
     check_.reset();
     exposures_ = {};
+    pixels_.clear();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
@@ -216,13 +219,30 @@ void CameraPage::chooseExposure(std::size_t index) {
   tellSettings();
 }
 
+void CameraPage::choosePixels(const reduction::PixelUse& use) {
+  if (use == pixels()) return;
+  changeUndoably(tr("Camera pixels"), pixels(), use,
+                 [this](const reduction::PixelUse& wanted) { keepPixels(wanted); });
+}
+
+void CameraPage::keepPixels(const reduction::PixelUse& use) {
+  if (!session_.areDevicesFree() && !isLooking()) return;
+  try {
+    session_.changePixels(use);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+  }
+  tellSettings();
+}
+
 void CameraPage::start() {
   if (needsCamera() || !session_.areDevicesFree()) return;
   goOn_ = false;
   shared_ = std::make_shared<Shared>();
   shared_->area = area_;
   lease_ = session_.leaseDevices(stepName);
-  job_.start([this, shared = shared_, work = workOf(session_)](Progress& progress) {
+  job_.start([this, shared = shared_, work = workOf(session_),
+              settings = session_.settings().acquisition](Progress& progress) {
     Progress opening = progress.part(0.4, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     if (work.devices->hasScreen()) {
@@ -237,8 +257,14 @@ void CameraPage::start() {
     Progress exposing =
         progress.part(0.3, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
     linearization::ExposureChoice choice = linearization::chooseExposures(shots, exposing);
+    std::vector<pipeline::PixelForecast> pixels =
+        pipeline::pixelForecasts(rig, choice, shots.times(), settings);
+    // A large camera's photographs would take up the memory that measuring needs.
+    choice.whites.clear();
+    choice.black = {};
     {
       QMutexLocker lock(&shared->guard);
+      shared->pixels = std::move(pixels);
       shared->choice = choice;
       // The one between bright parts and shadows.
       shared->exposure = choice.seconds.size() / 2;
@@ -292,6 +318,7 @@ void CameraPage::takeSharedState() {
     shared_->posted = false;
     if (shared_->choice) {
       exposures_ = *std::exchange(shared_->choice, std::nullopt);
+      pixels_ = shared_->pixels;
       exposure_ = shared_->exposure;
     }
     if (shared_->check) check_ = std::exchange(shared_->check, std::nullopt);

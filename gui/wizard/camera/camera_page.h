@@ -8,6 +8,7 @@
 #include "relucent/devices/camera_registry.h"
 #include "relucent/image/photograph_check.h"
 #include "relucent/linearization/exposure_choice.h"
+#include "relucent/pipeline/reductions.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 
@@ -68,6 +69,12 @@ class CameraPage : public PageModel {
   /// have been looked at.
   std::optional<double> tooBrightEverywhere() const { return tooBright_; }
   std::optional<double> tooDarkEverywhere() const { return tooDark_; }
+  /// What may be made of the camera's pixels; empty before it has been looked at, and where it has no more
+  /// than the projection needs.
+  const std::vector<pipeline::PixelForecast>& pixelForecasts() const { return pixels_; }
+  /// Which of them is wanted.
+  reduction::PixelUse pixels() const { return session_.settings().pixels; }
+  void choosePixels(const reduction::PixelUse& use);
   /// The focus area, in pixels of the camera.
   image::Region focusArea() const { return area_; }
   void setFocusArea(const image::Region& area);
@@ -89,6 +96,7 @@ class CameraPage : public PageModel {
   void exchangeCamera(const std::string& address, std::optional<Size> size);
   void goOn();
   void keepLook();
+  void keepPixels(const reduction::PixelUse& use);
   void start();
   void watch(const image::Region& area);
   void takeSharedState();
@@ -101,6 +109,7 @@ class CameraPage : public PageModel {
   std::optional<CameraLook> look_;
   linearization::ExposureChoice exposures_;
   std::size_t exposure_ = 0;
+  std::vector<pipeline::PixelForecast> pixels_;
   std::optional<double> tooBright_, tooDark_;
   image::Region area_;
   double best_ = 0.0;

@@ -12,6 +12,7 @@
 #include "views/line_chart.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_choice_view.h"
+#include "wizard/camera/pixel_use_view.h"
 
 namespace relucent::gui {
 namespace {
@@ -192,6 +193,7 @@ class CameraInspector {
     }
     QObject::connect(group, &QButtonGroup::idClicked, &model,
                      [&model](int id) { model.chooseExposure(static_cast<std::size_t>(id)); });
+    column->addWidget(pixelUseView(model));
     column->addWidget(lineOf());
     column->addWidget(labelOf(CameraPage::tr("Checks"), "section"));
     auto* sees = new Remark;

@@ -9,6 +9,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/devices/check/test_exposure.h"
 #include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/rig/watched_rig.h"
 #include "wizard/session/other_screens.h"
@@ -330,6 +331,10 @@ void Session::change(const std::function<void(calibration::CalibrationFolder&)>&
 void Session::changeSettings(const pipeline::CalibrateSettings& settings) {
   change(
       [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeSettings(folder, settings); });
+}
+
+void Session::changePixels(const reduction::PixelUse& use) {
+  change([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changePixels(folder, use); });
 }
 
 void Session::wantAcquisition() {

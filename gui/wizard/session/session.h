@@ -138,6 +138,8 @@ class Session : public QObject {
   void decide(const Decision& decision) {
     change([&](calibration::CalibrationFolder& folder) { calibration::storeDecision(folder, decision); });
   }
+  /// Other pixels of the cameras: what was measured with those of before is out of date. Throws: Error{disk}.
+  void changePixels(const reduction::PixelUse& use);
   /// Other devices, before anything is measured. Throws: as changeRig().
   void changeRig(const pipeline::RigSettings& rig);
   /// The projector is another screen from now on; nothing that was measured becomes stale.

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "relucent/base/error.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/devices/raw/raw_photograph.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
@@ -14,7 +16,9 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/plan.h"
+#include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "support/dng.h"
 #include "support/scripted_rig.h"
 
@@ -36,14 +40,14 @@ constexpr Size camera{36, 28};
 /// A folder with a plan and photographs of it.
 class Studio {
  public:
-  Studio() {
+  explicit Studio(Size photographed = camera) {
     PatternPlanSettings plan;
     plan.projector = projector;
     Progress progress;
     written = exportPlan(plan, patterns(), progress);
     SyntheticSettings synthetic;
     synthetic.projectors = {projector};
-    synthetic.cameras = {camera};
+    synthetic.cameras = {photographed};
     ScriptedVenue venue(syntheticTransport(synthetic), {}, {});
     Rig rig = venue.rig();
     fs::create_directories(photographs());
@@ -59,8 +63,9 @@ class Studio {
   fs::path patterns() const { return root() / "plan"; }
   fs::path photographs() const { return root() / "photographs"; }
   fs::path calibration() const { return root() / "calibration"; }
-  ImportResult import() const {
+  ImportResult import(const reduction::PixelUse& pixels = {}) const {
     ImportPicturesSettings settings;
+    settings.pixels = pixels;
     settings.patterns = patterns();
     settings.photographs = photographs();
     Progress progress;
@@ -106,6 +111,28 @@ class Studio {
 class TestImportPictures : public QObject {
   Q_OBJECT
  private slots:
+  /// Bins hold four times the light of their samples: what is held out is predicted no worse.
+  void photographsOfManyPixelsAreReduced() {
+    Studio studio({120, 96});
+    const ImportResult reduced = studio.import();
+    {
+      const auto folder = calibration::CalibrationFolder::open(studio.calibration(),
+                                                               calibration::CalibrationFolder::Access::read);
+      const std::vector<reduction::Reduction> reductions = reductionsOf(folder);
+      QCOMPARE(reductions.size(), std::size_t{1});
+      QVERIFY(reductions[0].bin >= 2);
+      QCOMPARE(reductions[0].camera, (Size{120, 96}));
+      const auto acquired = calibration::currentResultOf(folder, calibration::Stage::acquisition);
+      QVERIFY(acquired.has_value());
+      QCOMPARE(calibration::loadAcquisition(*acquired).transport.cameras(), Rasters(reductions[0].size()));
+    }
+    fs::remove_all(studio.calibration());
+    const ImportResult whole = studio.import({reduction::PixelUse::Kind::all});
+    QVERIFY2(reduced.error.transport < 1.2 * whole.error.transport,
+             qPrintable(
+                 QString("%1, %2 with all pixels").arg(reduced.error.transport).arg(whole.error.transport)));
+  }
+
   void aPlanComesBackAsACalibration() {
     Studio studio;
     QVERIFY(fs::exists(studio.patterns() / "plan.json"));

@@ -11,6 +11,7 @@
 #include "relucent/acquisition/multiplexed.h"
 #include "relucent/acquisition/repair.h"
 #include "relucent/base/error.h"
+#include "relucent/transport/statistics.h"
 
 namespace relucent::acquisition {
 namespace {
@@ -39,27 +40,10 @@ double unresolvedEnergy(const transport::TransportMatrix& transport, const Camer
   return all > 0.0 ? missing / all : 0.0;
 }
 
-/// The side of the finest leaves; 0 if there are single pixels among them: nothing is missing.
-int stoppedBlocks(const transport::TransportMatrix& transport) {
-  const transport::NodeLayout& layout = transport.layout();
-  const transport::BlockSparse& leaves = transport.leaves();
-  int finest = layout.levels() - 1;
-  for (std::size_t entry = 0; entry < leaves.blocks() && finest > 0; ++entry)
-    finest = std::min(finest, layout.node(leaves.column(entry)).level);
-  return finest > 0 ? 1 << finest : 0;
-}
-
 /// What the user should know of a measurement.
-std::vector<Message> findingsOf(double drift, double unusable, double flagged, int stoppedAt,
+std::vector<Message> findingsOf(double drift, double unusable, double flagged,
                                 const sentinels::Supervision& supervision) {
   std::vector<Message> findings;
-  if (stoppedAt > 0)
-    findings.push_back(
-        RELUCENT_MESSAGE(
-            "acquisition.stopped-early",
-            "Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are "
-            "compensated less sharply; go on measuring any time as long as nothing has moved")
-            .with(as::label(stoppedAt)));
   if (std::abs(drift) > driftLimit)
     findings.push_back(
         RELUCENT_MESSAGE("acquisition.light-drifted",
@@ -99,6 +83,8 @@ class TreeObserver : public sentinels::AcquisitionObserver {
     if (through == 0) levelBegins_(levels);
     other_.grew(levels, through);
   }
+  bool wantsDrafts() const override { return other_.wantsDrafts(); }
+  void drafted(const transport::Draft& draft) override { other_.drafted(draft); }
 
  private:
   sentinels::AcquisitionObserver& other_;
@@ -145,6 +131,7 @@ class Measurement {
         progress.part(verificationShare, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
     const CameraMask unknown = std::move(measured.unknown);
     Floods floods = std::move(measured.floods);
+    const bool isUnfinished = measured.isStopped;
     VerifiedTransport verified = unverified(std::move(measured), references);
     if (!interrupted && !dropped) {
       interrupted = verify(verified, context, verificationPart);
@@ -153,7 +140,9 @@ class Measurement {
     for (std::size_t row = 0; row < verified.flagged.size(); ++row)
       if (!references.usable[row] || unknown[row]) verified.flagged[row] = 1;
     const bool stopped = interrupted || dropped || progress.stopAndKeep();
-    transport::Acquisition acquisition = finished(std::move(verified), std::move(floods), stopped, watch);
+    const int blocks = transport::finestSide(verified.transport);
+    const int stoppedAt = isUnfinished || (stopped && blocks > 1) ? blocks : 0;
+    transport::Acquisition acquisition = finished(std::move(verified), std::move(floods), stoppedAt, watch);
     progress.report(1.0);
     return acquisition;
   }
@@ -195,30 +184,29 @@ class Measurement {
     return context.watch.check(progress);
   }
 
-  transport::Acquisition finished(VerifiedTransport verified, Floods better, bool stopped,
+  transport::Acquisition finished(VerifiedTransport verified, Floods better, int stoppedAt,
                                   const sentinels::Watch& watch) const {
     const photography::References& references = watch.references();
     Floods floods = floodsOf(references);
     double unresolved = unresolvedEnergy(verified.transport, floods.light);
     if (!better.light.empty()) floods = std::move(better);
     double flagged = shareOf(verified.flagged);
-    const int stoppedAt = stopped ? stoppedBlocks(verified.transport) : 0;
-    return {.transport = std::move(verified.transport),
-            .black = watch.black().radiance,
-            .blackVariance = watch.black().variance,
-            .flood = std::move(floods.light),
-            .floodVariance = std::move(floods.variance),
-            .flagged = std::move(verified.flagged),
-            .residual = std::move(verified.residual),
-            .leafVariance = std::move(verified.leafVariance),
-            .remeasured = verified.remeasured,
-            .unresolvedEnergy = unresolved,
-            .verificationError = verified.error,
-            .patterns = run_.shots.shots() - shotsBefore_,
-            .exposures = run_.shots.exposures() - exposuresBefore_,
-            .stoppedAt = stoppedAt,
-            .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, stoppedAt,
-                                   supervision_)};
+    return {
+        .transport = std::move(verified.transport),
+        .black = watch.black().radiance,
+        .blackVariance = watch.black().variance,
+        .flood = std::move(floods.light),
+        .floodVariance = std::move(floods.variance),
+        .flagged = std::move(verified.flagged),
+        .residual = std::move(verified.residual),
+        .leafVariance = std::move(verified.leafVariance),
+        .remeasured = verified.remeasured,
+        .unresolvedEnergy = unresolved,
+        .verificationError = verified.error,
+        .patterns = run_.shots.shots() - shotsBefore_,
+        .exposures = run_.shots.exposures() - exposuresBefore_,
+        .stoppedAt = stoppedAt,
+        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_)};
   }
 
   const AcquisitionRun& run_;

@@ -34,6 +34,12 @@ constexpr double leavesPerPixel = 120.0;
 constexpr double bytesPerLeaf = 22.0;
 // The level under way: some 40 active pairs a camera pixel, each with 4 children of 36 bytes.
 constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
+// Of dense patterns: rows and T of a camera pixel, the patterns' means of a projector pixel.
+constexpr double denseLeaves = 75.0;
+constexpr double denseRowBytes = 200.0 + 12.0 * denseLeaves;
+constexpr double meansBytes = 300.0;
+// Of a camera pixel's photograph as it is stored: half of three 16-bit codes.
+constexpr double compressedBytes = 3.0;
 constexpr double programBytes = 60e6;
 constexpr double framesInMemory = 8.0;  // radiance, variance, validity of merged brackets, and raw ones
 
@@ -171,11 +177,14 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
 
   double pixels = static_cast<double>(cameras.count());
   double bytes = times.exposures > 0 ? static_cast<double>(times.bytes) / times.exposures
-                                     : 6.0 * pixels / static_cast<double>(cameras.devices());
-  double leaves = leavesPerPixel * bytesPerLeaf * pixels;
+                                     : compressedBytes * pixels / static_cast<double>(cameras.devices());
+  const bool dense = settings.scheme == AcquisitionScheme::multiplexed;
+  double leaves = (dense ? denseLeaves : leavesPerPixel) * bytesPerLeaf * pixels;
+  double underWay =
+      dense ? leaves + denseRowBytes * pixels + meansBytes * static_cast<double>(projectors.count())
+            : 2.0 * leaves + childrenBytes * pixels;
   work.diskBytes = static_cast<std::uint64_t>(photographs * bytes + leaves);
-  work.memoryBytes = static_cast<std::uint64_t>(programBytes + 2.0 * leaves + childrenBytes * pixels +
-                                                framesInMemory * 27.0 * pixels +
+  work.memoryBytes = static_cast<std::uint64_t>(programBytes + underWay + framesInMemory * 27.0 * pixels +
                                                 60.0 * static_cast<double>(projectors.count()));
   return work;
 }

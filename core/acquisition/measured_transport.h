@@ -20,6 +20,7 @@ struct MeasuredTransport {
   CameraStack leafVariance;  // see Acquisition
   Floods floods;             // where more than the references' photographs tells of them; else empty
   CameraMask unknown;        // per camera pixel: some light was too bright for every exposure
+  bool isStopped = false;    // dense patterns ended before they were as fine as asked for
 };
 
 }  // namespace relucent::acquisition

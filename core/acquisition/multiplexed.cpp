@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "relucent/acquisition/dense_photographs.h"
+#include "relucent/acquisition/draft.h"
 #include "relucent/acquisition/exposure_cycle.h"
 #include "relucent/acquisition/photograph_review.h"
 #include "relucent/base/message.h"
@@ -101,7 +102,6 @@ class Measurement {
     begin(rootsOnly ? rootSpread : startingSpread);
     if (rootsOnly) return std::nullopt;
     for (int level = start_; level >= 0; --level) {
-      if (level < start_ && progress.stopAndKeep()) break;
       int patterns = patternsFor(level);
       if (patterns == 0) continue;
       levels_.push_back(patterns);
@@ -117,6 +117,8 @@ class Measurement {
       }
       solve();
       if (auto interrupted = settle(part)) return interrupted;
+      tellDraft(level);
+      if ((isStopped_ = progress.stopAndKeep())) break;
       divide(level);
     }
     return confirm(progress);
@@ -142,6 +144,7 @@ class Measurement {
   std::optional<sentinels::Interruption> refine(Progress& part);
   std::optional<sentinels::Interruption> settle(Progress& part);
   std::vector<std::size_t> judge(std::size_t heldOut);
+  void tellDraft(int level, double error = 0.0) const;
   bool isJudged(std::size_t row) const;
   template <typename Wanted, typename Use>
   void solveRows(std::size_t heldOut, const Wanted& wanted, const Use& use);
@@ -168,7 +171,8 @@ class Measurement {
   std::vector<int> levels_;        // patterns of the levels that have begun
   std::vector<Taken> taken_;       // a photograph each
   std::vector<Division> divisions_;
-  int start_ = 0;  // the coarsest level
+  int start_ = 0;           // the coarsest level
+  bool isStopped_ = false;  // before it was as fine as asked for
 };
 
 void Measurement::begin(float spread) {
@@ -263,6 +267,7 @@ std::optional<sentinels::Interruption> Measurement::confirm(const Progress& prog
 
 /// T is to follow from the photographs that a check has confirmed, and from no others.
 std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Interruption how) {
+  isStopped_ = true;
   std::erase_if(taken_, [&](const Taken& taken) { return taken.shot > context_.watch.confirmed(); });
   if (how == sentinels::Interruption::beginAgain || taken_.size() == photographs_.size()) return how;
   photographs_.keep(taken_.size());
@@ -272,19 +277,32 @@ std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Inter
 }
 
 std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
-  double before = 0.0;
+  double before = 0.0, error = 0.0;
+  bool isFine = false;
   // The others wait for the last of these patterns.
   solve([&](std::size_t row) { return isJudged(row); });
-  while (levels_.back() + predictedPatterns <= mostFinest && !part.stopAndKeep()) {
+  while (!isFine && levels_.back() + predictedPatterns <= mostFinest && !part.stopAndKeep()) {
     levels_.back() += predictedPatterns;
     if (auto interrupted = photograph(0, predictedPatterns, part)) return interrupted;
-    double error = predict().error();
-    if (error < settings_.relativeThreshold || (before > 0.0 && error > (1.0 - worthMore) * before)) break;
+    error = predict().error();
+    tellDraft(0, error);
+    isFine = error < settings_.relativeThreshold || (before > 0.0 && error > (1.0 - worthMore) * before);
     before = error;
   }
+  isStopped_ = !isFine && part.stopAndKeep();
   if (auto interrupted = settle(part)) return interrupted;
+  tellDraft(0, error);
   divide(0);
   return std::nullopt;
+}
+
+/// What the rows say, to whoever looks on.
+void Measurement::tellDraft(int level, double error) const {
+  if (!context_.observer.wantsDrafts()) return;
+  transport::Draft draft = draftOf(rows_, photographs_, references_, means_.layout(), level);
+  draft.error = error;
+  draft.aim = settings_.relativeThreshold;
+  context_.observer.drafted(draft);
 }
 
 /// By chance, so that no row or column of the picture counts more than another.
@@ -409,6 +427,7 @@ MeasuredTransport Measurement::finish() {
   std::size_t count = rows_.size(), leaves = 0;
   for (const Row& row : rows_) leaves += row.leaves.size();
   MeasuredTransport measured;
+  measured.isStopped = isStopped_;
   measured.leafVariance.assign(3 * count, 0.0f);
   measured.unknown.assign(count, 0);
   measured.floods = floodsOf(references_);

@@ -8,6 +8,7 @@
 #include "relucent/acquisition/scheme.h"
 #include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
+#include "relucent/transport/statistics.h"
 
 namespace relucent::acquisition {
 namespace {
@@ -79,8 +80,8 @@ std::vector<Residual> compared(const hdr::LampLight& seen, const std::vector<Pre
 
 }  // namespace
 
-ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed) {
-  int side = 1 << (number % 4);
+ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed, int least) {
+  int side = std::max(least, 1 << (number % verificationSizes));
   ProjectorStack pattern(3 * projectors.count());
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
     Size size = projectors.size(projector);
@@ -112,6 +113,7 @@ sentinels::Interruptible<Verification> verify(const Expectation& expected, const
                                               const VerificationTask& task, Progress& progress) {
   const std::vector<std::uint8_t>& rows = task.rows;
   const int wanted = task.settings.verificationPatterns;
+  const int finest = transport::finestSide(expected.transport);
   std::size_t count = rows.size();
   Verification verification;
   verification.rows.assign(count, {});
@@ -119,7 +121,8 @@ sentinels::Interruptible<Verification> verify(const Expectation& expected, const
   std::array<int, verificationSizes> patterns{};
   bool any = std::any_of(rows.begin(), rows.end(), [](std::uint8_t row) { return row != 0; });
   for (int number = task.first; any && number < task.first + wanted; ++number) {
-    ProjectorStack pattern = verificationPattern(expected.transport.projectors(), number, task.settings.seed);
+    ProjectorStack pattern =
+        verificationPattern(expected.transport.projectors(), number, task.settings.seed, finest);
     std::vector<Prediction> predicted = predictions(expected.transport, pattern, rows);
     sentinels::Interruptible<hdr::LampLight> seen = light(pattern, demandsOf(expected, predicted, rows));
     if (!seen) return seen.interruption();

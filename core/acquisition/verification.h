@@ -63,8 +63,8 @@ struct VerificationTask {
 };
 
 /// Photographs random binary patterns of blocks of 1, 2, 4 and 8 pixels, every channel of every block lit or
-/// not by chance, and compares them with T p.
-/// Returns: as `light`.  Throws: what that throws; Cancelled.
+/// not by chance, and compares them with T p. Of a T in blocks, which cannot tell what is inside them, none
+/// is finer than its finest. Returns: as `light`.  Throws: what that throws; Cancelled.
 sentinels::Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,
                                               const VerificationTask& task, Progress& progress);
 /// The same while T is being measured. Throws: as Watch::check().
@@ -72,7 +72,7 @@ sentinels::Interruptible<Verification> verify(const transport::TransportMatrix& 
                                               const TreeContext& context, const VerificationTask& task,
                                               Progress& progress);
 
-/// The pattern `number` of those: a projector stack of zeros and ones.
-ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed);
+/// The pattern `number` of those, in blocks of at least `least` pixels: a projector stack of zeros and ones.
+ProjectorStack verificationPattern(const Rasters& projectors, int number, std::uint64_t seed, int least = 1);
 
 }  // namespace relucent::acquisition

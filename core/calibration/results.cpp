@@ -184,6 +184,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"stopped_at", acquisition.stoppedAt},
               {"findings", acquisition.findings},
               {"cost", toJson(cost)}};
+  if (acquisition.expected) values["expected_quality"] = toJson(*acquisition.expected);
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
     transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
     image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
@@ -227,6 +228,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     acquisition.patterns = values.at("patterns");
     acquisition.exposures = values.at("exposures");
     acquisition.stoppedAt = values.value("stopped_at", 0);
+    acquisition.expected = expectedFrom(values);
     acquisition.findings = values.at("findings").get<std::vector<Message>>();
     return acquisition;
   });

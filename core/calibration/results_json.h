@@ -29,6 +29,9 @@ auto readingJson(const StageResult& result, const Read& read) {
 }
 
 Json toJson(const StageCost& cost);
+Json toJson(const transport::ExpectedQuality& expected);
+/// None: the document has none, as those of earlier versions.
+std::optional<transport::ExpectedQuality> expectedFrom(const Json& values);
 /// As lists of width and height.
 std::vector<Size> sizesFrom(const Json& json);
 

@@ -57,6 +57,24 @@ Json toJson(const StageCost& cost) {
   return json;
 }
 
+Json toJson(const transport::ExpectedQuality& expected) {
+  return {{"now", expected.now},
+          {"whole", expected.whole},
+          {"photographs", expected.photographs},
+          {"seconds", expected.seconds}};
+}
+
+std::optional<transport::ExpectedQuality> expectedFrom(const Json& values) {
+  if (!values.contains("expected_quality")) return std::nullopt;
+  const Json& stored = values.at("expected_quality");
+  transport::ExpectedQuality expected;
+  take(stored, "now", expected.now);
+  take(stored, "whole", expected.whole);
+  take(stored, "photographs", expected.photographs);
+  take(stored, "seconds", expected.seconds);
+  return expected;
+}
+
 std::vector<Size> sizesFrom(const Json& json) {
   std::vector<Size> sizes;
   for (const Json& size : json) sizes.push_back({size.at(0), size.at(1)});
@@ -120,6 +138,7 @@ void read(const StageResult& stored, AcquisitionResult& result) {
     if (values.contains("cameras")) result.cameras = sizesFrom(values.at("cameras"));
     take(values, "verification_error", result.verificationError);
     take(values, "stopped_at", result.stoppedAt);
+    result.expected = expectedFrom(values);
     take(values, "findings", result.findings);
     take(values, result.cost);
   });

@@ -9,6 +9,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/base/raster.h"
+#include "relucent/transport/expected_quality.h"
 
 /// What the results of the stages say, one struct a stage: what the manifest keeps of them for people and for
 /// later stages. The large parts are files beside it (results.h). What a manifest of an earlier version lacks
@@ -49,7 +50,8 @@ struct AcquisitionResult {
   std::vector<Size> projectors;
   std::vector<Size> cameras;
   std::optional<double> verificationError;  // on held-out patterns, relative
-  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: complete
+  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
+  std::optional<transport::ExpectedQuality> expected;  // when it ended; of dense patterns
   std::vector<Message> findings;
   std::optional<StageCost> cost;
 };

@@ -6,9 +6,13 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/transport/statistics.h"
 
 namespace relucent::compensation {
 namespace {
+
+// Blocks wider than this share of the projector's side tell of no place.
+constexpr double coarsest = 1.0 / 6.0;
 
 /// Runs body(row) on all cores, with a checkpoint now and then.
 template <typename Body>
@@ -34,8 +38,11 @@ DirectLeaves::DirectLeaves(const transport::TransportMatrix& transport, const Di
     : leaves_(transport.leaves()), layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "direct light settings: {}", fmt::join(wrong, "; "));
-  for (const Size& size : transport.projectors().sizes())
-    reach_.push_back(std::max(3.0, settings.reach * std::max(size.width, size.height)));
+  const double finest = transport::finestSide(transport);
+  for (const Size& size : transport.projectors().sizes()) {
+    const int side = std::max(size.width, size.height);
+    reach_.push_back(std::max({3.0, settings.reach * side, std::min(finest, coarsest * side)}));
+  }
 }
 
 DirectLook DirectLeaves::lookOf(std::size_t row) const {

@@ -36,7 +36,9 @@ inline constexpr double leastDirectShare = 0.1;
 ///     the channels); the centre of its block is where the camera pixel looks to in that projector. Of
 ///     several projectors only those count that light it a tenth as much as the brightest does.
 ///  2. A leaf is direct if its block's centre is no further from there than the reach, along x and along y,
-///     and its block no wider than the reach. Light over a wider area comes from no single place: indirect.
+///     and its block no wider than the reach. Light over a wider area comes from no single place: indirect;
+///     but of a T that was measured in blocks alone, the reach is at least one of the finest,
+///     up to a sixth of the projector's side.
 /// Used by directPart() and wherever it matters where the projection itself falls.
 class DirectLeaves {
  public:

@@ -44,7 +44,7 @@ class Calibrating {
   void measureVenue(MeasuredCalibration& measured, Progress& progress) {
     sentinels::AcquisitionObserver nobody;
     const transport::Acquisition acquisition =
-        goOnMeasuring(folder_, devices_.rig, measured.linearization, handler_, nobody, progress);
+        goOnMeasuring(folder_, devices_.rig, measured.linearization, handler_, nobody, {}, progress);
     measured.acquisition = figuresOf(acquisition);
     measured.venue = measuredVenueOf(acquisition, settings_.threshold);
   }

@@ -2,6 +2,7 @@
 #include "relucent/pipeline/measuring.h"
 
 #include "relucent/acquisition/acquisition.h"
+#include "relucent/acquisition/forecast.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
@@ -11,6 +12,7 @@
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/reductions.h"
+#include "relucent/pipeline/stopped_early.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -34,13 +36,29 @@ fs::path unusedFolder(const fs::path& parent) {
 transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                 const linearization::Linearization& linearization,
                                 const sentinels::AlarmHandler& handler,
-                                sentinels::AcquisitionObserver& observer, Progress& progress) {
+                                sentinels::AcquisitionObserver& observer,
+                                const OutlookObserver::Tell& outlook, Progress& progress) {
   Stopwatch watch;
   rig::Rig used = reducedRig(folder, rig);
   calibration::ShotJournal journal(folder.shotFolder());
   rig::ShotTaker shots(used, journal, std::string(nameOf(calibration::Stage::acquisition)));
-  transport::Acquisition acquisition = acquisition::acquire(
-      {shots, linearization, settingsOf(folder).acquisition, handler, &observer}, progress);
+  const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
+  OutlookObserver looking(observer, outlook);
+  transport::Acquisition acquisition =
+      acquisition::acquire({shots, linearization, settings, handler, &looking}, progress);
+  if (std::optional<Outlook> last = looking.last()) {
+    acquisition.expected = {last->now, last->now};
+    // The test patterns are photographed anew when it goes on.
+    const acquisition::AcquisitionState state{looking.levels(), shots.shots() - settings.verificationPatterns,
+                                              shots.times()};
+    const WorkLeft left = acquisition::forecast(acquisition::forecastDevices(used, linearization.exposures),
+                                                settings, linearization.times, state);
+    if (acquisition.stoppedAt > 0)
+      acquisition.expected = {last->now, last->whole, left.exposures, left.seconds};
+  }
+  if (acquisition.stoppedAt > 0)
+    acquisition.findings.insert(acquisition.findings.begin(),
+                                stoppedEarly(acquisition.stoppedAt, acquisition.expected));
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
   return acquisition;
@@ -91,18 +109,19 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   if (auto done = folder.find(calibration::Stage::acquisition, inputs))
     return calibration::loadAcquisition(*done);
-  return acquired(folder, rig, linearization, handler, observer, progress);
+  return acquired(folder, rig, linearization, handler, observer, {}, progress);
 }
 
 transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                      const linearization::Linearization& linearization,
                                      const sentinels::AlarmHandler& handler,
-                                     sentinels::AcquisitionObserver& observer, Progress& progress) {
+                                     sentinels::AcquisitionObserver& observer,
+                                     const OutlookObserver::Tell& outlook, Progress& progress) {
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   auto done = folder.find(calibration::Stage::acquisition, inputs);
   if (done && calibration::resultFrom<calibration::Stage::acquisition>(*done).stoppedAt == 0)
     return calibration::loadAcquisition(*done);
-  return acquired(folder, rig, linearization, handler, observer, progress);
+  return acquired(folder, rig, linearization, handler, observer, outlook, progress);
 }
 
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,

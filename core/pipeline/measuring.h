@@ -5,6 +5,7 @@
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/outlook_observer.h"
 #include "relucent/rig/rig.h"
 #include "relucent/sentinels/observer.h"
 
@@ -32,11 +33,13 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
                                           const sentinels::AlarmHandler& handler,
                                           sentinels::AcquisitionObserver& observer, Progress& progress);
 /// Goes on with a measurement that was stopped and kept, as if it had not been; another is as above. Until it
-/// is finished, what was kept stays the result.
+/// is finished, what was kept stays the result. `outlook` is told, from other threads, what may be expected
+/// as it gets finer; what was expected last is kept with the result.
 transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                      const linearization::Linearization& linearization,
                                      const sentinels::AlarmHandler& handler,
-                                     sentinels::AcquisitionObserver& observer, Progress& progress);
+                                     sentinels::AcquisitionObserver& observer,
+                                     const OutlookObserver::Tell& outlook, Progress& progress);
 /// Chooses the windows' ridge and keeps it, unless that is done. Throws: as invert(); Error{disk}.
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                     Progress& progress);

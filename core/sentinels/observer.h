@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "relucent/sentinels/alarm.h"
+#include "relucent/transport/draft.h"
 
 namespace relucent::sentinels {
 
@@ -58,6 +59,11 @@ class AcquisitionObserver {
   /// Of the tree, patterns read from a log included: those of the levels that have begun, coarsest first, and
   /// how many of the last one's are through.
   virtual void grew(const std::vector<int>& /*levels*/, int /*through*/) {}
+  /// Whether drafted() is to be told.
+  virtual bool wantsDrafts() const { return false; }
+  /// Of dense patterns: what is measured so far, after each level, and at the finest after every few
+  /// patterns.
+  virtual void drafted(const transport::Draft&) {}
 };
 
 }  // namespace relucent::sentinels

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "relucent/base/message.h"
+#include "relucent/transport/expected_quality.h"
 #include "relucent/transport/transport_matrix.h"
 
 namespace relucent::transport {
@@ -25,8 +27,10 @@ struct Acquisition {
   double verificationError = 0.0;  // relative error of held-out patterns over all pixels
   int patterns = 0;
   int exposures = 0;
-  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: complete
-  std::vector<Message> findings;  // sentences
+  int stoppedAt =
+      0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
+  std::optional<ExpectedQuality> expected{};  // of dense patterns
+  std::vector<Message> findings;              // sentences
 };
 
 }  // namespace relucent::transport

@@ -178,4 +178,12 @@ double cutKeeping(const StrengthHistogram& histogram, double share) {
   return cut;
 }
 
+int finestSide(const TransportMatrix& transport) {
+  const NodeLayout& layout = transport.layout();
+  int finest = layout.levels() - 1;
+  for (std::size_t entry = 0; entry < transport.leaves().blocks() && finest > 0; ++entry)
+    finest = std::min(finest, layout.node(transport.leaves().column(entry)).level);
+  return 1 << finest;
+}
+
 }  // namespace relucent::transport

@@ -47,6 +47,9 @@ struct TransportStatistics {
 /// every number of threads.  Throws: Error{usage} for wrong settings.
 TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings = {});
 
+/// Side of the smallest blocks that T has, in projector pixels; 1 once it was measured to the end.
+int finestSide(const TransportMatrix& transport);
+
 /// |T_i|^2 of every row over all single projector pixels and nine values, exact for nested leaves, without
 /// expanding them: with densities d = value / pixels of the node,
 ///   |T_i|^2 = sum_k n_k |d_k|^2 + 2 sum_k n_k d_k . (sum of the densities of k's ancestors).

@@ -189,19 +189,17 @@ std::optional<Banner> AcquirePage::banner() const {
 
 Banner AcquirePage::stoppedBanner() const {
   const QString title = tr("Measuring was stopped at blocks of %1 px").arg(stoppedAt());
-  const std::optional<WorkLeft> whole = expected();
-  const calibration::StageCost spent = cost().value_or(calibration::StageCost());
-  if (!whole || whole->exposures <= spent.exposures)
+  const std::optional<transport::ExpectedQuality> quality = expectedQuality();
+  if (!quality)
     return {Banner::Kind::amber, title, tr("Finer light is missing. Go on any time, if nothing has moved."),
             goOnMeasuring_};
-  const int more = whole->exposures - spent.exposures;
-  const double seconds = whole->seconds * more / whole->exposures;
+  const auto decibels = [](double value) { return decimalText(value, 0); };
   return {Banner::Kind::amber, title,
-          groupedText(
-              tr("Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.",
-                 nullptr, more),
-              more)
-              .arg(text(roundedDuration(seconds))),
+          groupedText(tr("%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if "
+                         "nothing has moved.",
+                         nullptr, quality->photographs),
+                      quality->photographs)
+              .arg(decibels(quality->now), decibels(quality->whole), text(roundedDuration(quality->seconds))),
           goOnMeasuring_};
 }
 
@@ -270,6 +268,11 @@ std::optional<calibration::StageCost> AcquirePage::cost() const {
 std::optional<double> AcquirePage::verificationError() const {
   const auto& measured = session_.figures<calibration::Stage::acquisition>();
   return measured ? measured->verificationError : std::nullopt;
+}
+
+std::optional<transport::ExpectedQuality> AcquirePage::expectedQuality() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  return measured ? measured->expected : std::nullopt;
 }
 
 int AcquirePage::stoppedAt() const {
@@ -348,7 +351,8 @@ void AcquirePage::begin() {
         this, [this, alarm] { askAboutAlarm(alarm); }, Qt::QueuedConnection);
     return question->wait();
   };
-  job_.start([work = workOf(session_), handler, retrying](Progress& progress) {
+  auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
+  job_.start([work = workOf(session_), handler, retrying, expects](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
@@ -357,7 +361,7 @@ void AcquirePage::begin() {
     linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, reading);
     Progress measuring = progress.part(
         0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
-    pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, measuring);
+    pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, expects, measuring);
   });
   tellProgress();
   tellResult();

@@ -78,6 +78,8 @@ class AcquirePage : public DevicePage {
   std::optional<calibration::StageCost> cost() const;
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
+  /// How well pictures are expected to be shown with what was measured; none if nobody worked it out.
+  std::optional<transport::ExpectedQuality> expectedQuality() const;
   /// Side of the finest blocks if it was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
   /// What is worth knowing of the measurement, in sentences.

@@ -14,6 +14,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
+#include "wizard/acquire/outlook_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/frame/page_view.h"
 
@@ -104,20 +105,25 @@ QWidget* resultPart(AcquirePage& model) {
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
   auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
   auto* error = new ValueRow(AcquirePage::tr("Error of the test patterns"));
-  for (ValueRow* row : {patterns, photographs, error}) rows->addWidget(row);
+  auto* quality = new ValueRow(AcquirePage::tr("Pictures expected at"));
+  quality->setToolTip(qualityMeaning());
+  for (ValueRow* row : {patterns, photographs, error, quality}) rows->addWidget(row);
   rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
                                           "photographed: this is how far the two differ."),
                           "note"));
   auto* findings = new Note(Note::Kind::amber);
   findings->setObjectName("findings");
   rows->addWidget(findings);
-  auto refresh = [&model, part, patterns, photographs, error, findings] {
+  auto refresh = [&model, part, patterns, photographs, error, quality, findings] {
     const calibration::StageCost cost = model.cost().value_or(calibration::StageCost());
     const auto count = [](int number) { return countText(static_cast<std::uint64_t>(number)); };
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
     photographs->setValue(count(cost.exposures));
     error->setValue(percentText(model.verificationError().value_or(0.0)));
+    const std::optional<transport::ExpectedQuality> expected = model.expectedQuality();
+    quality->setVisible(expected.has_value());
+    if (expected) quality->setValue(qualityText(expected->now));
     const QStringList found = model.findings();
     findings->setVisible(!found.isEmpty());
     findings->setText(AcquirePage::tr("Found while measuring"), found.join("\n\n"));

@@ -9,6 +9,7 @@
 #include "wizard/acquire/acquire_plan_view.h"
 #include "wizard/acquire/acquire_watch_view.h"
 #include "wizard/acquire/block_sizes_view.h"
+#include "wizard/acquire/outlook_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
 
@@ -35,6 +36,7 @@ QWidget* livePart(AcquirePage& model) {
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   row->addWidget(sent, 1);
   row->addWidget(seen, 1);
+  row->addWidget(outlookCard(model), 1);
   auto refresh = [&model, part, pattern, photograph, seen] {
     part->setVisible(model.isMeasuring());
     LivePictures live = model.pictures();
@@ -74,6 +76,7 @@ QWidget* runOf(AcquirePage& model) {
   QLabel* counts = labelOf({}, "note");
   column->addWidget(left);
   column->addWidget(counts);
+  column->addWidget(outlookPart(model));
   column->addWidget(lineOf());
   auto* rate = new ValueRow(AcquirePage::tr("Photographs a second"));
   auto* taken = new ValueRow(AcquirePage::tr("Taken in this session"));

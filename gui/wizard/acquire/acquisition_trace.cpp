@@ -89,6 +89,7 @@ QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
 void AcquisitionTrace::clear() {
   points_.clear();
   marks_.clear();
+  outlook_.reset();
   {
     QMutexLocker lock(&guard_);
     growth_ = {};
@@ -131,6 +132,18 @@ void AcquisitionTrace::takenAgain(const sentinels::Retake& retake) {
       [this, retake, now] {
         if (!began_ || now < *began_) return;
         marks_.push_back({std::chrono::duration<double>(now - *began_).count(), retake});
+        Q_EMIT changed();
+      },
+      Qt::QueuedConnection);
+}
+
+void AcquisitionTrace::expects(const pipeline::Outlook& outlook) {
+  Clock::time_point now = Clock::now();
+  QMetaObject::invokeMethod(
+      this,
+      [this, shared = std::make_shared<const pipeline::Outlook>(outlook), now] {
+        if (!began_ || now < *began_) return;
+        outlook_ = shared;
         Q_EMIT changed();
       },
       Qt::QueuedConnection);

@@ -6,9 +6,11 @@
 #include <QString>
 #include <array>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "relucent/pipeline/outlook.h"
 #include "relucent/sentinels/observer.h"
 #include "wizard/session/session.h"
 
@@ -70,6 +72,12 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   /// The last ones, newest first.
   std::vector<TakenAgain> takenAgain(std::size_t most) const;
 
+  /// What may be expected by now; none before there is a first look.
+  using SharedOutlook = std::shared_ptr<const pipeline::Outlook>;
+  const SharedOutlook& outlook() const { return outlook_; }
+  /// From any thread.
+  void expects(const pipeline::Outlook& outlook);
+
   void checked(const sentinels::Reading& reading) override;
   void takenAgain(const sentinels::Retake& retake) override;
   void grew(const std::vector<int>& levels, int through) override;
@@ -82,6 +90,7 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   std::vector<Point> points_;
   std::vector<Mark> marks_;
   std::optional<Clock::time_point> began_, ended_;
+  SharedOutlook outlook_;
   mutable QMutex guard_;
   Growth growth_;
 };

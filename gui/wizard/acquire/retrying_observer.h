@@ -28,6 +28,8 @@ class RetryingObserver : public sentinels::AcquisitionObserver {
   }
   void takenAgain(const sentinels::Retake& retake) override { other_.takenAgain(retake); }
   void grew(const std::vector<int>& levels, int through) override { other_.grew(levels, through); }
+  bool wantsDrafts() const override { return other_.wantsDrafts(); }
+  void drafted(const transport::Draft& draft) override { other_.drafted(draft); }
 
   /// After the rest; false: it is for somebody to decide.
   bool triesAgain(sentinels::AlarmKind kind) {

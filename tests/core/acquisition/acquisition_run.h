@@ -48,9 +48,10 @@ class Run {
       model.gain = camera.gain;
     }
   }
-  transport::Acquisition operator()(rig::ShotLog& log, Progress progress = {}) {
+  transport::Acquisition operator()(rig::ShotLog& log, Progress progress = {},
+                                    sentinels::AcquisitionObserver* observer = nullptr) {
     rig::ShotTaker shots(rig_, log, "acquisition");
-    return acquisition::acquire({shots, linearization_, settings_}, progress);
+    return acquisition::acquire({shots, linearization_, settings_, {}, observer}, progress);
   }
   transport::Acquisition operator()() {
     rig::NoShotLog log;

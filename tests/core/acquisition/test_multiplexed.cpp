@@ -171,6 +171,73 @@ class TestMultiplexed : public QObject {
     QCOMPARE(again.stoppedAt, 0);
   }
 
+  /// What looks on is told T as it is so far, finer and finer, and in the end nearly what is measured.
+  void draftsGrowFiner() {
+    struct Looking : sentinels::AcquisitionObserver {
+      bool wantsDrafts() const override { return true; }
+      void drafted(const Draft& draft) override { drafts.push_back(draft); }
+      std::vector<Draft> drafts;
+    } looking;
+    Venue venue = largerVenue();
+    Run run(venue);
+    rig::NoShotLog log;
+    const Acquisition whole = run(log, {}, &looking);
+    QVERIFY(whole.transport.leaves() == undisturbedLarger().transport.leaves());
+    QVERIFY(looking.drafts.size() >= 4);
+    double before = 1.0;
+    int level = 100;
+    for (const Draft& draft : looking.drafts) {
+      QCOMPARE(draft.reduction, 0);
+      QVERIFY(draft.level <= level);
+      const double error = difference(draft.acquisition.transport, run.truth).frobenius;
+      if (draft.level < level) QVERIFY2(error < before, qPrintable(QString::number(error)));
+      level = draft.level;
+      before = error;
+      QVERIFY(relativeError(draft.acquisition.flood, run.truth.floodlight()) < 0.01);
+    }
+    QCOMPARE(level, 0);
+    QVERIFY(looking.drafts.back().error > 0.0);
+    // The draft leaves out what single leaves have of colours of their own.
+    const ProjectorStack pattern(naturalPattern(run.truth.projectors()));
+    const double left = relativeError(looking.drafts.back().acquisition.transport.apply(pattern),
+                                      whole.transport.apply(pattern));
+    QVERIFY2(left < 0.02, qPrintable(QString::number(left)));
+  }
+
+  /// Blocks cannot show what is inside them: that is no reason to leave a camera pixel out.
+  void whatIsCoarseIsNotFlagged() {
+    Venue venue = largerVenue();
+    venue.beforeCapture = [&](const rig::CaptureRequest& request) {
+      if (request.shot.number == 40) stop_.ask(StopRequest::Kind::keep);
+    };
+    struct Sink : ProgressSink {
+      void progressed(double, const Message&) override {}
+    } sink;
+    rig::NoShotLog log;
+    const Acquisition kept = Run(venue)(log, Progress(sink, stop_));
+    QVERIFY2(kept.stoppedAt > 1, qPrintable(QString::number(kept.stoppedAt)));
+    QVERIFY2(flaggedIn(kept) < kept.flagged.size() / 20, qPrintable(QString::number(flaggedIn(kept))));
+  }
+
+  /// Patterns of single pixels were shown, but not as many as it takes.
+  void stoppedAtTheFinestIsNotComplete() {
+    struct Looking : sentinels::AcquisitionObserver {
+      bool wantsDrafts() const override { return true; }
+      void drafted(const Draft& draft) override {
+        if (draft.level == 0) stop.ask(StopRequest::Kind::keep);
+      }
+      StopRequest stop;
+    } looking;
+    struct Sink : ProgressSink {
+      void progressed(double, const Message&) override {}
+    } sink;
+    Venue venue = largerVenue();
+    venue.settings.relativeThreshold = 1e-3;
+    rig::NoShotLog log;
+    const Acquisition kept = Run(venue)(log, Progress(sink, looking.stop), &looking);
+    QCOMPARE(kept.stoppedAt, 1);
+  }
+
   void whatIsOverexposedIsFlaggedAndNeverStored() {
     Venue venue = denseVenue();
     venue.exposures = {0.2};
@@ -225,6 +292,7 @@ class TestMultiplexed : public QObject {
     return *undisturbedLarger_;
   }
 
+  StopRequest stop_;
   std::optional<Acquisition> undisturbed_, undisturbedLarger_;
 };
 

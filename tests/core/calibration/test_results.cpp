@@ -150,6 +150,7 @@ class TestResults : public QObject {
     for (std::uint64_t seed = 6; seed < 10; ++seed)
       before.residual.push_back(randomStack(cameras.count(), seed));
     before.remeasured = 3;
+    before.expected = {31.5, 34.25, 90, 180.0};
     for (std::size_t i = 0; i < cameras.count(); ++i) before.flagged.push_back(i % 7 == 0 ? 1 : 0);
     before.unresolvedEnergy = 1.0 / 3.0;
     before.verificationError = 0.01;
@@ -169,6 +170,11 @@ class TestResults : public QObject {
     QCOMPARE(after.leafVariance, before.leafVariance);
     QVERIFY(after.residual == before.residual);
     QCOMPARE(after.remeasured, before.remeasured);
+    QVERIFY(after.expected);
+    QCOMPARE(after.expected->now, 31.5);
+    QCOMPARE(after.expected->whole, 34.25);
+    QCOMPARE(after.expected->photographs, 90);
+    QCOMPARE(after.expected->seconds, 180.0);
     QCOMPARE(after.flagged, before.flagged);
     QCOMPARE(after.unresolvedEnergy, before.unresolvedEnergy);
     QCOMPARE(after.verificationError, before.verificationError);

@@ -103,6 +103,12 @@ class TestDirectLight : public QObject {
     QVERIFY(directNodes(shadow).empty());
   }
 
+  /// Measured in blocks of 8 px: wider than the reach among single pixels, which is 4.
+  void ofCoarseBlocksTheBrightestIsDirect() {
+    TransportMatrix blocks = onePixel(Size{128, 96}, {{{0, 3, 5, 5}, 10.0f}, {{0, 3, 12, 5}, 1.0f}});
+    QCOMPARE(directNodes(blocks), std::vector<std::size_t>{blocks.layout().index({0, 3, 5, 5})});
+  }
+
   /// Two projectors light a place each on its own; one that is in shadow there sends indirect light.
   void everyProjectorHasItsOwnDirectLight() {
     Rasters two{std::vector<Size>{{32, 24}, {40, 30}}};

@@ -112,12 +112,12 @@ void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporar
   photographs.take("02-cameras");
 }
 
-/// The measurement of a small rehearsal under way.
+/// The measurement of a rehearsal under way: what it is going to look like, sharper and sharper.
 void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
   CalibrateSettings settings;
   VenueSettings venue;
-  venue.projector = {128, 96};
-  venue.camera = {96, 72};
+  venue.projector = {256, 192};
+  venue.camera = {160, 120};
   venue.pathsPerPixel = 64;
   settings.rig = venue;
   settings.acquisition.checkInterval = 10;
@@ -131,9 +131,13 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   wizard.wizard().go(3);
   photographs.take("04-plan");
   wizard.page<AcquirePage>().primary()->trigger();
-  wizard.session().live().setLeastInterval(25);  // as real devices would be, and longer
-  until([&] { return wizard.page<AcquirePage>().trace().points().size() > 40; });
-  photographs.take("04-measuring");
+  wizard.session().live().setLeastInterval(250);  // as real devices would be
+  const AcquisitionTrace& trace = wizard.page<AcquirePage>().trace();
+  for (const auto& [blocks, name] :
+       {std::pair{16, "04-measuring-coarse"}, {4, "04-measuring"}, {1, "04-measuring-fine"}}) {
+    until([&, blocks = blocks] { return trace.outlook() && trace.outlook()->blocks <= blocks; });
+    photographs.take(name);
+  }
   wizard.session().live().setLeastInterval(0);
   wizard.page<AcquirePage>().finish();
   until([&] { return !wizard.page<AcquirePage>().isMeasuring(); });

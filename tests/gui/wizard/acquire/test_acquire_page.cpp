@@ -8,6 +8,9 @@
 
 #include "relucent/pipeline/measuring.h"
 #include "relucent/venue/venue.h"
+#include "views/image_view.h"
+#include "views/number_text.h"
+#include "wizard/acquire/outlook_view.h"
 #include "wizard/acquire/retrying_observer.h"
 
 using namespace relucent;
@@ -115,6 +118,32 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.floodlight().size(), (Size{40, 30}));
   }
 
+  /// A picture grows sharper while it measures, and says so to those who cannot see it.
+  void whatIsExpectedIsShownWhileItMeasures() {
+    CalibrateSettings settings = simulated();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    AcquirePage page(*session_);
+    std::vector<int> blocks;
+    connect(&page.trace(), &AcquisitionTrace::changed, &page, [&] {
+      const AcquisitionTrace::SharedOutlook& outlook = page.trace().outlook();
+      if (!outlook || (!blocks.empty() && blocks.back() == outlook->blocks)) return;
+      blocks.push_back(outlook->blocks);
+      QCOMPARE(outlook->picture.size(), (Size{40, 30}));
+    });
+    const std::unique_ptr<QWidget> card(outlookCard(page));
+    auto* picture = card->findChild<ImageView*>("outlook-view");
+    QVERIFY(picture && picture->picture().isNull() && !picture->accessibleName().isEmpty());
+    page.primary()->trigger();
+    QVERIFY(!page.trace().outlook());
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(!blocks.empty() && std::is_sorted(blocks.rbegin(), blocks.rend()));
+    QTRY_COMPARE(page.trace().outlook()->blocks, 1);
+    QTRY_COMPARE(picture->picture().size(), QSize(40, 30));
+    QVERIFY(picture->accessibleDescription().contains(qualityText(page.trace().outlook()->now)));
+    QCOMPARE(page.expectedQuality().value().now, page.trace().outlook()->now);
+  }
+
   /// What was stopped and kept is no plain tick, and is gone on with.
   void whatWasStoppedIsGoneOnWith() {
     CalibrateSettings settings = simulated();
@@ -133,8 +162,13 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.status().state, StepState::outOfDate);
     QVERIFY(page.status().result.contains(QString::number(page.stoppedAt())));
     QVERIFY(!page.findings().isEmpty());
+    const std::optional<transport::ExpectedQuality> quality = page.expectedQuality();
+    QVERIFY(quality && quality->whole >= quality->now && quality->photographs > 0 && quality->seconds > 0.0);
     const std::optional<Banner> banner = page.banner();
     QVERIFY(banner && banner->primary && banner->primary->isEnabled());
+    for (const QString& figure : {decimalText(quality->now, 0), decimalText(quality->whole, 0),
+                                  QString::number(quality->photographs)})
+      QVERIFY2(banner->more.contains(figure), qPrintable(banner->more));
     const int before = page.cost().value().patterns;
     disconnect(stopping);
     banner->primary->trigger();

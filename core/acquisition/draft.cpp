@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/acquisition/draft.h"
+
+#include "relucent/transport/reduction.h"
+
+namespace relucent::acquisition {
+namespace {
+
+constexpr std::size_t mostPixels = 160 * 120;
+// Of a row's leaves, relative to the flood: less is noise.
+constexpr float leastSum = 0.1f;
+
+/// Flood and variance of its photographs, all projectors and their channels summed.
+void readFloods(transport::Acquisition& whole, const photography::References& references) {
+  for (std::size_t projector = 0; projector < references.root.size(); ++projector)
+    for (std::size_t row = 0; row < references.usable.size(); ++row) {
+      Eigen::Map<Eigen::Vector3f>(&whole.flood[3 * row]) += references.root[projector][row].rowwise().sum();
+      Eigen::Map<Eigen::Vector3f>(&whole.floodVariance[3 * row]) +=
+          references.rootVariance[projector][row].rowwise().sum();
+    }
+}
+
+}  // namespace
+
+int draftReduction(const Rasters& cameras) {
+  int levels = 0;
+  while (transport::reduced(cameras, levels).count() > mostPixels) ++levels;
+  return levels;
+}
+
+transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const DensePhotographs& photographs,
+                         const photography::References& references, const transport::NodeLayout& layout,
+                         int level) {
+  const multiplexing::RowSettings model;
+  const transport::Reduction reduction{draftReduction(references.cameras),
+                                       draftReduction(references.cameras)};
+  auto blockOf = [&](const multiplexing::Row& row, const multiplexing::Leaf& leaf) -> transport::ColourBlock {
+    return leaf.light * row.mixing[multiplexing::kindOf(layout.node(leaf.node), model)];
+  };
+  auto leavesOf = [&](std::size_t number, const transport::AddLeaf& add) {
+    const multiplexing::Row& row = rows[number];
+    // Mixings are learnt after the light they go with; what both give together is the flood.
+    Eigen::Array3f sum = Eigen::Array3f::Zero();
+    for (const multiplexing::Leaf& leaf : row.leaves) sum += blockOf(row, leaf).rowwise().sum().array();
+    const Eigen::Array3f scale = photographs.flood(number) / sum.max(leastSum);
+    for (const multiplexing::Leaf& leaf : row.leaves) {
+      transport::ColourBlock block = blockOf(row, leaf);
+      block.array().colwise() *= scale;
+      add(leaf.node, block);
+    }
+  };
+  auto few = [&](const CameraStack& values) {
+    return transport::joined(values, references.cameras, references.usable, reduction.cameras);
+  };
+  transport::Acquisition whole;
+  whole.flood.assign(3 * rows.size(), 0.0f);
+  whole.floodVariance.assign(3 * rows.size(), 0.0f);
+  readFloods(whole, references);
+
+  transport::Draft draft;
+  draft.level = level;
+  draft.reduction = reduction.cameras;
+  transport::Acquisition& small = draft.acquisition;
+  small.transport =
+      transport::reducedTransport(references.cameras, layout, references.usable, reduction, leavesOf);
+  small.black = few(references.black.radiance);
+  small.blackVariance = few(references.black.variance);
+  small.flood = few(whole.flood);
+  small.floodVariance = few(whole.floodVariance);
+  small.flagged = transport::joined(references.usable, references.cameras, reduction.cameras);
+  for (std::uint8_t& flag : small.flagged) flag = flag ? 0 : 1;
+  return draft;
+}
+
+}  // namespace relucent::acquisition

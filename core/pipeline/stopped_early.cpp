@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/pipeline/stopped_early.h"
+
+#include "relucent/base/time_left.h"
+
+namespace relucent::pipeline {
+
+Message stoppedEarly(int blocks, const std::optional<transport::ExpectedQuality>& expected) {
+  if (!expected)
+    return RELUCENT_MESSAGE(
+               "acquisition.stopped-early",
+               "Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are "
+               "compensated less sharply; go on measuring any time as long as nothing has moved")
+        .with(as::label(blocks));
+  return RELUCENT_PLURAL_MESSAGE(
+             "acquisition.stopped-with-forecast",
+             "Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on "
+             "measuring any time as long as nothing has moved",
+             "Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on "
+             "measuring any time as long as nothing has moved")
+      .with(as::label(blocks), as::decibels(expected->now, as::decimals(0)),
+            as::decibels(expected->whole, as::decimals(0)), as::count(expected->photographs),
+            roundedDuration(expected->seconds));
+}
+
+}  // namespace relucent::pipeline

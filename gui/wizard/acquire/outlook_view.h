@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "wizard/acquire/acquire_page.h"
+
+namespace relucent::gui {
+
+/// "31 dB, good".
+QString qualityText(double decibels);
+/// What dB means, a sentence or two.
+QString qualityMeaning();
+
+/// A picture as it would be compensated if measuring stopped now; only while it measures.
+QWidget* outlookCard(AcquirePage& model);
+/// What is expected now, and once all is measured.
+QWidget* outlookPart(AcquirePage& model);
+
+}  // namespace relucent::gui

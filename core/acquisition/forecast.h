@@ -57,7 +57,8 @@ ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& 
 /// all five measured from this acquisition's shots once there are enough, before that from `benchmark`: the
 /// shots of the linearization, which are real photographs by the same devices.
 ///   disk   = exposures * bytes of one + T;      memory = T twice, the level under way, what the program has
-/// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180.
+/// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180. Dense patterns
+/// need it once, with 75, and their rows.
 /// Pure arithmetic, no devices: for a page that asks before anything is measured as well.
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
                   const rig::ShotTimes& benchmark, const AcquisitionState& state);

@@ -311,7 +311,9 @@ std::optional<rig::Shot> ShotJournal::find(const rig::ShotId& id, const std::str
 }
 
 void ShotJournal::keep(const rig::Shot& shot) {
-  writeFileAtomically(pathOf(shot.id, shot.fingerprint), serialise(shot));
+  const std::string content = serialise(shot);
+  writeFileAtomically(pathOf(shot.id, shot.fingerprint), content);
+  bytesOfLast_ = content.size();
 }
 
 void ShotJournal::forget(const rig::ShotId& id, const std::string& fingerprint) {

@@ -25,6 +25,7 @@ class ShotJournal : public rig::ShotLog {
   std::optional<rig::Shot> find(const rig::ShotId& id, const std::string& fingerprint) override;
   /// Throws: Error{disk}; then everything kept before is as it was.
   void keep(const rig::Shot& shot) override;
+  std::uint64_t bytesOfLast() const override { return bytesOfLast_; }
   /// Throws: Error{disk}.
   void forget(const rig::ShotId& id, const std::string& fingerprint) override;
 
@@ -34,6 +35,7 @@ class ShotJournal : public rig::ShotLog {
   std::filesystem::path pathOf(const rig::ShotId& id, const std::string& fingerprint) const;
 
   std::filesystem::path folder_;
+  std::uint64_t bytesOfLast_ = 0;
 };
 
 }  // namespace relucent::calibration

@@ -17,6 +17,17 @@ std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::
   return fingerprint.hex();
 }
 
+/// Whole codes take a byte or two each, anything else four.
+std::uint64_t plainBytes(const Shot& shot) {
+  std::uint64_t bytes = 0;
+  for (const std::vector<RawFrame>& exposure : shot.frames)
+    for (const RawFrame& frame : exposure) {
+      const std::uint64_t each = frame.bits < 1 || frame.bits > 16 ? 4 : frame.bits <= 8 ? 1 : 2;
+      bytes += each * frame.signal.data().size();
+    }
+  return bytes;
+}
+
 }  // namespace
 
 double ShotTimes::shotSeconds() const {
@@ -63,28 +74,26 @@ Shot ShotTaker::take(const std::vector<image::Image>& encodedPatterns, const std
       progress.checkpoint();
       double opened = now();
       frames.push_back(camera->capture({shot.id, static_cast<int>(exposure), exposures[exposure]}));
-      addExposure(frames.back(), exposures[exposure], now() - opened);
+      addExposure(exposures[exposure], now() - opened);
       checkFrame(frames.back(), camera->size(), camera->name());
     }
   }
   double photographed = now();
   log_.keep(shot);
   lastEnd_ = now();
+  times_.bytes += log_.bytesOfLast() > 0 ? log_.bytesOfLast() : plainBytes(shot);
   times_.showing += shown - begin;
   times_.keeping += *lastEnd_ - photographed;
   ++times_.shots;
   return shot;
 }
 
-void ShotTaker::addExposure(const RawFrame& frame, double asked, double took) {
+void ShotTaker::addExposure(double asked, double took) {
   ++times_.exposures;
   times_.asked += asked;
   times_.askedSquared += asked * asked;
   times_.capturing += took;
   times_.askedCapturing += asked * took;
-  // Whole codes take a byte or two each, anything else four.
-  std::uint64_t each = frame.bits < 1 || frame.bits > 16 ? 4 : frame.bits <= 8 ? 1 : 2;
-  times_.bytes += each * frame.signal.data().size();
 }
 
 int ShotTaker::exposures() const {

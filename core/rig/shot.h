@@ -30,6 +30,8 @@ class ShotLog {
   virtual std::optional<Shot> find(const ShotId& id, const std::string& fingerprint) = 0;
   /// On disk when this returns. Throws: Error{disk}.
   virtual void keep(const Shot& shot) = 0;
+  /// Bytes that the shot kept last takes; 0: as many as its samples.
+  virtual std::uint64_t bytesOfLast() const { return 0; }
   /// Removes a shot that proved unreliable; find() no longer returns it. Persistent logs must implement this.
   /// Throws: Error{disk}.
   virtual void forget(const ShotId&, const std::string& /*fingerprint*/) {}
@@ -53,7 +55,7 @@ struct ShotTimes {
   double asked = 0.0;           // exposure times
   double askedSquared = 0.0;    // sum of their squares
   double askedCapturing = 0.0;  // sum of exposure time * time in capture
-  std::uint64_t bytes = 0;      // of samples that a log stores
+  std::uint64_t bytes = 0;      // that a log stores
 
   /// Mean time of a shot without its exposures.
   double shotSeconds() const;
@@ -91,7 +93,7 @@ class ShotTaker {
 
  private:
   double now() const { return clock_().count(); }
-  void addExposure(const RawFrame& frame, double asked, double took);
+  void addExposure(double asked, double took);
 
   Rig& rig_;
   ShotLog& log_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/acquisition/draft.h"
 
-#include "relucent/transport/reduction.h"
+#include "relucent/transport/coarsening.h"
 
 namespace relucent::acquisition {
 namespace {
@@ -22,9 +22,9 @@ void readFloods(transport::Acquisition& whole, const photography::References& re
 
 }  // namespace
 
-int draftReduction(const Rasters& cameras) {
+int draftCoarsening(const Rasters& cameras) {
   int levels = 0;
-  while (transport::reduced(cameras, levels).count() > mostPixels) ++levels;
+  while (transport::coarsened(cameras, levels).count() > mostPixels) ++levels;
   return levels;
 }
 
@@ -32,8 +32,8 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
                          const photography::References& references, const transport::NodeLayout& layout,
                          int level) {
   const multiplexing::RowSettings model;
-  const transport::Reduction reduction{draftReduction(references.cameras),
-                                       draftReduction(references.cameras)};
+  const transport::Coarsening coarsening{draftCoarsening(references.cameras),
+                                         draftCoarsening(references.cameras)};
   auto blockOf = [&](const multiplexing::Row& row, const multiplexing::Leaf& leaf) -> transport::ColourBlock {
     return leaf.light * row.mixing[multiplexing::kindOf(layout.node(leaf.node), model)];
   };
@@ -50,7 +50,7 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
     }
   };
   auto few = [&](const CameraStack& values) {
-    return transport::joined(values, references.cameras, references.usable, reduction.cameras);
+    return transport::joined(values, references.cameras, references.usable, coarsening.cameras);
   };
   transport::Acquisition whole;
   whole.flood.assign(3 * rows.size(), 0.0f);
@@ -59,15 +59,15 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
 
   transport::Draft draft;
   draft.level = level;
-  draft.reduction = reduction.cameras;
+  draft.coarsening = coarsening.cameras;
   transport::Acquisition& small = draft.acquisition;
   small.transport =
-      transport::reducedTransport(references.cameras, layout, references.usable, reduction, leavesOf);
+      transport::coarsenedTransport(references.cameras, layout, references.usable, coarsening, leavesOf);
   small.black = few(references.black.radiance);
   small.blackVariance = few(references.black.variance);
   small.flood = few(whole.flood);
   small.floodVariance = few(whole.floodVariance);
-  small.flagged = transport::joined(references.usable, references.cameras, reduction.cameras);
+  small.flagged = transport::joined(references.usable, references.cameras, coarsening.cameras);
   for (std::uint8_t& flag : small.flagged) flag = flag ? 0 : 1;
   return draft;
 }

@@ -10,7 +10,7 @@
 #include "relucent/pipeline/expected_transport.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/standard_images.h"
-#include "relucent/transport/reduction.h"
+#include "relucent/transport/coarsening.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -76,8 +76,8 @@ std::optional<Outlook> outlookOf(const transport::Draft& draft, Progress& progre
   Shown now = shownIn(venue, draft.error, progress);
   outlook.picture = std::move(now.first);
   outlook.now = now.psnr;
-  if (draft.level > 0 && draft.reduction > 0) {
-    const transport::Acquisition coarse = reduced(draft.acquisition, {0, 0, draft.level});
+  if (draft.level > 0 && draft.coarsening > 0) {
+    const transport::Acquisition coarse = coarsened(draft.acquisition, {0, 0, draft.level});
     outlook.now = shownIn(measuredVenueOf(coarse, {}), draft.error, progress).psnr;
   }
   outlook.whole = outlook.now;

@@ -9,7 +9,7 @@ namespace relucent::transport {
 struct Draft {
   Acquisition acquisition;  // of few pixels; findings and what it cost are left out
   int level = 0;            // the finest blocks that were shown are 2^level projector pixels wide
-  int reduction = 0;  // 2^reduction pixels of cameras and projectors, each way, are one in `acquisition`
+  int coarsening = 0;  // 2^coarsening pixels of cameras and projectors, each way, are one in `acquisition`
   /// Relative error of patterns that were predicted before they were used, beyond their noise; 0: not known.
   double error = 0.0;
   double aim = 0.0;  // the one that is asked for

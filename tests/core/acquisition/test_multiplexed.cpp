@@ -187,7 +187,7 @@ class TestMultiplexed : public QObject {
     double before = 1.0;
     int level = 100;
     for (const Draft& draft : looking.drafts) {
-      QCOMPARE(draft.reduction, 0);
+      QCOMPARE(draft.coarsening, 0);
       QVERIFY(draft.level <= level);
       const double error = difference(draft.acquisition.transport, run.truth).frobenius;
       if (draft.level < level) QVERIFY2(error < before, qPrintable(QString::number(error)));

@@ -6,8 +6,8 @@
 
 #include "relucent/pipeline/expected_transport.h"
 #include "relucent/pipeline/outlook_observer.h"
+#include "relucent/transport/coarsening.h"
 #include "relucent/transport/difference.h"
-#include "relucent/transport/reduction.h"
 #include "relucent/transport/statistics.h"
 #include "support/scripted_rig.h"
 
@@ -66,7 +66,7 @@ double meanDistance(const TransportMatrix& a, const TransportMatrix& b) {
 /// The same as blocks of 2^level pixels show it.
 Draft draftAt(const Acquisition& whole, int level) {
   Draft draft;
-  draft.acquisition = reduced(whole, {0, 0, level});
+  draft.acquisition = coarsened(whole, {0, 0, level});
   draft.level = level;
   return draft;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/transport/reduction.h"
+#include "relucent/transport/coarsening.h"
 
 #include <QtTest>
 
@@ -29,7 +29,7 @@ Acquisition randomAcquisition(Size camera, Size projector) {
 
 /// Every value of a pattern in all pixels of its block.
 ProjectorStack spread(const ProjectorStack& few, Size size, int levels) {
-  Size small = reduced(Rasters(size), levels).size(0);
+  Size small = coarsened(Rasters(size), levels).size(0);
   ProjectorStack pattern(3 * size.count());
   for (std::size_t i = 0; i < size.count(); ++i) {
     Pixel at = pixelAt(size, i);
@@ -45,11 +45,11 @@ double apart(const Stack& a, const Stack& b) {
 
 }  // namespace
 
-class TestReduction : public QObject {
+class TestCoarsening : public QObject {
   Q_OBJECT
 
  private slots:
-  void reductions_data() {
+  void coarsenings_data() {
     QTest::addColumn<int>("cameras");
     QTest::addColumn<int>("projectors");
     QTest::newRow("nothing") << 0 << 0;
@@ -59,14 +59,14 @@ class TestReduction : public QObject {
     QTest::newRow("more than there is") << 5 << 6;
   }
 
-  /// T_reduced p = joined(T q).
-  void seesTheMeanOfTheJoinedPixels_data() { reductions_data(); }
+  /// T_coarse p = joined(T q).
+  void seesTheMeanOfTheJoinedPixels_data() { coarsenings_data(); }
   void seesTheMeanOfTheJoinedPixels() {
     QFETCH(int, cameras);
     QFETCH(int, projectors);
     const Size camera{11, 7}, projector{16, 8};
     const Acquisition whole = randomAcquisition(camera, projector);
-    const Acquisition few = reduced(whole, {cameras, projectors, 0});
+    const Acquisition few = coarsened(whole, {cameras, projectors, 0});
     const std::size_t pixels = few.transport.projectors().count();
     const ProjectorStack pattern(randomStack(pixels, 9));
     const CameraStack seen = joined(whole.transport.apply(spread(pattern, projector, projectors)), camera,
@@ -79,7 +79,7 @@ class TestReduction : public QObject {
   void coarserLeavesKeepTheLight() {
     const Size camera{6, 5}, projector{16, 16};
     const Acquisition whole = randomAcquisition(camera, projector);
-    const Acquisition coarse = reduced(whole, {0, 0, 2});
+    const Acquisition coarse = coarsened(whole, {0, 0, 2});
     QCOMPARE(finestSide(coarse.transport), 4);
     const ProjectorStack pattern = spread(ProjectorStack(randomStack(16, 9)), projector, 2);
     QVERIFY(apart(coarse.transport.apply(pattern), whole.transport.apply(pattern)) < rounding);
@@ -91,7 +91,7 @@ class TestReduction : public QObject {
     whole.flagged[0] = 1;  // one of four
     for (std::size_t row : {2, 3, 6}) whole.flagged[row] = 1;
     whole.black[0] = 1e6f;
-    const Acquisition few = reduced(whole, {1, 0, 0});
+    const Acquisition few = coarsened(whole, {1, 0, 0});
     QCOMPARE(few.flagged, (CameraMask{0, 1, 0, 0}));
     QVERIFY(few.black[0] < 1.0f);
     const float left = (whole.black[3] + whole.black[12] + whole.black[15]) / 3.0f;
@@ -102,10 +102,10 @@ class TestReduction : public QObject {
     const Size camera{8, 8};
     Acquisition whole = randomAcquisition(camera, {8, 8});
     whole.blackVariance.assign(whole.blackVariance.size(), 0.16f);
-    const Acquisition few = reduced(whole, {2, 0, 0});
+    const Acquisition few = coarsened(whole, {2, 0, 0});
     for (float value : few.blackVariance) QCOMPARE(value, 0.01f);
   }
 };
 
-QTEST_APPLESS_MAIN(TestReduction)
-#include "test_reduction.moc"
+QTEST_APPLESS_MAIN(TestCoarsening)
+#include "test_coarsening.moc"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/transport/reduction.h"
+#include "relucent/transport/coarsening.h"
 
 #include <algorithm>
 #include <utility>
@@ -29,13 +29,13 @@ void eachJoined(const Rasters& cameras, const Rasters& few, int levels, std::siz
       visit(cameras.offset(camera) + indexOf(size, {x, y}));
 }
 
-/// Which node of the reduced layout holds the light of a node.
+/// Which node of the coarse layout holds the light of a node.
 std::size_t nodeIn(const NodeLayout& few, const NodeLayout& layout, std::size_t index,
-                   const Reduction& reduction) {
+                   const Coarsening& coarsening) {
   Node node = layout.node(index);
-  int level = std::max({0, node.level - reduction.projectors, reduction.leaves});
+  int level = std::max({0, node.level - coarsening.projectors, coarsening.leaves});
   level = std::min(level, few.levels(static_cast<std::size_t>(node.projector)) - 1);
-  int up = level + reduction.projectors - node.level;
+  int up = level + coarsening.projectors - node.level;
   return few.index({node.projector, level, node.x >> up, node.y >> up});
 }
 
@@ -61,16 +61,16 @@ float largestIn(const std::vector<Entry>& entries) {
 
 }  // namespace
 
-Rasters reduced(const Rasters& devices, int levels) {
+Rasters coarsened(const Rasters& devices, int levels) {
   std::vector<Size> sizes = devices.sizes();
   for (Size& size : sizes) size = {joinedSide(size.width, levels), joinedSide(size.height, levels)};
   return sizes;
 }
 
-TransportMatrix reducedTransport(const Rasters& cameras, const NodeLayout& layout, const CameraMask& counts,
-                                 const Reduction& reduction, const RowLeaves& leavesOf) {
-  Rasters fewCameras = reduced(cameras, reduction.cameras);
-  NodeLayout few(reduced(layout.projectors(), reduction.projectors));
+TransportMatrix coarsenedTransport(const Rasters& cameras, const NodeLayout& layout, const CameraMask& counts,
+                                   const Coarsening& coarsening, const RowLeaves& leavesOf) {
+  Rasters fewCameras = coarsened(cameras, coarsening.cameras);
+  NodeLayout few(coarsened(layout.projectors(), coarsening.projectors));
   std::size_t rows = fewCameras.count();
   std::vector<std::vector<std::uint32_t>> nodes(rows);
   std::vector<std::vector<Code>> codes(rows);
@@ -78,11 +78,11 @@ TransportMatrix reducedTransport(const Rasters& cameras, const NodeLayout& layou
   parallelFor(0, rows, 16, [&](std::size_t row) {
     std::vector<Entry> entries;
     float pixels = 0.0f;
-    eachJoined(cameras, fewCameras, reduction.cameras, row, [&](std::size_t pixel) {
+    eachJoined(cameras, fewCameras, coarsening.cameras, row, [&](std::size_t pixel) {
       if (!counts[pixel]) return;
       pixels += 1.0f;
       leavesOf(pixel, [&](std::size_t node, const ColourBlock& block) {
-        entries.emplace_back(nodeIn(few, layout, node, reduction), block);
+        entries.emplace_back(nodeIn(few, layout, node, coarsening), block);
       });
     });
     addUp(entries);
@@ -106,7 +106,7 @@ TransportMatrix reducedTransport(const Rasters& cameras, const NodeLayout& layou
 }
 
 CameraStack joined(const CameraStack& values, const Rasters& cameras, const CameraMask& counts, int levels) {
-  Rasters few = reduced(cameras, levels);
+  Rasters few = coarsened(cameras, levels);
   CameraStack result(3 * few.count(), 0.0f);
   parallelFor(0, few.count(), 256, [&](std::size_t row) {
     Eigen::Array3f counted = Eigen::Array3f::Zero(), all = Eigen::Array3f::Zero();
@@ -126,7 +126,7 @@ CameraStack joined(const CameraStack& values, const Rasters& cameras, const Came
 }
 
 CameraMask joined(const CameraMask& mask, const Rasters& cameras, int levels) {
-  Rasters few = reduced(cameras, levels);
+  Rasters few = coarsened(cameras, levels);
   CameraMask result(few.count(), 0);
   for (std::size_t row = 0; row < result.size(); ++row) {
     int set = 0, pixels = 0;
@@ -139,20 +139,20 @@ CameraMask joined(const CameraMask& mask, const Rasters& cameras, int levels) {
   return result;
 }
 
-Acquisition reduced(const Acquisition& acquisition, const Reduction& reduction) {
+Acquisition coarsened(const Acquisition& acquisition, const Coarsening& coarsening) {
   const TransportMatrix& transport = acquisition.transport;
   const Rasters& cameras = transport.cameras();
   CameraMask counts(acquisition.flagged.size());
   for (std::size_t row = 0; row < counts.size(); ++row) counts[row] = acquisition.flagged[row] ? 0 : 1;
-  auto mean = [&](const CameraStack& values) { return joined(values, cameras, counts, reduction.cameras); };
+  auto mean = [&](const CameraStack& values) { return joined(values, cameras, counts, coarsening.cameras); };
   auto variance = [&](const CameraStack& values) {
     CameraStack few = mean(values);
-    for (float& value : few) value /= static_cast<float>(1 << (2 * reduction.cameras));
+    for (float& value : few) value /= static_cast<float>(1 << (2 * coarsening.cameras));
     return few;
   };
   Acquisition few;
-  few.transport = reducedTransport(
-      cameras, transport.layout(), counts, reduction, [&](std::size_t row, const AddLeaf& add) {
+  few.transport = coarsenedTransport(
+      cameras, transport.layout(), counts, coarsening, [&](std::size_t row, const AddLeaf& add) {
         const BlockSparse& leaves = transport.leaves();
         for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
           add(leaves.column(entry), leaves.block(row, entry));
@@ -161,7 +161,7 @@ Acquisition reduced(const Acquisition& acquisition, const Reduction& reduction) 
   few.blackVariance = variance(acquisition.blackVariance);
   few.flood = mean(acquisition.flood);
   few.floodVariance = variance(acquisition.floodVariance);
-  few.flagged = joined(acquisition.flagged, cameras, reduction.cameras);
+  few.flagged = joined(acquisition.flagged, cameras, coarsening.cameras);
   return few;
 }
 

@@ -19,6 +19,7 @@ namespace relucent::reduction {
 namespace {
 
 constexpr double asMany = 0.75;            // as the projectors' pixels: about as many
+constexpr int leastSide = 8;               // of what remains, in pixels
 constexpr double worthwhile = 0.75;        // of the camera's pixels may remain
 constexpr double saturationMargin = 0.97;  // of what a camera clips at, in ExposureChoice::saturation
 constexpr double mostClipped = 0.005;      // of the samples: hardly any
@@ -69,9 +70,8 @@ class Look {
   std::optional<rig::Shot> greys_;
 };
 
-int binFor(std::size_t lit, std::size_t projectors, Size part) {
-  const double most = std::sqrt(static_cast<double>(lit) / (asMany * static_cast<double>(projectors)));
-  return std::clamp(static_cast<int>(most), 1, std::min({mostBin, part.width, part.height}));
+int binFor(std::size_t lit, std::size_t projectors) {
+  return static_cast<int>(std::sqrt(static_cast<double>(lit) / (asMany * static_cast<double>(projectors))));
 }
 
 /// The middle one of the eight samples of the same channel around each.
@@ -163,9 +163,11 @@ Reduction reductionFor(Size camera, std::size_t projectorPixels, const PixelUse&
   part.begin = {part.begin.x * stride, part.begin.y * stride};
   part.size = {std::min(part.size.width * stride, camera.width - part.begin.x),
                std::min(part.size.height * stride, camera.height - part.begin.y)};
-  const int bin = use.kind == PixelUse::Kind::binned ? std::min({use.bin, camera.width, camera.height})
-                                                     : binFor(part.pixels * each, projectorPixels, part.size);
   part = withSurroundings(part, camera);
+  const int wanted =
+      use.kind == PixelUse::Kind::binned ? use.bin : binFor(part.pixels * each, projectorPixels);
+  const int most = std::min(mostBin, std::min(part.size.width, part.size.height) / leastSide);
+  const int bin = std::clamp(wanted, 1, std::max(1, most));
   const Reduction reduction = reductionTo(camera, part.begin, part.size, bin);
   const bool little =
       static_cast<double>(reduction.size().count()) > worthwhile * static_cast<double>(camera.count());

@@ -25,7 +25,9 @@ bool needsLook(Size camera, std::size_t projectorPixels, const PixelUse& use);
 
 /// The reduction for a camera whose every stride-th pixel, both ways, sees `light`, white less black, linear:
 ///  1. what is lit (lit_part.h) and its surroundings;
-///  2. bins, the largest for which lit pixels / bin^2 >= 0.75 projector pixels, unless somebody wants others.
+///  2. bins, the largest for which lit pixels / bin^2 >= 0.75 projector pixels, unless somebody wants others;
+///  at
+///     least 8 pixels remain both ways.
 /// None where nothing is lit, and automatically where more than three quarters of the pixels would remain.
 Reduction reductionFor(Size camera, std::size_t projectorPixels, const PixelUse& use,
                        const image::Image& light, int stride = 1);

@@ -3,6 +3,7 @@
 //   relucent-still-camera serve FOLDER VENUE WxH [CACHE]     stays, with the venue in memory
 //   relucent-still-camera show FOLDER IMAGE.png
 //   relucent-still-camera photograph FOLDER SECONDS OUTPUT
+//   relucent-still-camera stop FOLDER
 // The venue's own camera of 375x250 pixels is what the middle of the sensor sees, six by six of the
 // photograph's pixels each; around it the sensor sees the room, lit a hundredth as brightly. A photograph is
 // 3000x2000 pixels of a 6000x4000 sensor with a colour filter (devices/sensor_frame.h), 16-bit TIFF.
@@ -92,19 +93,20 @@ int serve(const fs::path& folder, const std::string& name, Size projector, const
     std::string what, first, second;
     std::string answer = "ok";
     if (!(pipe >> what)) continue;
+    pipe >> first >> second;
+    // Whoever asks next must not find this end still open.
+    pipe.close();
     try {
-      if (what == "stop") return 0;
       if (what == "show") {
-        pipe >> first;
         radiance = venue.trueRadiance({image::readPicture(first).encoded});
-      } else {
-        pipe >> first >> second;
+      } else if (what == "photograph") {
         expose(radiance, std::stod(first), ++number, second);
       }
     } catch (const std::exception& failure) {
       answer = failure.what();
     }
     std::ofstream(answers(folder)) << answer << std::endl;
+    if (what == "stop") return 0;
   }
 }
 

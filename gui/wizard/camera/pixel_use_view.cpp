@@ -9,6 +9,7 @@
 #include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_page.h"
+#include "wizard/frame/page_view.h"
 
 namespace relucent::gui {
 namespace {

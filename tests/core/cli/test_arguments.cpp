@@ -74,7 +74,7 @@ class TestArguments : public QObject {
     Calibrate command = parsed<Calibrate>(
         "calibrate d --venue dome --projector 64x48 --camera 32x24 --seed 9 --threshold 0.02 --levels 17 "
         "--acquisition adaptive --colour rgb --cache /tmp/c --camera-bits 8 --white-segment --drift 0.01 "
-        "--paths 16");
+        "--paths 16 --camera-pixels 1/3");
     const auto& venue = std::get<VenueSettings>(command.settings.rig);
     QCOMPARE(venue.name, std::string("dome"));
     QVERIFY((venue.projector == Size{64, 48}));
@@ -89,6 +89,10 @@ class TestArguments : public QObject {
     QCOMPARE(command.settings.linearization.seed, std::uint64_t{9});
     QCOMPARE(command.settings.linearization.levels, 17);
     QCOMPARE(command.cache, std::filesystem::path("/tmp/c"));
+    QVERIFY((command.settings.pixels == reduction::PixelUse{reduction::PixelUse::Kind::binned, 3}));
+    QVERIFY(parsed<Calibrate>("calibrate d").settings.pixels == reduction::PixelUse());
+    QVERIFY(parsed<ImportPictures>("import d --patterns a --photographs b --camera-pixels all")
+                .settings.pixels.kind == reduction::PixelUse::Kind::all);
   }
 
   void externalProgramsAreARig() {
@@ -224,6 +228,8 @@ class TestArguments : public QObject {
     QTest::newRow("no folder") << QByteArray("calibrate") << QByteArray("CALIBRATION is required");
     QTest::newRow("unknown option") << QByteArray("calibrate d --fast") << QByteArray("--fast");
     QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");
+    QTest::newRow("no pixels") << QByteArray("calibrate d --camera-pixels half")
+                               << QByteArray("'half' is no choice of camera pixels: write auto, all or 1/N");
     QTest::newRow("no number") << QByteArray("calibrate d --seed one") << QByteArray("--seed");
     QTest::newRow("mode") << QByteArray("calibrate d --acquisition slow") << QByteArray("adaptive");
     QTest::newRow("method") << QByteArray("compensate d --image a --out b --method magic")

@@ -150,12 +150,15 @@ class TestChoice : public QObject {
   }
 
   void somebodyMayWantOtherBins() {
-    const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {40, 30}, 0.5, 1));
+    const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {80, 60}, 0.6, 1));
     Rig rig = venue.rig();
     Progress progress;
     const std::vector<Reduction> chosen = chooseReductions(rig, thirds, 1, progress);
     QCOMPARE(chosen.size(), std::size_t{1});
     QCOMPARE(chosen[0].bin, 3);
+    // Not so many become one that nothing is left to measure with.
+    const Size least = chooseReductions(rig, {PixelUse::Kind::binned, mostBin}, 1, progress).at(0).size();
+    QVERIFY(least.width >= 8 && least.height >= 8);
   }
 
   /// What is measured through the reduced camera is linear, whatever the camera's own response.

@@ -2557,16 +2557,16 @@
         <translation>كتل من %1 px</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>كتل من %1 px. المتوقع الآن: %2. بعد قياس كل شيء: %3.</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>المتوقع الآن</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>بعد قياس كل شيء</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>كتل من %1 px. المتوقع الآن: %2. في النهاية: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>في النهاية</translation>
     </message>
 </context>
 <context>

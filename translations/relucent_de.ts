@@ -2493,16 +2493,16 @@
         <translation>Blöcke von %1 px</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>Blöcke von %1 px. Jetzt zu erwarten: %2. Wenn alles gemessen ist: %3.</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Jetzt zu erwarten</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>Wenn alles gemessen ist</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blöcke von %1 px. Jetzt zu erwarten: %2. Am Ende: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Am Ende</translation>
     </message>
 </context>
 <context>

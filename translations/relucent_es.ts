@@ -2493,16 +2493,16 @@
         <translation>bloques de %1 px</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>Bloques de %1 px. Esperado ahora: %2. Cuando todo esté medido: %3.</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Esperado ahora</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>Cuando todo esté medido</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Bloques de %1 px. Esperado ahora: %2. Al final: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Al final</translation>
     </message>
 </context>
 <context>

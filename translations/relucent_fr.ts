@@ -2493,16 +2493,16 @@
         <translation>blocs de %1 px</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>Blocs de %1 px. Attendu maintenant : %2. Une fois tout mesuré : %3.</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Attendu maintenant</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>Une fois tout mesuré</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blocs de %1 px. Attendu maintenant : %2. À la fin : %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>À la fin</translation>
     </message>
 </context>
 <context>

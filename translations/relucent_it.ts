@@ -2493,16 +2493,16 @@
         <translation>blocchi di %1 px</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>Blocchi di %1 px. Atteso ora: %2. Quando tutto è misurato: %3.</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>Atteso ora</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>Quando tutto è misurato</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blocchi di %1 px. Atteso ora: %2. Alla fine: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Alla fine</translation>
     </message>
 </context>
 <context>

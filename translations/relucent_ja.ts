@@ -2477,16 +2477,16 @@
         <translation>%1 px のブロック</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>%1 px のブロック。現在の見込み: %2。すべて測定した後: %3。</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>現在の見込み</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>すべて測定した後</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>%1 px のブロック。現在の見込み: %2。最終: %3。</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>最終</translation>
     </message>
 </context>
 <context>

@@ -2477,16 +2477,16 @@
         <translation>%1 px 块</translation>
     </message>
     <message>
-        <source>Blocks of %1 px. Expected now: %2. When all is measured: %3.</source>
-        <translation>%1 px 块。目前预期：%2。全部测量后：%3。</translation>
-    </message>
-    <message>
         <source>Expected now</source>
         <translation>目前预期</translation>
     </message>
     <message>
-        <source>When all is measured</source>
-        <translation>全部测量后</translation>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>%1 px 块。目前预期：%2。最终：%3。</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>最终</translation>
     </message>
 </context>
 <context>

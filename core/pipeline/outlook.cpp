@@ -102,9 +102,11 @@ Shown shownIn(const compensation::MeasuredVenue& venue, double error, const Unre
 std::optional<Outlook> outlookOf(const transport::Draft& draft, Progress& progress) {
   compensation::MeasuredVenue venue = measuredVenueOf(draft.acquisition, {});
   if (!holdsPicture(venue)) return std::nullopt;
+  // Blocks hide more than T is off by; of single pixels, at first, no more is known than what is asked for.
+  const double error = draft.level == 0 && draft.error == 0.0 ? draft.aim : draft.error;
   Outlook outlook;
   outlook.blocks = 1 << draft.level;
-  Shown now = shownIn(venue, draft.error, unresolvedBy(draft, venue), progress);
+  Shown now = shownIn(venue, error, unresolvedBy(draft, venue), progress);
   outlook.picture = std::move(now.first);
   outlook.now = now.psnr;
   outlook.whole = outlook.now;

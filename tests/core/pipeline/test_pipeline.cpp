@@ -243,7 +243,7 @@ class TestPipeline : public QObject {
   /// The finer it is measured, the better it is shown; and that is what was expected.
   void whatIsExpectedIsWhatComesOut() {
     AcquisitionBenchSettings settings;
-    settings.venues = {"plain"};
+    settings.venues = {"corner"};
     settings.projector = {64, 48};
     settings.camera = {40, 30};
     settings.thresholds = {0.012};

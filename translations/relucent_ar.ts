@@ -259,6 +259,21 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطات أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2495,17 +2510,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء.</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: بلا لقطات، %1.</numerusform>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو لقطة واحدة، %1.</numerusform>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو لقطتين، %1.</numerusform>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطات، %1.</numerusform>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطة، %1.</numerusform>
-            <numerusform>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء: نحو %n لقطة، %1.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1؛ الخطأ نحو %2</translation>
@@ -2520,6 +2524,77 @@
             <numerusform>%n لقطة</numerusform>
             <numerusform>%n لقطة</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB بلا لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB مع لقطة واحدة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB مع لقطتين أخريين، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>الصور متوقعة عند</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>خشن</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>مقبول</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>جيد</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>جيد جدًا</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1، %2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>تبيّن dB مدى قرب الصورة من المطلوبة حيث يمكن بلوغها: تبدو 20 dB خشنة و30 dB جيدة، وكل 6 dB إضافية تنصّف الفرق.</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>المعوَّض حتى الآن</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>صورة معوَّضة بما قيس حتى الآن</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>تظهر بعد الأنماط الأولى وتزداد حدّة.</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>كتل من %1 px</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>المتوقع الآن</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>كتل من %1 px. المتوقع الآن: %2. في النهاية: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>في النهاية</translation>
     </message>
 </context>
 <context>

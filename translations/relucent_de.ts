@@ -255,6 +255,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>Bei Blöcken von {} px gestoppt; {} dB zu erwarten, etwa {} dB mit {} weiteren Foto, {}; messen Sie jederzeit weiter, solange sich nichts bewegt hat</numerusform>
+            <numerusform>Bei Blöcken von {} px gestoppt; {} dB zu erwarten, etwa {} dB mit {} weiteren Fotos, {}; messen Sie jederzeit weiter, solange sich nichts bewegt hat</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2443,13 +2454,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat.</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat: etwa %n Foto, %1.</numerusform>
-            <numerusform>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat: etwa %n Fotos, %1.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1; Fehler etwa %2</translation>
@@ -2460,6 +2464,73 @@
             <numerusform>%n Foto</numerusform>
             <numerusform>%n Fotos</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>%1 dB zu erwarten, etwa %2 dB mit %n weiteren Foto, %3. Messen Sie jederzeit weiter, wenn sich nichts bewegt hat.</numerusform>
+            <numerusform>%1 dB zu erwarten, etwa %2 dB mit %n weiteren Fotos, %3. Messen Sie jederzeit weiter, wenn sich nichts bewegt hat.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>Bilder zu erwarten mit</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>grob</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>mäßig</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>gut</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>sehr gut</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>dB sagt, wie nahe das Bild dem gewünschten kommt, wo es überhaupt erreichbar ist: 20 dB sehen grob aus, 30 dB gut, und je 6 dB mehr halbieren die Abweichung.</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>Bisher kompensiert</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>Ein Bild, kompensiert mit dem bisher Gemessenen</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>Erscheint nach den ersten Mustern und wird schärfer.</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>Blöcke von %1 px</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>Jetzt zu erwarten</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blöcke von %1 px. Jetzt zu erwarten: %2. Am Ende: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Am Ende</translation>
     </message>
 </context>
 <context>

@@ -12,6 +12,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</numerusform>
+            <numerusform>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>check.picture-out</name>
     <message numerus="yes">
         <source>A picture appears {} frames after it is sent: {} ms are waited for.</source>
@@ -106,17 +117,17 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>Finer light is missing. Go on any time, if nothing has moved: about %n photograph, %1.</numerusform>
-            <numerusform>Finer light is missing. Go on any time, if nothing has moved: about %n photographs, %1.</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%n photograph(s)</source>
         <translation>
             <numerusform>%n photograph</numerusform>
             <numerusform>%n photographs</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>%1 dB expected, about %2 dB with %n more photograph, %3. Go on any time, if nothing has moved.</numerusform>
+            <numerusform>%1 dB expected, about %2 dB with %n more photographs, %3. Go on any time, if nothing has moved.</numerusform>
         </translation>
     </message>
 </context>

@@ -255,6 +255,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>Detenido en bloques de {} px; se esperan {} dB, unos {} dB con {} foto más, {}; siga midiendo en cualquier momento mientras nada se haya movido</numerusform>
+            <numerusform>Detenido en bloques de {} px; se esperan {} dB, unos {} dB con {} fotos más, {}; siga midiendo en cualquier momento mientras nada se haya movido</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2443,13 +2454,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido.</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido: aproximadamente %n fotografía, %1.</numerusform>
-            <numerusform>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido: aproximadamente %n fotografías, %1.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1; error aproximado: %2</translation>
@@ -2460,6 +2464,73 @@
             <numerusform>%n fotografía</numerusform>
             <numerusform>%n fotografías</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>Se esperan %1 dB, unos %2 dB con %n foto más, %3. Continúe en cualquier momento si nada se ha movido.</numerusform>
+            <numerusform>Se esperan %1 dB, unos %2 dB con %n fotos más, %3. Continúe en cualquier momento si nada se ha movido.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>Imágenes esperadas a</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>tosca</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>aceptable</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>buena</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>muy buena</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>Los dB dicen cuánto se acerca la imagen a la deseada donde puede alcanzarse: 20 dB se ven toscos, 30 dB bien, y cada 6 dB más reducen la diferencia a la mitad.</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>Compensado hasta ahora</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>Una imagen, compensada con lo medido hasta ahora</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>Aparece tras los primeros patrones y se vuelve más nítida.</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>bloques de %1 px</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>Esperado ahora</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Bloques de %1 px. Esperado ahora: %2. Al final: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Al final</translation>
     </message>
 </context>
 <context>

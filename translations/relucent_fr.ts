@@ -255,6 +255,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>Arrêté à des blocs de {} px ; {} dB attendus, environ {} dB avec {} photo de plus, {} ; continuez la mesure à tout moment tant que rien n’a bougé</numerusform>
+            <numerusform>Arrêté à des blocs de {} px ; {} dB attendus, environ {} dB avec {} photos de plus, {} ; continuez la mesure à tout moment tant que rien n’a bougé</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2443,13 +2454,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé.</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé&#x202f;: environ %n photo, %1.</numerusform>
-            <numerusform>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé&#x202f;: environ %n photos, %1.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1&#x202f;; erreur d’environ %2</translation>
@@ -2460,6 +2464,73 @@
             <numerusform>%n photo</numerusform>
             <numerusform>%n photos</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>%1 dB attendus, environ %2 dB avec %n photo de plus, %3. Continuez à tout moment, si rien n’a bougé.</numerusform>
+            <numerusform>%1 dB attendus, environ %2 dB avec %n photos de plus, %3. Continuez à tout moment, si rien n’a bougé.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>Images attendues à</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>grossier</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>passable</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>bon</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>très bon</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>Les dB disent à quel point l’image approche celle voulue, là où elle peut être atteinte : 20 dB paraissent grossiers, 30 dB bons, et 6 dB de plus divisent l’écart par deux.</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>Compensé jusqu’ici</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>Une image, compensée avec ce qui est mesuré jusqu’ici</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>Apparaît après les premiers motifs et devient plus nette.</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>blocs de %1 px</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>Attendu maintenant</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blocs de %1 px. Attendu maintenant : %2. À la fin : %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>À la fin</translation>
     </message>
 </context>
 <context>

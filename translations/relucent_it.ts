@@ -255,6 +255,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>Interrotto a blocchi di {} px; {} dB attesi, circa {} dB con {} altra foto, {}; continui a misurare in qualsiasi momento finché nulla si è mosso</numerusform>
+            <numerusform>Interrotto a blocchi di {} px; {} dB attesi, circa {} dB con altre {} foto, {}; continui a misurare in qualsiasi momento finché nulla si è mosso</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2443,13 +2454,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso.</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso: circa %n foto, %1.</numerusform>
-            <numerusform>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso: circa %n foto, %1.</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1; errore di circa %2</translation>
@@ -2460,6 +2464,73 @@
             <numerusform>%n foto</numerusform>
             <numerusform>%n foto</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>%1 dB attesi, circa %2 dB con %n altra foto, %3. Continui in qualsiasi momento, se nulla si è mosso.</numerusform>
+            <numerusform>%1 dB attesi, circa %2 dB con altre %n foto, %3. Continui in qualsiasi momento, se nulla si è mosso.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>Immagini attese a</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>grezzo</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>discreto</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>buono</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>molto buono</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>I dB dicono quanto l’immagine si avvicina a quella voluta, dove è raggiungibile: 20 dB appaiono grezzi, 30 dB buoni, e ogni 6 dB in più dimezzano la differenza.</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>Compensato finora</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>Un’immagine, compensata con quanto misurato finora</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>Appare dopo i primi pattern e diventa più nitida.</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>blocchi di %1 px</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>Atteso ora</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>Blocchi di %1 px. Atteso ora: %2. Alla fine: %3.</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>Alla fine</translation>
     </message>
 </context>
 <context>

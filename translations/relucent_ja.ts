@@ -254,6 +254,16 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>{} px のブロックで停止しました。見込みは {} dB、約 {} dB まではあと {} 枚の写真、{}。何も動いていない限り、いつでも測定を続けられます</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2430,12 +2440,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます。</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます：写真約 %n 枚、%1。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1。誤差は約 %2</translation>
@@ -2445,6 +2449,72 @@
         <translation>
             <numerusform>写真 %n 枚</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>見込みは %1 dB、あと %n 枚の写真で約 %2 dB、%3。何も動いていなければ、いつでも続けられます。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>画像の見込み</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>粗い</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>まずまず</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>非常に良好</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>dB は、到達できる範囲で画像が望みのものにどれだけ近いかを表します。20 dB は粗く、30 dB は良好に見え、6 dB 増えるごとにずれは半分になります。</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>ここまでの補正</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>ここまでの測定で補正した画像</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>最初のパターンの後に現れ、次第に鮮明になります。</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>%1 px のブロック</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>現在の見込み</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>%1 px のブロック。現在の見込み: %2。最終: %3。</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>最終</translation>
     </message>
 </context>
 <context>

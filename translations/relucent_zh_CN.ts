@@ -254,6 +254,16 @@
     </message>
 </context>
 <context>
+    <name>acquisition.stopped-with-forecast</name>
+    <message numerus="yes">
+        <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
+        <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
+        <translation>
+            <numerusform>在 {} px 块处停止；预期 {} dB，要达到约 {} dB 还需 {} 张照片，{}；只要没有东西移动，随时可以继续测量</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -2430,12 +2440,6 @@
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>缺少更精细的光。只要没有东西移动，可随时继续。</translation>
     </message>
-    <message numerus="yes">
-        <source>Finer light is missing. Go on any time, if nothing has moved: about %n photograph(s), %1.</source>
-        <translation>
-            <numerusform>缺少更精细的光。只要没有东西移动，可随时继续：约 %n 张照片，%1。</numerusform>
-        </translation>
-    </message>
     <message>
         <source>%1; error about %2</source>
         <translation>%1；误差约 %2</translation>
@@ -2445,6 +2449,72 @@
         <translation>
             <numerusform>%n 张照片</numerusform>
         </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
+        <translation>
+            <numerusform>预期 %1 dB，再拍 %n 张照片约为 %2 dB，%3。只要没有东西移动，随时可以继续。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Pictures expected at</source>
+        <translation>画面预期</translation>
+    </message>
+    <message>
+        <source>rough</source>
+        <translation>粗糙</translation>
+    </message>
+    <message>
+        <source>fair</source>
+        <translation>尚可</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>very good</source>
+        <translation>很好</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1，%2</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
+        <translation>dB 表示在可达到的范围内，画面与所需画面有多接近：20 dB 看起来粗糙，30 dB 良好，每增加 6 dB 偏差减半。</translation>
+    </message>
+    <message>
+        <source>Compensated so far</source>
+        <translation>目前的补偿</translation>
+    </message>
+    <message>
+        <source>A picture, compensated with what is measured so far</source>
+        <translation>用目前测得的数据补偿的画面</translation>
+    </message>
+    <message>
+        <source>Appears after the first patterns, and grows sharper.</source>
+        <translation>在最初的图案之后出现，并逐渐变得清晰。</translation>
+    </message>
+    <message>
+        <source>%1 px blocks</source>
+        <translation>%1 px 块</translation>
+    </message>
+    <message>
+        <source>Expected now</source>
+        <translation>目前预期</translation>
+    </message>
+    <message>
+        <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
+        <translation>%1 px 块。目前预期：%2。最终：%3。</translation>
+    </message>
+    <message>
+        <source>In the end</source>
+        <translation>最终</translation>
     </message>
 </context>
 <context>

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/acquisition/draft.h"
 
+#include <algorithm>
+
 #include "relucent/transport/coarsening.h"
 
 namespace relucent::acquisition {
 namespace {
 
 constexpr std::size_t mostPixels = 160 * 120;
+// Side of what is joined, camera pixels: from more than that only some count, or it would take seconds.
+constexpr int mostJoined = 4;
 // Of a row's leaves, relative to the flood: less is noise.
 constexpr float leastSum = 0.1f;
+
+/// Of the usable camera pixels, as many as tell enough of the joined ones.
+CameraMask counted(const photography::References& references, int levels) {
+  const int apart = std::max(1, (1 << levels) / mostJoined);
+  CameraMask counts = references.usable;
+  for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera) {
+    const Size size = references.cameras.size(camera);
+    for (std::size_t pixel = 0; pixel < size.count(); ++pixel) {
+      const Pixel at = pixelAt(size, pixel);
+      if (at.x % apart != 0 || at.y % apart != 0) counts[references.cameras.offset(camera) + pixel] = 0;
+    }
+  }
+  return counts;
+}
 
 /// Flood and variance of its photographs, all projectors and their channels summed.
 void readFloods(transport::Acquisition& whole, const photography::References& references) {
@@ -34,6 +52,7 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
   const multiplexing::RowSettings model;
   const transport::Coarsening coarsening{draftCoarsening(references.cameras),
                                          draftCoarsening(references.cameras)};
+  const CameraMask counts = counted(references, coarsening.cameras);
   auto blockOf = [&](const multiplexing::Row& row, const multiplexing::Leaf& leaf) -> transport::ColourBlock {
     return leaf.light * row.mixing[multiplexing::kindOf(layout.node(leaf.node), model)];
   };
@@ -50,7 +69,7 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
     }
   };
   auto few = [&](const CameraStack& values) {
-    return transport::joined(values, references.cameras, references.usable, coarsening.cameras);
+    return transport::joined(values, references.cameras, counts, coarsening.cameras);
   };
   transport::Acquisition whole;
   whole.flood.assign(3 * rows.size(), 0.0f);
@@ -61,8 +80,7 @@ transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const Dense
   draft.level = level;
   draft.coarsening = coarsening.cameras;
   transport::Acquisition& small = draft.acquisition;
-  small.transport =
-      transport::coarsenedTransport(references.cameras, layout, references.usable, coarsening, leavesOf);
+  small.transport = transport::coarsenedTransport(references.cameras, layout, counts, coarsening, leavesOf);
   small.black = few(references.black.radiance);
   small.blackVariance = few(references.black.variance);
   small.flood = few(whole.flood);

@@ -17,6 +17,10 @@ void addAcquisition(CLI::App* sub, Bench& command) {
       ->type_name("MODE");
   group->add_option("--threshold", settings.thresholds, "Only at this threshold; may be given several times")
       ->type_name("SHARE");
+  group->add_option("--seed", settings.seed, "Of noise and patterns")->type_name("NUMBER");
+  group->add_flag("--every-level", settings.everyLevel,
+                  "Dense patterns alone, stopped and kept after each level: what was expected, and what came "
+                  "out");
   group->add_option("--chart", command.chart, "Draws quality against photographs (SVG)")->type_name("FILE");
 }
 

@@ -162,7 +162,22 @@ std::string textOf(const pipeline::InverseBenchResult& result) {
   return text + "\n";
 }
 
+namespace {
+
+std::string stopsText(const std::vector<pipeline::AcquisitionBenchStop>& stops) {
+  std::string text = fmt::format("{:<8} {:>9} {:>6} {:>8} {:>8} {:>8} {:>10} {:>5}\n", "venue", "threshold",
+                                 "blocks", "patterns", "expected", "refined", "in the end", "more");
+  for (const pipeline::AcquisitionBenchStop& stop : stops)
+    text += fmt::format("{:<8} {:>9.3g} {:>6} {:>8} {:>8.2f} {:>8.2f} {:>10.2f} {:>5}\n", stop.venue,
+                        stop.threshold, stop.blocks, stop.patterns, stop.expected.now, stop.refined,
+                        stop.expected.whole, stop.expected.photographs);
+  return text;
+}
+
+}  // namespace
+
 std::string textOf(const pipeline::AcquisitionBenchResult& result) {
+  if (!result.stops.empty()) return stopsText(result.stops);
   std::string text =
       fmt::format("{:<8} {:<11} {:>9} {:<6} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9} {:>8} {:>8} {:>8}\n",
                   "venue", "mode", "threshold", "light", "exposures", "response", "s", "frobenius",

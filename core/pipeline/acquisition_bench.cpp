@@ -7,7 +7,10 @@
 
 #include "relucent/devices/temporary_folder.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -38,17 +41,22 @@ double meanPsnr(const EvaluateResult& result, compensation::Method method) {
   return sum / static_cast<double>(result.images.size());
 }
 
+CalibrateSettings settingsOf(const venue::VenueSettings& venue, const Trial& trial) {
+  CalibrateSettings settings;
+  settings.rig = venue;
+  settings.acquisition = acquisition::settingsOf(trial.mode);
+  settings.acquisition.seed = venue.seed;
+  settings.acquisition.relativeThreshold = trial.threshold;
+  settings.acquisition.colours = trial.colours;
+  return settings;
+}
+
 AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& trial,
                              const std::filesystem::path& cache, Progress& progress) {
   devices::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / venue.name;
-  CalibrateSettings settings;
-  settings.rig = venue;
-  settings.acquisition = settingsOf(trial.mode);
-  settings.acquisition.relativeThreshold = trial.threshold;
-  settings.acquisition.colours = trial.colours;
   Progress calibrating = progress.part(0.9, progress.stage());
-  CalibrateResult spent = calibrate(path, settings, cache, calibrating);
+  CalibrateResult spent = calibrate(path, settingsOf(venue, trial), cache, calibrating);
 
   Progress judging = progress.part(0.1, progress.stage());
   EvaluateSettings judged;
@@ -68,6 +76,64 @@ AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& tri
           .refined = meanPsnr(result, compensation::Method::refined)};
 }
 
+/// Asks to stop and keep when a number of levels are measured.
+class Stopping : public sentinels::AcquisitionObserver {
+ public:
+  Stopping(int levels, StopRequest& stop) : levels_(levels), stop_(stop) {}
+  void grew(const std::vector<int>& levels, int) override {
+    if (std::ssize(levels) == levels_) stop_.ask(StopRequest::Kind::keep);
+  }
+
+ private:
+  int levels_;
+  StopRequest& stop_;
+};
+
+/// Measures until a number of levels, and compensates with that. Photographs of the time before are not taken
+/// again.
+AcquisitionBenchStop stopped(const std::filesystem::path& path, int levels, const venue::VenueSettings& venue,
+                             const std::filesystem::path& cache) {
+  struct Nobody : ProgressSink {
+    void progressed(double, const Message&) override {}
+  } nobody;
+  StopRequest stop;
+  Stopping observer(levels, stop);
+  Progress measuring(nobody, stop), quiet;
+  AcquisitionBenchStop result;
+  result.venue = venue.name;
+  {
+    calibration::CalibrationFolder folder =
+        calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
+    OpenedRig devices = openRig(venue, cache, quiet);
+    const linearization::Linearization linearization = measureLinearization(folder, devices.rig, quiet);
+    const transport::Acquisition acquisition =
+        goOnMeasuring(folder, devices.rig, linearization, {}, observer, {}, measuring);
+    result.blocks = acquisition.stoppedAt;
+    result.patterns = acquisition.patterns;
+    result.expected = acquisition.expected.value_or(transport::ExpectedQuality());
+    measureInverse(folder, measuredVenueOf(acquisition, {}), quiet);
+  }
+  EvaluateSettings judged;
+  judged.methods = {compensation::Method::refined};
+  result.refined = meanPsnr(evaluate(path, judged, cache, quiet), compensation::Method::refined);
+  return result;
+}
+
+/// After each level, and in the end.
+std::vector<AcquisitionBenchStop> stops(const venue::VenueSettings& venue, const Trial& trial,
+                                        const std::filesystem::path& cache, Progress& progress) {
+  devices::TemporaryFolder temporary;
+  std::filesystem::path path = temporary.path() / venue.name;
+  beginCalibration(path, settingsOf(venue, trial));
+  std::vector<AcquisitionBenchStop> found;
+  for (int levels = 1; found.empty() || found.back().blocks != 0; ++levels) {
+    progress.checkpoint();
+    found.push_back(stopped(path, levels, venue, cache));
+    found.back().threshold = trial.threshold;
+  }
+  return found;
+}
+
 std::vector<std::string> venueNames(const AcquisitionBenchSettings& settings) {
   if (!settings.venues.empty()) return settings.venues;
   std::vector<std::string> names;
@@ -83,7 +149,8 @@ bool among(const std::vector<Wanted>& wanted, const Value& value) {
 std::vector<Trial> trialsOf(const AcquisitionBenchSettings& settings) {
   std::vector<Trial> chosen;
   for (const Trial& trial : trials)
-    if (among(settings.modes, trial.mode) && among(settings.thresholds, trial.threshold))
+    if ((!settings.everyLevel || trial.mode == acquisition::AcquisitionMode::multiplexed) &&
+        among(settings.modes, trial.mode) && among(settings.thresholds, trial.threshold))
       chosen.push_back(trial);
   return chosen;
 }
@@ -110,7 +177,7 @@ std::vector<Message> problems(const AcquisitionBenchSettings& settings) {
 
 AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings,
                                         const std::filesystem::path& cache, Progress& progress) {
-  AcquisitionBenchResult result{settings.projector, settings.camera, {}};
+  AcquisitionBenchResult result{settings.projector, settings.camera, {}, {}};
   std::vector<std::string> names = venueNames(settings);
   std::vector<Trial> chosen = trialsOf(settings);
   double share = 1.0 / static_cast<double>(names.size() * chosen.size());
@@ -119,11 +186,16 @@ AcquisitionBenchResult benchAcquisition(const AcquisitionBenchSettings& settings
     venue.name = name;
     venue.projector = settings.projector;
     venue.camera = settings.camera;
+    venue.seed = settings.seed;
     for (const Trial& trial : chosen) {
       Progress part =
           progress.part(share, RELUCENT_ENGLISH_MESSAGE("stage.venue-mode-threshold", "{}: {} at {}")
                                    .with(name, nameOf(trial.mode), trial.threshold));
-      result.runs.push_back(measured(venue, trial, cache, part));
+      if (!settings.everyLevel) {
+        result.runs.push_back(measured(venue, trial, cache, part));
+        continue;
+      }
+      for (AcquisitionBenchStop& stop : stops(venue, trial, cache, part)) result.stops.push_back(stop);
     }
   }
   progress.report(1.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "relucent/base/progress.h"
 #include "relucent/base/raster.h"
 #include "relucent/pipeline/evaluate.h"
+#include "relucent/transport/expected_quality.h"
 
 namespace relucent::pipeline {
 
@@ -19,6 +21,8 @@ struct AcquisitionBenchSettings {
   std::vector<double> thresholds;  // likewise
   Size projector{256, 192};
   Size camera{160, 120};
+  std::uint64_t seed = 1;   // of the noise, and of the patterns
+  bool everyLevel = false;  // instead: dense patterns alone, stopped and kept after each of their levels
 };
 std::vector<Message> problems(const AcquisitionBenchSettings& settings);
 
@@ -37,10 +41,21 @@ struct AcquisitionBenchRun {
   double windows = 0.0, refined = 0.0;  // PSNR of the reachable pixels with these methods, mean of images, dB
 };
 
+/// A measurement that was stopped and kept, or the whole: what was expected of it and what came out.
+struct AcquisitionBenchStop {
+  std::string venue;
+  double threshold = 0.0;
+  int blocks = 0;    // side of the finest, projector pixels; 0: the whole
+  int patterns = 0;  // of the acquisition, test patterns included
+  transport::ExpectedQuality expected;
+  double refined = 0.0;  // dB, as ExpectedQuality
+};
+
 struct AcquisitionBenchResult {
   Size projector;
   Size camera;
   std::vector<AcquisitionBenchRun> runs;
+  std::vector<AcquisitionBenchStop> stops{};  // of every level
 };
 
 /// Measures simulated venues in every mode at several thresholds, holds T against the truth, and compensates

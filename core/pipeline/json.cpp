@@ -190,9 +190,20 @@ calibration::Json toJson(const AcquisitionBenchResult& result) {
                     {"seconds", run.seconds},
                     {"unresolved_energy", run.unresolvedEnergy},
                     {"transport", transportToJson(run.transport)}});
+  calibration::Json stops = calibration::Json::array();
+  for (const AcquisitionBenchStop& stop : result.stops)
+    stops.push_back({{"venue", stop.venue},
+                     {"threshold", stop.threshold},
+                     {"blocks", stop.blocks},
+                     {"patterns", stop.patterns},
+                     {"expected_now", stop.expected.now},
+                     {"expected_whole", stop.expected.whole},
+                     {"expected_photographs", stop.expected.photographs},
+                     {"refined", stop.refined}});
   return {{"projector", sizeToJson(result.projector)},
           {"camera", sizeToJson(result.camera)},
-          {"runs", std::move(runs)}};
+          {"runs", std::move(runs)},
+          {"stops", std::move(stops)}};
 }
 
 calibration::Json toJson(const BenchResult& result) {

@@ -22,10 +22,10 @@ struct Outlook {
 ///          walls add cannot be taken away: both are in T.
 ///   whole  the same by expectedTransport().
 ///   PSNR = -10 log10(mean |T p - r|^2 / white^2 + error^2 mean |T p|^2 / white^2),
-/// the error that of patterns that were predicted before they were used; of `whole`, the one asked for. Of a
-/// draft that is coarsened by k levels, `now` is for leaves that are as coarse to its pixels as those of T
-/// are to the venue's.  None: nothing is lit well enough to hold a picture. Source:
-/// core/acquisition/README.md, which also says how near it comes.  Throws: Cancelled.
+/// the error that of patterns that were predicted before they were used; of `whole`, the one asked for. What
+/// blocks hide of a picture within the pixels of a coarse draft is added: its variance in them, less that in
+/// the pixels of the venue's camera. None: nothing is lit well enough to hold a picture.
+/// Source: core/acquisition/README.md, which also says how near it comes.  Throws: Cancelled.
 std::optional<Outlook> outlookOf(const transport::Draft& draft, Progress& progress);
 
 }  // namespace relucent::pipeline

@@ -54,7 +54,7 @@ QWidget* outlookCard(AcquirePage& model) {
     card->setSubtitle(outlook ? AcquirePage::tr("%1 px blocks").arg(outlook->blocks) : QString());
     picture->setAccessibleDescription(
         outlook
-            ? AcquirePage::tr("Blocks of %1 px. Expected now: %2. When all is measured: %3.")
+            ? AcquirePage::tr("Blocks of %1 px. Expected now: %2. In the end: %3.")
                   .arg(QString::number(outlook->blocks), qualityText(outlook->now), wholeText(outlook->whole))
             : QString());
   };
@@ -67,7 +67,7 @@ QWidget* outlookPart(AcquirePage& model) {
   auto* rows = new QVBoxLayout(part);
   rows->setContentsMargins(0, 0, 0, 0);
   auto* now = new ValueRow(AcquirePage::tr("Expected now"));
-  auto* whole = new ValueRow(AcquirePage::tr("When all is measured"));
+  auto* whole = new ValueRow(AcquirePage::tr("In the end"));
   rows->addWidget(now);
   rows->addWidget(whole);
   part->setToolTip(qualityMeaning());

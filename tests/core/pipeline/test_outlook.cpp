@@ -142,6 +142,31 @@ class TestOutlook : public QObject {
     }
   }
 
+  void lookedAtLessCloselyItIsTheSame_data() {
+    QTest::addColumn<int>("level");
+    for (int level : {0, 1, 2, 3}) QTest::addRow("blocks of %d", 1 << level) << level;
+  }
+  /// As a larger camera's draft is: half as closely. What both pixels and blocks hide is known of pictures
+  /// only by their statistics.
+  void lookedAtLessCloselyItIsTheSame() {
+    QFETCH(int, level);
+    const Acquisition whole = venueOf(0.3);
+    Draft draft = draftAt(whole, level);
+    Progress quiet;
+    const Outlook closely = outlookOf(draft, quiet).value();
+    draft.acquisition = reduced(draft.acquisition, {1, 1, 0});
+    draft.reduction = 1;
+    const Outlook less = outlookOf(draft, quiet).value();
+    const QString said = QString("%1 and %2 dB, in the end %3 and %4")
+                             .arg(closely.now)
+                             .arg(less.now)
+                             .arg(closely.whole)
+                             .arg(less.whole);
+    QCOMPARE(less.blocks, closely.blocks);
+    QCOMPARE(less.picture.size(), (Size{24, 18}));
+    QVERIFY2(std::abs(less.now - closely.now) < 2.0, qPrintable(said));
+  }
+
   /// PSNR is that of the sum of both errors.
   void anErrorOfTheTransportCounts() {
     const Acquisition whole = venueOf(0.0);

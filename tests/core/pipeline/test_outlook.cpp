@@ -155,7 +155,7 @@ class TestOutlook : public QObject {
     Progress quiet;
     const Outlook closely = outlookOf(draft, quiet).value();
     draft.acquisition = reduced(draft.acquisition, {1, 1, 0});
-    draft.reduction = 1;
+    draft.coarsening = 1;
     const Outlook less = outlookOf(draft, quiet).value();
     const QString said = QString("%1 and %2 dB, in the end %3 and %4")
                              .arg(closely.now)

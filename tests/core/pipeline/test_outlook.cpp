@@ -154,7 +154,7 @@ class TestOutlook : public QObject {
     Draft draft = draftAt(whole, level);
     Progress quiet;
     const Outlook closely = outlookOf(draft, quiet).value();
-    draft.acquisition = reduced(draft.acquisition, {1, 1, 0});
+    draft.acquisition = coarsened(draft.acquisition, {1, 1, 0});
     draft.coarsening = 1;
     const Outlook less = outlookOf(draft, quiet).value();
     const QString said = QString("%1 and %2 dB, in the end %3 and %4")

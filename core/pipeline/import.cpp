@@ -2,8 +2,8 @@
 #include "relucent/pipeline/import.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "relucent/base/error.h"
@@ -106,27 +106,33 @@ image::Image readPictureAs(const fs::path& path, bool drive) {
   return image;
 }
 
-/// Reads all pictures of a folder, which must be of one size: `size`, if that is known. What `smaller` makes
-/// of them is kept.
+/// How photographs are reduced, and the file that it was chosen by.
+struct PhotographReducer {
+  reduction::Reducer reducer;
+  std::string chosenBy;
+};
+
+/// Reads all pictures of a folder, which must be of one size. What the reducer makes of them is kept; none:
+/// they are kept as they are.
 importing::PictureSequence readSequence(const std::vector<fs::path>& paths, bool drive,
-                                        const std::function<image::Image(image::Image)>& smaller,
+                                        const std::optional<PhotographReducer>& reducer,
                                         Fingerprint& fingerprint, Progress& progress) {
   importing::PictureSequence sequence;
   Size size;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     image::Image image = readPictureAs(paths[k], drive);
-    if (k == 0) size = image.size();
+    if (k == 0) size = reducer ? reducer->reducer.reduction().camera : image.size();
     if (image.size() != size)
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("import.picture-size-differs", "the picture has {} pixels, but {} has {}")
-              .with(as::size(image.width(), image.height()), paths.front().filename().string(),
-                    as::size(size)),
+              .with(as::size(image.width(), image.height()),
+                    reducer ? reducer->chosenBy : paths.front().filename().string(), as::size(size)),
           RELUCENT_ENGLISH_MESSAGE("import.take-out-foreign-pictures",
                                    "take out pictures that do not belong there"),
           paths[k].string());
     fingerprint.add(image.data());
-    image = smaller(std::move(image));
+    if (reducer) image = reducer->reducer({std::move(image), 0, 1.0}).signal;
     if (k == 0) sequence = importing::PictureSequence(image.size(), static_cast<int>(paths.size()));
     sequence.set(static_cast<int>(k), image);
     progress.report(static_cast<double>(k + 1) / static_cast<double>(paths.size()));
@@ -139,21 +145,26 @@ double lightOf(const image::Image& pattern) {
 }
 
 /// From the photographs of the brightest and the darkest pattern.
-reduction::Reduction reductionOf(const importing::PictureSequence& patterns,
-                                 const std::vector<fs::path>& photographs, const reduction::PixelUse& use) {
+PhotographReducer reducerFor(const importing::PictureSequence& patterns,
+                             const std::vector<fs::path>& photographs, const reduction::PixelUse& use) {
   std::vector<double> lights;
   for (int k = 0; k < patterns.pictures(); ++k) lights.push_back(lightOf(patterns.picture(k)));
   const auto [darkest, brightest] = std::ranges::minmax_element(lights);
-  auto photograph = [&](auto pattern) {
-    return readPictureAs(photographs[static_cast<std::size_t>(pattern - lights.begin())], false);
+  auto photographOf = [&](auto pattern) {
+    return photographs[static_cast<std::size_t>(pattern - lights.begin())];
   };
-  image::Image light = photograph(brightest);
+  image::Image light = readPictureAs(photographOf(brightest), false);
   const std::size_t projector = patterns.size().count();
-  if (!reduction::needsLook(light.size(), projector, use)) return reduction::noReduction(light.size());
-  const image::Image black = photograph(darkest);
-  if (black.size() != light.size()) return reduction::noReduction(light.size());  // told as they are read
-  for (std::size_t i = 0; i < light.data().size(); ++i) light.data()[i] -= black.data()[i];
-  return reduction::reductionFor(light.size(), projector, use, light);
+  reduction::Reduction reduction = reduction::noReduction(light.size());
+  if (reduction::needsLook(light.size(), projector, use)) {
+    const image::Image black = readPictureAs(photographOf(darkest), false);
+    // Another size is told as they are read.
+    if (black.size() == light.size()) {
+      for (std::size_t i = 0; i < light.data().size(); ++i) light.data()[i] -= black.data()[i];
+      reduction = reduction::reductionFor(light.size(), projector, use, light);
+    }
+  }
+  return {reduction::Reducer(reduction), photographOf(brightest).filename().string()};
 }
 
 /// Before minutes are spent: what CalibrationFolder::create() would refuse in the end.
@@ -189,15 +200,13 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   Fingerprint fingerprint;
   Pictures pictures;
   Progress first = progress.part(0.4, RELUCENT_MESSAGE("stage.reading-patterns", "Reading the patterns"));
-  auto asItIs = [](image::Image image) { return image; };
-  pictures.patterns = readSequence(patterns, true, asItIs, fingerprint, first);
-  pictures.reduction = reductionOf(pictures.patterns, photographs, settings.pixels);
+  pictures.patterns = readSequence(patterns, true, std::nullopt, fingerprint, first);
+  std::optional<PhotographReducer> reducer = reducerFor(pictures.patterns, photographs, settings.pixels);
+  pictures.reduction = reducer->reducer.reduction();
+  if (pictures.reduction.isNothing()) reducer.reset();
   Progress second =
       progress.part(0.6, RELUCENT_MESSAGE("stage.reading-photographs", "Reading the photographs"));
-  auto smaller = [reducer = reduction::Reducer(pictures.reduction)](image::Image image) {
-    return reducer.reduction().isNothing() ? std::move(image) : reducer({std::move(image), 0, 1.0}).signal;
-  };
-  pictures.photographs = readSequence(photographs, false, smaller, fingerprint, second);
+  pictures.photographs = readSequence(photographs, false, reducer, fingerprint, second);
   pictures.finding = sequence.finding;
   pictures.developed = std::any_of(photographs.begin(), photographs.end(), isDeveloped);
   pictures.rig = {pictures.patterns.size(),

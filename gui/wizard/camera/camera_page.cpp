@@ -220,13 +220,14 @@ void CameraPage::chooseExposure(std::size_t index) {
 }
 
 void CameraPage::choosePixels(const reduction::PixelUse& use) {
-  if (use == pixels()) return;
+  // Devices that measure keep the pixels that they measure with; what is shown goes back to those.
+  if (use == pixels() || (!session_.areDevicesFree() && !isLooking())) return tellSettings();
   changeUndoably(tr("Camera pixels"), pixels(), use,
                  [this](const reduction::PixelUse& wanted) { keepPixels(wanted); });
 }
 
 void CameraPage::keepPixels(const reduction::PixelUse& use) {
-  if (!session_.areDevicesFree() && !isLooking()) return;
+  if (!session_.areDevicesFree() && !isLooking()) return tellSettings();
   try {
     session_.changePixels(use);
   } catch (...) {

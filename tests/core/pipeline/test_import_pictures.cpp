@@ -133,6 +133,25 @@ class TestImportPictures : public QObject {
                  QString("%1, %2 with all pixels").arg(reduced.error.transport).arg(whole.error.transport)));
   }
 
+  /// Whichever photograph it is: the reduction is chosen by two of them.
+  void anotherSizeAmongManyPixelsIsSaid_data() {
+    QTest::addColumn<int>("number");
+    for (int number : {0, 1, 2, 5}) QTest::addRow("photograph %d", number) << number;
+  }
+  void anotherSizeAmongManyPixelsIsSaid() {
+    QFETCH(int, number);
+    Studio studio({120, 96});
+    // The first of all, and neither the brightest nor the darkest.
+    for (int other : {0, 1})
+      if (number == 2) {
+        fs::remove(studio.written.files[static_cast<std::size_t>(other)]);
+        fs::remove(studio.photographs() / fmt::format("IMG_{:04}.png", 100 + other));
+      }
+    writePng(studio.photographs() / fmt::format("IMG_{:04}.png", 100 + number), Image({60, 50}, 3, 0.9f), 8);
+    const QString failure = studio.failure();
+    QVERIFY2(failure.contains("60x50") && failure.contains("120x96"), qPrintable(failure));
+  }
+
   void aPlanComesBackAsACalibration() {
     Studio studio;
     QVERIFY(fs::exists(studio.patterns() / "plan.json"));

@@ -32,6 +32,15 @@ fs::path unusedFolder(const fs::path& parent) {
   }
 }
 
+/// A numerical failure of what is only said of a measurement is no reason to lose it.
+std::optional<Outlook> lastOf(OutlookObserver& looking) {
+  try {
+    return looking.last();
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 /// Measured on shots of the journal, as far as there are any, and stored.
 transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                 const linearization::Linearization& linearization,
@@ -46,7 +55,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   OutlookObserver looking(observer, outlook);
   transport::Acquisition acquisition =
       acquisition::acquire({shots, linearization, settings, handler, &looking}, progress);
-  if (std::optional<Outlook> last = looking.last()) {
+  if (std::optional<Outlook> last = lastOf(looking)) {
     acquisition.expected = {last->now, last->now};
     // The test patterns are photographed anew when it goes on.
     const acquisition::AcquisitionState state{looking.levels(), shots.shots() - settings.verificationPatterns,

@@ -115,7 +115,9 @@ class Measurement {
         if (auto interrupted = refine(part)) return interrupted;
         break;
       }
+      model_.details = 0;
       solve();
+      model_.details = detailsAt(level);
       if (auto interrupted = settle(part)) return interrupted;
       tellDraft(level);
       if ((isStopped_ = progress.stopAndKeep())) break;

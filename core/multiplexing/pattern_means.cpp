@@ -2,6 +2,7 @@
 #include "relucent/multiplexing/pattern_means.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "relucent/base/parallel.h"
@@ -13,6 +14,24 @@ constexpr float whole = 65535.0f;
 
 std::size_t bytesOf(std::size_t bits) {
   return (bits + 7) / 8;
+}
+
+using EightValues = std::array<float, 8>;
+/// The bits of every byte as numbers.
+const std::array<EightValues, 256>& valuesOfBits() {
+  static const auto table = [] {
+    std::array<EightValues, 256> values{};
+    for (std::size_t byte = 0; byte < values.size(); ++byte)
+      for (std::size_t bit = 0; bit < 8; ++bit) values[byte][bit] = static_cast<float>((byte >> bit) & 1U);
+    return values;
+  }();
+  return table;
+}
+
+void readBits(const std::uint8_t* from, std::size_t count, float* to) {
+  const std::array<EightValues, 256>& values = valuesOfBits();
+  for (; count >= 8; count -= 8, to += 8) std::ranges::copy(values[*from++], to);
+  if (count > 0) std::copy_n(values[*from].begin(), count, to);
 }
 
 /// The node of `level` that holds one, or the last of its projector.
@@ -77,9 +96,7 @@ void PatternMeans::read(std::size_t node, const std::array<float*, 3>& means) co
     for (std::size_t c = 0; c < 3; ++c) {
       float* to = means[c] + at;
       if (stored < batch.first) {
-        const std::uint8_t* from = &batch.pixels[(3 * stored + c) * bytesOf(count)];
-        for (std::size_t i = 0; i < batch.used; ++i)
-          to[i] = static_cast<float>((from[i / 8] >> (i % 8)) & 1U);
+        readBits(&batch.pixels[(3 * stored + c) * bytesOf(count)], batch.used, to);
       } else {
         const std::uint16_t* from = &batch.blocks[(stored - batch.first) * stride + c * count];
         for (std::size_t i = 0; i < batch.used; ++i) to[i] = static_cast<float>(from[i]) * (1.0f / whole);

@@ -156,44 +156,47 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
   channel.columns.resize(stride(equations_), colours + leaves_ + 1);
   Columns& columns = channel.columns;
 
+  // What was not seen weighs nothing, whatever its value.
   Eigen::ArrayXf variance(columns.rows());
   variance.head(equations_) = seen.variance.col(c);
   variance.tail(columns.rows() - equations_).setConstant(std::numeric_limits<float>::infinity());
   variance.head(floods_) += floodVariance;
   variance.segment(floods_, equations_ - floods_) += row.excess;
-  Eigen::Index column = 0;
+  auto mixingOf = [&](Eigen::Index kind, std::size_t k) {
+    return row.mixing[static_cast<std::size_t>(kind)](c, at(k)) + settings_.anyColour;
+  };
   for (Eigen::Index kind = 0; kind < kinds; ++kind)
-    for (std::size_t k = 0; k < 3; ++k, ++column) {
-      float mixing = row.mixing[static_cast<std::size_t>(kind)](c, at(k)) + settings_.anyColour;
-      variance += mixing * mixing * lumped_[k].col(kind).array();
-      channel.amplitude[column] = kindColours * mixing;
-      columns.col(column) = channel.amplitude[column] * known_[k].col(kind);
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      variance += mixingOf(kind, k) * mixingOf(kind, k) * lumped_[k].col(kind).array();
+  const Eigen::ArrayXf weight = variance.isFinite().select(variance.rsqrt(), 0.0f);
+  channel.seen = (weight.segment(floods_, equations_ - floods_) > 0.0f).count();
+
+  Eigen::Index column = 0;
+  auto put = [&](float amplitude, const auto& values) {
+    channel.amplitude[column] = amplitude;
+    columns.col(column++).array() = amplitude * weight * values;
+  };
+  for (Eigen::Index kind = 0; kind < kinds; ++kind)
+    for (std::size_t k = 0; k < 3; ++k) put(kindColours * mixingOf(kind, k), known_[k].col(kind).array());
   for (Eigen::Index leaf : details_)
-    for (std::size_t k = 0; k < 3; ++k, ++column) {
-      std::size_t kind = static_cast<std::size_t>(kinds_[static_cast<std::size_t>(leaf)]);
-      channel.amplitude[column] =
-          colourSpread(row, leaf) * (row.mixing[kind](c, at(k)) + settings_.anyColour);
-      columns.col(column) = channel.amplitude[column] * design_[k].col(leaf);
-    }
-  channel.amplitude[column] = seen.offset[c];
-  columns.col(column).setConstant(seen.offset[c]);
-  auto left = columns.col(columns.cols() - 1);
-  left.head(equations_) = seen.light.col(c);
+    for (std::size_t k = 0; k < 3; ++k)
+      put(colourSpread(row, leaf) * mixingOf(kinds_[static_cast<std::size_t>(leaf)], k),
+          design_[k].col(leaf).array());
+  put(seen.offset[c], Eigen::ArrayXf::Ones(columns.rows()));
+
+  auto left = columns.col(columns.cols() - 1).array();
+  left.head(equations_) = weight.head(equations_) * seen.light.col(c);
   left.tail(columns.rows() - equations_).setZero();
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     const Leaf& leaf = row.leaves[static_cast<std::size_t>(j)];
     const auto& mixing = row.mixing[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(j)])];
-    auto light = columns.col(colours + j);
-    light = mixing(c, 0) * design_[0].col(j) + mixing(c, 1) * design_[1].col(j) +
-            mixing(c, 2) * design_[2].col(j);
-    if (leaf.expected != 0.0f) left -= leaf.expected * light;
-    light *= leaf.spread;
+    const float spread = leaf.spread, expected = leaf.expected;
+    const auto shown =
+        weight * (mixing(c, 0) * design_[0].col(j).array() + mixing(c, 1) * design_[1].col(j).array() +
+                  mixing(c, 2) * design_[2].col(j).array());
+    columns.col(colours + j).array() = spread * shown;
+    if (expected != 0.0f) left -= expected * shown;
   }
-  // What was not seen weighs nothing, whatever its value.
-  Eigen::ArrayXf weight = variance.isFinite().select(variance.rsqrt(), 0.0f);
-  channel.seen = (weight.segment(floods_, equations_ - floods_) > 0.0f).count();
-  columns.array().colwise() *= weight;
 }
 
 void RowRegression::eliminateColours(Channel& channel) {

@@ -1781,10 +1781,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>اجعل متغيّر البيئة TMPDIR يسمّي مجلدًا على قرص يمكنك الكتابة عليه؛ ما صُوِّر محفوظ</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>اختر مجلدًا يمكنك الكتابة فيه، أو اطلب الإذن بذلك</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>أفرغ بعض المساحة هناك؛ ما صُوِّر محفوظ</translation>
     </message>
 </context>
 <context>
@@ -1799,6 +1813,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>أخلِ بعض المساحة هناك أو اختر قرصًا آخر، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>لا توجد مساحة للنتائج الوسيطة ({})</translation>
     </message>
 </context>
 <context>

@@ -1765,10 +1765,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>nennen Sie in der Umgebungsvariablen TMPDIR einen Ordner auf einer Platte, auf die Sie schreiben dürfen; was fotografiert wurde, ist sicher</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen, oder lassen Sie sich das Recht dazu geben</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>schaffen Sie dort Platz; was fotografiert wurde, ist sicher</translation>
     </message>
 </context>
 <context>
@@ -1783,6 +1797,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>geben Sie dort Speicherplatz frei oder wählen Sie ein anderes Laufwerk, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>für Zwischenergebnisse ist kein Platz ({})</translation>
     </message>
 </context>
 <context>

@@ -1765,10 +1765,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>indique en la variable de entorno TMPDIR una carpeta de un disco en el que pueda escribir; lo fotografiado está a salvo</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>elija una carpeta en la que pueda escribir o solicite el permiso</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>libere espacio allí; lo fotografiado está a salvo</translation>
     </message>
 </context>
 <context>
@@ -1783,6 +1797,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>libere espacio allí o elija otro disco e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>no hay espacio para resultados intermedios ({})</translation>
     </message>
 </context>
 <context>

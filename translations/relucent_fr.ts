@@ -1765,10 +1765,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>indiquez dans la variable d’environnement TMPDIR un dossier d’un disque où vous pouvez écrire&#x202f;; ce qui a été photographié est en sécurité</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>choisissez un dossier où vous avez le droit d’écrire, ou demandez ce droit</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>libérez de l’espace à cet endroit&#x202f;; ce qui a été photographié est en sécurité</translation>
     </message>
 </context>
 <context>
@@ -1783,6 +1797,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>libérez de l’espace à cet endroit ou choisissez un autre disque, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>il n’y a pas de place pour les résultats intermédiaires ({})</translation>
     </message>
 </context>
 <context>

@@ -1765,10 +1765,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>indicare nella variabile d’ambiente TMPDIR una cartella su un disco in cui si può scrivere; ciò che è stato fotografato è al sicuro</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>scegliere una cartella in cui è consentito scrivere o chiedere il permesso</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>liberare spazio in quel punto; ciò che è stato fotografato è al sicuro</translation>
     </message>
 </context>
 <context>
@@ -1783,6 +1797,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>liberare spazio lì o scegliere un altro disco, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>non c’è spazio per i risultati intermedi ({})</translation>
     </message>
 </context>
 <context>

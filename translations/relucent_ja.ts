@@ -1761,10 +1761,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>環境変数 TMPDIR に、書き込みできるディスク上のフォルダーを指定してください。撮影済みの写真は安全です</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>書き込めるフォルダーを選ぶか、書き込み権限を取得してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>そこに空きを作ってください。撮影済みの写真は安全です</translation>
     </message>
 </context>
 <context>
@@ -1779,6 +1793,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>保存先の空き容量を増やすか別のディスクを選んでから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>中間結果のための空きがありません（{}）</translation>
     </message>
 </context>
 <context>

@@ -1761,10 +1761,24 @@
     </message>
 </context>
 <context>
+    <name>disk.choose-scratch-folder</name>
+    <message>
+        <source>let the environment variable TMPDIR name a folder on a disk that you may write to; what has been photographed is safe</source>
+        <translation>请让环境变量 TMPDIR 指向一个可写入磁盘上的文件夹；已拍摄的照片是安全的</translation>
+    </message>
+</context>
+<context>
     <name>disk.choose-writable-folder</name>
     <message>
         <source>choose a folder that you may write to, or ask for the permission</source>
         <translation>请选择您可写入的文件夹，或申请权限</translation>
+    </message>
+</context>
+<context>
+    <name>disk.free-scratch-room</name>
+    <message>
+        <source>free some space there; what has been photographed is safe</source>
+        <translation>请在该处腾出空间；已拍摄的照片是安全的</translation>
     </message>
 </context>
 <context>
@@ -1779,6 +1793,13 @@
     <message>
         <source>free some space there or choose another disk, then try again</source>
         <translation>请在该处腾出一些空间或选择其他磁盘，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>disk.no-scratch-room</name>
+    <message>
+        <source>there is no room for intermediate results ({})</source>
+        <translation>没有空间存放中间结果（{}）</translation>
     </message>
 </context>
 <context>

@@ -96,9 +96,9 @@ class TestAcquirePage : public QObject {
     page.setSecondsToLeave(60);
     QVERIFY(!page.expected(Fineness::usual) && page.floodlightNumber() == 0);
     std::vector<BlockLevel> plan = page.levels();
-    QCOMPARE(plan.size(), std::size_t{3});  // from 48 blocks on
+    QCOMPARE(plan.size(), std::size_t{4});  // from 24 blocks on
     for (std::size_t i = 0; i < plan.size(); ++i) {
-      QCOMPARE(plan[i].block, 4 >> i);
+      QCOMPARE(plan[i].block, 8 >> i);
       QVERIFY(!plan[i].isKnown && plan[i].patterns.likely > 0.0);
     }
     page.primary()->trigger();

@@ -59,7 +59,7 @@ std::vector<transport::ColourBlock> DensePhotographs::floodMixing(std::size_t ro
   return mixings;
 }
 
-void DensePhotographs::add(const hdr::LampLight& seen) {
+DensePhotographs::Stored DensePhotographs::store(const hdr::LampLight& seen) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   parallelFor(0, parts(), 1, [&](std::size_t part) {
     std::vector<Eigen::half> values(valuesOfPart);
@@ -71,13 +71,13 @@ void DensePhotographs::add(const hdr::LampLight& seen) {
       values[i] = static_cast<Eigen::half>(known ? light : 0.0f);
       values[valuesOfPart / 2 + i] = static_cast<Eigen::half>(deviation);
     }
-    file_.write(placeOf(size(), part), std::span<const Eigen::half>(values));
+    file_.write(placeOf(stored_, part), std::span<const Eigen::half>(values));
   });
-  scale_.push_back(1.0f);
+  return stored_++;
 }
 
 void DensePhotographs::keep(std::size_t count) {
-  scale_.resize(std::min(count, size()));
+  photographs_.resize(std::min(count, size()));
   std::erase_if(rejected_, [&](const auto& rejection) { return rejection.second >= size(); });
 }
 
@@ -88,10 +88,10 @@ void DensePhotographs::reject(const Rejections& unseen) {
 
 void DensePhotographs::forgetJudgements() {
   rejected_.clear();
-  std::ranges::fill(scale_, 1.0f);
+  for (Photograph& photograph : photographs_) photograph.scale = 1.0f;
 }
 
-std::uint64_t DensePhotographs::placeOf(std::size_t photograph, std::size_t part) const {
+std::uint64_t DensePhotographs::placeOf(Stored photograph, std::size_t part) const {
   std::size_t together = photograph / photographsTogether * parts() + part;
   return sizeof(Eigen::half) * valuesOfPart *
          (together * photographsTogether + photograph % photographsTogether);
@@ -100,26 +100,29 @@ std::uint64_t DensePhotographs::placeOf(std::size_t photograph, std::size_t part
 DensePhotographs::Rows::Rows(const DensePhotographs& photographs, std::size_t part)
     : photographs_(photographs),
       begin_(part * rowsTogether),
-      end_(std::min(begin_ + rowsTogether, photographs.references_.usable.size())),
-      values_(photographs.size() * valuesOfPart) {
-  for (std::size_t first = 0; first < photographs.size(); first += photographsTogether) {
-    std::size_t count = std::min(photographsTogether, photographs.size() - first);
+      end_(std::min(begin_ + rowsTogether, photographs.references_.usable.size())) {
+  Stored stored = 0;
+  for (const Photograph& photograph : photographs.photographs_)
+    stored = std::max(stored, photograph.stored + 1);
+  values_.resize(stored * valuesOfPart);
+  for (Stored first = 0; first < stored; first += photographsTogether) {
+    std::size_t count = std::min(photographsTogether, stored - first);
     photographs.file_.read(photographs.placeOf(first, part),
                            std::span(&values_[first * valuesOfPart], count * valuesOfPart));
   }
   const Rejections& rejected = photographs.rejected_;
   auto rejection = std::ranges::lower_bound(rejected, std::pair(begin_, std::uint32_t{0}));
   for (; rejection != rejected.end() && rejection->first < end_; ++rejection)
-    std::fill_n(
-        &values_[rejection->second * valuesOfPart + valuesOfPart / 2 + 3 * (rejection->first - begin_)], 3,
-        std::numeric_limits<Eigen::half>::infinity());
+    std::fill_n(&values_[photographs.photographs_[rejection->second].stored * valuesOfPart +
+                         valuesOfPart / 2 + 3 * (rejection->first - begin_)],
+                3, std::numeric_limits<Eigen::half>::infinity());
 }
 
 std::pair<Eigen::Array3f, Eigen::Array3f> DensePhotographs::Rows::shown(std::size_t photograph,
                                                                         std::size_t row) const {
   using Halves = Eigen::Map<const Eigen::Array<Eigen::half, 3, 1>>;
-  const Eigen::half* light = &values_[photograph * valuesOfPart + 3 * (row - begin_)];
-  float scale = photographs_.scale_[photograph];
+  auto [stored, scale] = photographs_.photographs_[photograph];
+  const Eigen::half* light = &values_[stored * valuesOfPart + 3 * (row - begin_)];
   return {scale * Halves(light).cast<float>(),
           (scale * Halves(light + valuesOfPart / 2).cast<float>()).square()};
 }

@@ -30,10 +30,16 @@ class DensePhotographs {
   /// How a projector's light is divided in a camera pixel's floods, see multiplexing::Row::mixing.
   std::vector<transport::ColourBlock> floodMixing(std::size_t row) const;
 
-  std::size_t size() const { return scale_.size(); }
-  /// The light is rounded to half precision, a twentieth of what photon noise leaves of it at best.
-  /// Throws: Error{disk}.
-  void add(const hdr::LampLight& seen);
+  std::size_t size() const { return photographs_.size(); }
+  /// A photograph's place on the disk.
+  using Stored = std::size_t;
+  /// The light is rounded to half precision, a twentieth of what photon noise leaves of it at best. What is
+  /// stored is not seen before it is added, so that Rows may be read meanwhile.  Throws: Error{disk}.
+  [[nodiscard]] Stored store(const hdr::LampLight& seen);
+  /// How many have been stored so far, those that are forgotten included.
+  std::size_t stored() const { return stored_; }
+  /// As the last of the photographs.
+  void add(Stored photograph) { photographs_.push_back({photograph, 1.0f}); }
   /// Forgets all but the first ones.
   void keep(std::size_t count);
 
@@ -41,7 +47,7 @@ class DensePhotographs {
   using Rejections = std::vector<std::pair<std::size_t, std::uint32_t>>;
   void reject(const Rejections& unseen);
   /// Divides all light of a photograph.
-  void divide(std::size_t photograph, float gain) { scale_[photograph] /= gain; }
+  void divide(std::size_t photograph, float gain) { photographs_[photograph].scale /= gain; }
   /// As if nothing had been rejected or divided.
   void forgetJudgements();
 
@@ -65,17 +71,23 @@ class DensePhotographs {
    private:
     const DensePhotographs& photographs_;
     std::size_t begin_, end_;
-    std::vector<Eigen::half> values_;  // [photograph][light, deviation][row][channel]
+    std::vector<Eigen::half> values_;  // [stored][light, deviation][row][channel]
   };
 
  private:
-  std::uint64_t placeOf(std::size_t photograph, std::size_t part) const;
+  struct Photograph {
+    Stored stored;
+    float scale;  // of its light and deviation
+  };
+
+  std::uint64_t placeOf(Stored photograph, std::size_t part) const;
 
   const photography::References& references_;
   CameraStack flood_;
   ScratchFile file_;
-  std::vector<float> scale_;  // of a photograph's light and deviation
-  Rejections rejected_;       // ascending
+  std::size_t stored_ = 0;
+  std::vector<Photograph> photographs_;
+  Rejections rejected_;  // ascending
 };
 
 }  // namespace relucent::acquisition

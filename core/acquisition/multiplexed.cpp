@@ -75,7 +75,13 @@ struct Taken {
   bool again = false;  // what an earlier photograph of it showed had been spoilt
 };
 
-/// From the coarsest level to the finest.
+struct Photographed {
+  Taken what;
+  DensePhotographs::Stored stored;
+};
+
+/// From the coarsest level to the finest. While a level's rows are solved, the first patterns of the next one
+/// are photographed: as many as each has, so that none is in vain.
 class Measurement {
  public:
   Measurement(const TreeContext& context, const photography::Photographer& photographer,
@@ -110,15 +116,21 @@ class Measurement {
                                     RELUCENT_MESSAGE("stage.dense-patterns", "patterns in blocks of {} px")
                                         .with(as::label(1 << level)));
       if (auto interrupted = photograph(level, patterns, part)) return interrupted;
-      model_.details = detailsAt(level);
       if (level == 0) {
         if (auto interrupted = refine(part)) return interrupted;
         break;
       }
-      model_.details = 0;
-      solve();
-      model_.details = detailsAt(level);
-      if (auto interrupted = settle(part)) return interrupted;
+      std::vector<std::size_t> spoilt;
+      auto solveLevel = [&] {
+        model_.details = 0;
+        solve();
+        model_.details = detailsAt(level);
+        spoilt = judge(0);
+      };
+      auto disturbed =
+          computeWhile(solveLevel, [&] { return photographAhead(level - 1, 0, fewestPatterns, part); });
+      if (disturbed) return interrupted(*disturbed);
+      if (auto interrupted = settle(spoilt, part)) return interrupted;
       tellDraft(level);
       if ((isStopped_ = progress.stopAndKeep())) break;
       divide(level);
@@ -142,9 +154,17 @@ class Measurement {
   std::optional<sentinels::Interruption> interrupted(sentinels::Interruption how);
   int patternsFor(int level) const;
   std::optional<sentinels::Interruption> photograph(int level, int patterns, Progress& part);
-  std::optional<sentinels::Interruption> take(const std::vector<Taken>& wanted, Progress& part);
+  std::optional<sentinels::Interruption> photographAhead(int level, int first, int patterns, Progress& part);
+  std::optional<sentinels::Interruption> photograph(Taken what, std::vector<Photographed>& to,
+                                                    Progress& part);
+  std::optional<sentinels::Interruption> take(int level, const std::vector<Taken>& wanted,
+                                              std::vector<Photographed> photographed, Progress& part);
+  void told(int level, int patterns, Progress& part) const;
+  ProjectorStack patternOf(const Taken& what) const {
+    return multiplexing::blockPattern(references_.projectors, what.level, what.number, settings_.seed);
+  }
   std::optional<sentinels::Interruption> refine(Progress& part);
-  std::optional<sentinels::Interruption> settle(Progress& part);
+  std::optional<sentinels::Interruption> settle(const std::vector<std::size_t>& spoilt, Progress& part);
   std::vector<std::size_t> judge(std::size_t heldOut);
   void tellDraft(int level, double error = 0.0) const;
   bool isJudged(std::size_t row) const;
@@ -158,8 +178,8 @@ class Measurement {
   Prediction predict();
   Prediction predicted(std::size_t row, const DensePhotographs::Rows& shown,
                        const Eigen::ArrayX3f& predictions) const;
-  void finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
-                 MeasuredTransport& measured) const;
+  void finishRow(std::size_t row, const RowFit& fit, const Eigen::Array3f& floodVariance,
+                 std::vector<Code>& codes, MeasuredTransport& measured) const;
 
   const TreeContext& context_;
   const photography::References& references_;
@@ -169,9 +189,10 @@ class Measurement {
   multiplexing::PatternMeans means_;
   multiplexing::RowSettings model_;
   std::vector<Row> rows_;
-  std::vector<float> thresholds_;  // relative to F
-  std::vector<int> levels_;        // patterns of the levels that have begun
-  std::vector<Taken> taken_;       // a photograph each
+  std::vector<float> thresholds_;    // relative to F
+  std::vector<int> levels_;          // patterns of the levels that have begun
+  std::vector<Taken> taken_;         // a photograph each
+  std::vector<Photographed> ahead_;  // of patterns that the rows do not know yet
   std::vector<Division> divisions_;
   int start_ = 0;           // the coarsest level
   bool isStopped_ = false;  // before it was as fine as asked for
@@ -227,38 +248,60 @@ int Measurement::patternsFor(int level) const {
                     fewestPatterns, mostPatterns);
 }
 
+/// The level's next patterns, those included that were photographed ahead.
 std::optional<sentinels::Interruption> Measurement::photograph(int level, int patterns, Progress& part) {
   if (context_.watch.shots() - context_.watch.confirmed() >= fewUnconfirmed)
     if (auto disturbed = confirm(part)) return disturbed;
+  std::vector<Photographed> photographed = std::exchange(ahead_, {});
+  std::erase_if(photographed, [&](const Photographed& ahead) { return ahead.what.level != level; });
   std::vector<Taken> wanted;
-  for (int number = levels_.back() - patterns; number < levels_.back(); ++number)
+  for (int number = levels_.back() - patterns + static_cast<int>(photographed.size());
+       number < levels_.back(); ++number)
     wanted.push_back({level, number});
-  return take(wanted, part);
+  return take(level, wanted, std::move(photographed), part);
 }
 
-/// Photographs patterns of one level.
-std::optional<sentinels::Interruption> Measurement::take(const std::vector<Taken>& wanted, Progress& part) {
+/// Photographs patterns of a level while rows are solved without them.
+std::optional<sentinels::Interruption> Measurement::photographAhead(int level, int first, int patterns,
+                                                                    Progress& part) {
+  for (int number = first; number < first + patterns && !part.stopAndKeep(); ++number)
+    if (auto disturbed = photograph({level, number}, ahead_, part)) return disturbed;
+  return std::nullopt;
+}
+
+/// One photograph, which the rows do not know yet.
+std::optional<sentinels::Interruption> Measurement::photograph(Taken what, std::vector<Photographed>& to,
+                                                               Progress& part) {
+  auto seen = context_.watch.lightAt(patternOf(what), {cycle_[photographs_.stored() % cycle_.size()]}, part);
+  if (!seen) return seen.interruption();
+  what.shot = context_.watch.shots();
+  to.push_back({what, photographs_.store(*seen)});
+  return std::nullopt;
+}
+
+/// Photographs patterns of one level, and uses them and those that have been `photographed`.
+std::optional<sentinels::Interruption> Measurement::take(int level, const std::vector<Taken>& wanted,
+                                                         std::vector<Photographed> photographed,
+                                                         Progress& part) {
   std::optional<sentinels::Interruption> disturbed;
-  std::vector<ProjectorStack> shown;
-  for (Taken what : wanted) {
-    ProjectorStack pattern =
-        multiplexing::blockPattern(references_.projectors, what.level, what.number, settings_.seed);
-    auto seen = context_.watch.lightAt(pattern, {cycle_[photographs_.size() % cycle_.size()]}, part);
-    if (!seen) {
-      disturbed = seen.interruption();
-      break;
-    }
-    shown.push_back(std::move(pattern));
-    photographs_.add(*seen);
-    what.shot = context_.watch.shots();
-    taken_.push_back(what);
-    if (what.again) continue;
-    part.report(static_cast<double>(what.number + 1) /
-                static_cast<double>(what.level > 0 ? levels_.back() : mostFinest));
-    context_.observer.grew(levels_, what.number + 1);
+  for (const Taken& what : wanted) {
+    if ((disturbed = photograph(what, photographed, part))) break;
+    if (!what.again) told(level, what.number + 1, part);
   }
-  means_.add(wanted.front().level, shown);
+  std::vector<ProjectorStack> shown;
+  for (const Photographed& photograph : photographed) {
+    shown.push_back(patternOf(photograph.what));
+    photographs_.add(photograph.stored);
+    taken_.push_back(photograph.what);
+  }
+  means_.add(level, shown);
   return disturbed ? interrupted(*disturbed) : std::nullopt;
+}
+
+/// How many patterns of a level there are so far.
+void Measurement::told(int level, int patterns, Progress& part) const {
+  part.report(static_cast<double>(patterns) / static_cast<double>(level > 0 ? levels_.back() : mostFinest));
+  context_.observer.grew(levels_, patterns);
 }
 
 /// A check, unless there has just been one.
@@ -281,8 +324,13 @@ std::optional<sentinels::Interruption> Measurement::interrupted(sentinels::Inter
 std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
   double before = 0.0, error = 0.0;
   bool isFine = false;
+  model_.details = detailsAt(0);
   // The others wait for the last of these patterns.
-  solve([&](std::size_t row) { return isJudged(row); });
+  auto solveJudged = [this] { solve([this](std::size_t row) { return isJudged(row); }); };
+  const int ahead = levels_.back() + predictedPatterns <= mostFinest ? predictedPatterns : 0;
+  if (auto disturbed =
+          computeWhile(solveJudged, [&] { return photographAhead(0, levels_.back(), ahead, part); }))
+    return interrupted(*disturbed);
   while (!isFine && levels_.back() + predictedPatterns <= mostFinest && !part.stopAndKeep()) {
     levels_.back() += predictedPatterns;
     if (auto interrupted = photograph(0, predictedPatterns, part)) return interrupted;
@@ -292,7 +340,7 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     before = error;
   }
   isStopped_ = !isFine && part.stopAndKeep();
-  if (auto interrupted = settle(part)) return interrupted;
+  if (auto interrupted = settle(judge(0), part)) return interrupted;
   tellDraft(0, error);
   divide(0);
   return std::nullopt;
@@ -337,9 +385,9 @@ void Measurement::solve(const Wanted& wanted, std::size_t heldOut) {
             [](std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {});
 }
 
-/// Solves once more, leaves out what contradicts the rest, and photographs again what was spoilt.
-std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
-  std::vector<std::size_t> spoilt = judge(0);
+/// Photographs again what was spoilt.
+std::optional<sentinels::Interruption> Measurement::settle(const std::vector<std::size_t>& spoilt,
+                                                           Progress& part) {
   if (spoilt.empty()) return std::nullopt;
   std::map<int, std::vector<Taken>, std::greater<>> wanted;  // by level
   for (std::size_t number : spoilt) {
@@ -349,7 +397,7 @@ std::optional<sentinels::Interruption> Measurement::settle(Progress& part) {
     wanted[taken.level].push_back(taken);
   }
   for (const auto& [level, patterns] : wanted)
-    if (auto interrupted = take(patterns, part)) return interrupted;
+    if (auto interrupted = take(level, patterns, {}, part)) return interrupted;
   solve();
   return std::nullopt;
 }
@@ -404,8 +452,8 @@ Prediction Measurement::predicted(std::size_t row, const DensePhotographs::Rows&
 }
 
 /// The row's leaves as codes, what rounding leaves over handed on to the next, and what is known of them.
-void Measurement::finishRow(std::size_t row, const RowFit& fit, std::vector<Code>& codes,
-                            MeasuredTransport& measured) const {
+void Measurement::finishRow(std::size_t row, const RowFit& fit, const Eigen::Array3f& floodVariance,
+                            std::vector<Code>& codes, MeasuredTransport& measured) const {
   Eigen::Array3f flood = photographs_.flood(row);
   float scale = references_.fullScale[row] / 32767.0f, variance = 0.0f;
   transport::ColourBlock rest = transport::ColourBlock::Zero();
@@ -422,7 +470,7 @@ void Measurement::finishRow(std::size_t row, const RowFit& fit, std::vector<Code
   variance /= 9.0f * static_cast<float>(std::max<std::size_t>(1, fit.blocks.size()));
   Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * row]) = flood.square() * variance;
   Eigen::Map<Eigen::Array3f>(&measured.floods.light[3 * row]) = flood * fit.flood;
-  Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * row]) = flood.square() * fit.floodVariance;
+  Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * row]) = flood.square() * floodVariance;
 }
 
 MeasuredTransport Measurement::finish() {
@@ -446,7 +494,8 @@ MeasuredTransport Measurement::finish() {
         codes[row - begin].clear();
         if (rows_[row].leaves.empty()) continue;
         shown.read(row, 0, seen);
-        finishRow(row, regression.solve(rows_[row], seen), codes[row - begin], measured);
+        const RowFit& fit = regression.solve(rows_[row], seen);
+        finishRow(row, fit, regression.floodVariance(rows_[row]), codes[row - begin], measured);
         measured.unknown[row] = shown.hardlySeen(row) ? 1 : 0;
       }
     });

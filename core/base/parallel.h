@@ -2,11 +2,14 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 namespace relucent {
 
@@ -55,6 +58,37 @@ auto runWithBackground(const std::function<void()>& background, const Foreground
     }
   }();
   group.wait();
+  return finished;
+}
+
+/// Runs waiting() on this thread, which hardly uses its core, as while devices expose, and computing() on all
+/// cores; returns the result of the first when both are done. They must not touch the same data. An exception
+/// is rethrown here: that of waiting() if both throw, and then parallelFor() inside computing() ends early.
+template <typename Waiting>
+auto computeWhile(const std::function<void()>& computing, const Waiting& waiting) {
+  using Threads = tbb::global_control;
+  const int cores = tbb::this_task_arena::max_concurrency();
+  const bool allCores =
+      Threads::active_value(Threads::max_allowed_parallelism) >= static_cast<std::size_t>(cores);
+  // This thread is one of those that are allowed.
+  std::optional<Threads> another;
+  if (allCores) another.emplace(Threads::max_allowed_parallelism, static_cast<std::size_t>(cores) + 1);
+  tbb::task_arena arena(cores, allCores ? 0 : 1);
+  tbb::task_group group;
+  arena.execute([&] { group.run(computing); });
+  auto finished = [&]() -> decltype(waiting()) {
+    try {
+      return waiting();
+    } catch (...) {
+      group.cancel();
+      try {
+        arena.execute([&] { group.wait(); });
+      } catch (...) {  // NOLINT(bugprone-empty-catch): the other exception says more
+      }
+      throw;
+    }
+  }();
+  arena.execute([&] { group.wait(); });
   return finished;
 }
 

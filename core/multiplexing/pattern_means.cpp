@@ -82,17 +82,16 @@ void PatternMeans::keep(std::size_t count) {
   std::erase_if(batches_, [](const Batch& batch) { return batch.used == 0; });
 }
 
-std::size_t PatternMeans::storedNode(const Batch& batch, std::size_t node,
-                                     const transport::Node& place) const {
-  return node >= batch.first || !batch.pixels.empty() ? node
-                                                      : layout_.index(ancestor(layout_, place, batch.level));
+std::size_t PatternMeans::storedNode(const Batch& batch, std::size_t index,
+                                     const transport::Node& node) const {
+  return index >= batch.first || !batch.pixels.empty() ? index
+                                                       : layout_.index(ancestor(layout_, node, batch.level));
 }
 
-void PatternMeans::read(std::size_t node, const std::array<float*, 3>& means) const {
-  transport::Node place = layout_.node(node);
-  std::size_t at = 0;
+void PatternMeans::read(const transport::Node& node, const std::array<float*, 3>& means) const {
+  std::size_t index = layout_.index(node), at = 0;
   for (const Batch& batch : batches_) {
-    std::size_t count = batch.patterns, stride = 3 * count, stored = storedNode(batch, node, place);
+    std::size_t count = batch.patterns, stride = 3 * count, stored = storedNode(batch, index, node);
     for (std::size_t c = 0; c < 3; ++c) {
       float* to = means[c] + at;
       if (stored < batch.first) {

@@ -28,7 +28,7 @@ class PatternMeans {
   void keep(std::size_t count);
 
   /// A node's means in each channel, pattern after pattern.  Shapes: patterns() values each.
-  void read(std::size_t node, const std::array<float*, 3>& means) const;
+  void read(const transport::Node& node, const std::array<float*, 3>& means) const;
 
  private:
   /// The patterns of one add().
@@ -41,7 +41,7 @@ class PatternMeans {
     std::vector<std::uint16_t> blocks;  // [node][channel][pattern], from the first node on
   };
 
-  std::size_t storedNode(const Batch& batch, std::size_t node, const transport::Node& place) const;
+  std::size_t storedNode(const Batch& batch, std::size_t index, const transport::Node& node) const;
 
   transport::NodeLayout layout_;
   std::size_t patterns_ = 0;

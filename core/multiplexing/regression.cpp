@@ -11,7 +11,7 @@ namespace relucent::multiplexing {
 namespace {
 
 // The floods of black, red, green and blue are not better than this, relative.
-constexpr float floodVariance = 1e-7f;
+constexpr float referenceVariance = 1e-7f;
 // What the mixing of near or far light may be off by, relative to it.
 constexpr float kindColours = 0.25f;
 // A leaf's colours are unknowns of their own if over all patterns they show beyond this share of the noise.
@@ -54,22 +54,24 @@ const RowFit& RowRegression::solve(Row& row, const RowLight& seen) {
   solveLight(row);
   for (Channel& channel : channels_) findColours(channel);
   findMisfit();
-  findFloodVariance(row);
   adopt(row);
   return fit_;
 }
 
 const Eigen::ArrayX3f& RowRegression::predict() {
-  Eigen::Index patterns = equations_ - floods_;
-  predictions_.resize(patterns, 3);
-  for (std::size_t c = 0; c < 3; ++c) {
-    auto light = predictions_.col(at(c));
-    light.setConstant(channels_[c].amplitude.tail<1>()[0] * channels_[c].colours.tail<1>()[0]);
-    for (std::size_t j = 0; j < fit_.blocks.size(); ++j)
-      for (std::size_t k = 0; k < 3; ++k)
-        light += fit_.blocks[j](at(c), at(k)) * design_[k].col(at(j)).segment(floods_, patterns).array();
-  }
+  Eigen::ArrayX3f light(stride(equations_), 3);
+  for (std::size_t c = 0; c < 3; ++c)
+    light.col(at(c)).setConstant(channels_[c].amplitude.tail<1>()[0] * channels_[c].colours.tail<1>()[0]);
+  for (Eigen::Index j = 0; j < leaves_; ++j)
+    kernels_.relight(designOf(j), static_cast<std::size_t>(light.rows()),
+                     fit_.blocks[static_cast<std::size_t>(j)].data(),
+                     {light.col(0).data(), light.col(1).data(), light.col(2).data()});
+  predictions_ = light.middleRows(floods_, equations_ - floods_);
   return predictions_;
+}
+
+std::array<const float*, 3> RowRegression::designOf(Eigen::Index leaf) const {
+  return {design_[0].col(leaf).data(), design_[1].col(leaf).data(), design_[2].col(leaf).data()};
 }
 
 void RowRegression::readDesign(const Row& row) {
@@ -79,8 +81,7 @@ void RowRegression::readDesign(const Row& row) {
     design.bottomRows(design.rows() - equations_).setZero();
   }
   for (Eigen::Index j = 0; j < leaves_; ++j) {
-    std::size_t node = row.leaves[static_cast<std::size_t>(j)].node;
-    transport::Node place = means_.layout().node(node);
+    transport::Node place = means_.layout().node(row.leaves[static_cast<std::size_t>(j)].node);
     kinds_[static_cast<std::size_t>(j)] = at(kindOf(place, settings_));
     std::array<float*, 3> means{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -89,7 +90,7 @@ void RowRegression::readDesign(const Row& row) {
       column[3 * place.projector + at(k)] = 1.0f;
       means[k] = column.data() + floods_;
     }
-    means_.read(node, means);
+    means_.read(place, means);
   }
 }
 
@@ -111,41 +112,41 @@ float RowRegression::colourSpread(const Row& row, Eigen::Index leaf) const {
 }
 
 void RowRegression::chooseDetails(const Row& row) {
-  Eigen::Index patterns = equations_ - floods_;
+  details_.clear();
+  if (settings_.details == 0) return;
+  auto length = static_cast<std::size_t>(stride(equations_));
+  // Floods, and what is beyond the end, are zeros and ones.
+  const float others = 0.25f * static_cast<float>(stride(equations_) - (equations_ - floods_));
   std::vector<std::pair<float, Eigen::Index>> shown;
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     float variation = 0.0f;
-    for (const Columns& design : design_)
-      variation += (design.col(j).segment(floods_, patterns).array() - 0.5f).square().sum();
+    for (const float* design : designOf(j)) variation += kernels_.variation(design, length) - others;
     float spread = colourSpread(row, j), mixing = 1.0f / 3.0f;
     float energy = spread * spread * mixing * mixing * variation;
     if (energy > shownColours * (fit_.noise + row.excess)) shown.push_back({-energy, j});
   }
   std::sort(shown.begin(), shown.end());
   shown.resize(std::min(shown.size(), static_cast<std::size_t>(settings_.details)));
-  details_.clear();
   for (const auto& [energy, leaf] : shown) details_.push_back(leaf);
 }
 
 void RowRegression::gatherKinds(const Row& row) {
-  Eigen::Index kinds = at(row.mixing.size()), patterns = equations_ - floods_;
+  Eigen::Index kinds = at(row.mixing.size()), length = stride(equations_);
   std::vector<std::uint8_t> detailed(row.leaves.size(), 0);
   for (Eigen::Index leaf : details_) detailed[static_cast<std::size_t>(leaf)] = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    known_[k].setZero(stride(equations_), kinds);
-    lumped_[k].setZero(stride(equations_), kinds);
+    known_[k].setZero(length, kinds);
+    lumped_[k].setZero(length, kinds);
   }
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     Eigen::Index kind = kinds_[static_cast<std::size_t>(j)];
     float light = std::max<float>(0.0f, row.leaves[static_cast<std::size_t>(j)].light),
-          spread = colourSpread(row, j);
-    for (std::size_t k = 0; k < 3; ++k) {
-      known_[k].col(kind) += light * design_[k].col(j);
-      if (!detailed[static_cast<std::size_t>(j)])
-        lumped_[k].col(kind).segment(floods_, patterns).array() +=
-            spread * spread * (design_[k].col(j).segment(floods_, patterns).array() - 0.5f).square();
-    }
+          spread = detailed[static_cast<std::size_t>(j)] ? 0.0f : colourSpread(row, j);
+    for (std::size_t k = 0; k < 3; ++k)
+      kernels_.gather(design_[k].col(j).data(), static_cast<std::size_t>(length), light,
+                      known_[k].col(kind).data(), spread * spread, lumped_[k].col(kind).data());
   }
+  for (Columns& lumped : lumped_) lumped.topRows(floods_).setZero();  // floods are known to all leaves
 }
 
 void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Index c) {
@@ -160,7 +161,7 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
   Eigen::ArrayXf variance(columns.rows());
   variance.head(equations_) = seen.variance.col(c);
   variance.tail(columns.rows() - equations_).setConstant(std::numeric_limits<float>::infinity());
-  variance.head(floods_) += floodVariance;
+  variance.head(floods_) += referenceVariance;
   variance.segment(floods_, equations_ - floods_) += row.excess;
   auto mixingOf = [&](Eigen::Index kind, std::size_t k) {
     return row.mixing[static_cast<std::size_t>(kind)](c, at(k)) + settings_.anyColour;
@@ -190,12 +191,9 @@ void RowRegression::fillColumns(const Row& row, const RowLight& seen, Eigen::Ind
   for (Eigen::Index j = 0; j < leaves_; ++j) {
     const Leaf& leaf = row.leaves[static_cast<std::size_t>(j)];
     const auto& mixing = row.mixing[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(j)])];
-    const float spread = leaf.spread, expected = leaf.expected;
-    const auto shown =
-        weight * (mixing(c, 0) * design_[0].col(j).array() + mixing(c, 1) * design_[1].col(j).array() +
-                  mixing(c, 2) * design_[2].col(j).array());
-    columns.col(colours + j).array() = spread * shown;
-    if (expected != 0.0f) left -= expected * shown;
+    kernels_.weigh(designOf(j), static_cast<std::size_t>(columns.rows()),
+                   {mixing(c, 0), mixing(c, 1), mixing(c, 2)}, weight.data(), leaf.spread,
+                   columns.col(colours + j).data(), leaf.expected, columns.col(columns.cols() - 1).data());
   }
 }
 
@@ -263,7 +261,8 @@ void RowRegression::findMisfit() {
   fit_.misfit = freedom > 0.0 ? static_cast<float>(squared / freedom) : 1.0f;
 }
 
-void RowRegression::findFloodVariance(const Row& row) {
+Eigen::Array3f RowRegression::floodVariance(const Row& row) const {
+  Eigen::Array3f variances;
   // Of the sum over leaves and projector channels. Light and colours cannot be told apart each for itself:
   // more light of darker colours is the same.
   Eigen::VectorXf light(leaves_);
@@ -287,8 +286,9 @@ void RowRegression::findFloodVariance(const Row& row) {
       variance += share * light[j];
       light.tail(leaves_ - j - 1) -= share * system_.row(j).segment(j + 1, leaves_ - j - 1).transpose();
     }
-    fit_.floodVariance[at(c)] = variance;
+    variances[at(c)] = variance;
   }
+  return variances;
 }
 
 void RowRegression::adopt(Row& row) {

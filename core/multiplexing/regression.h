@@ -22,12 +22,11 @@ struct RowLight {
 
 /// What the regression of a row found besides the light of its leaves.
 struct RowFit {
-  std::vector<transport::ColourBlock> blocks;      // of T, relative to F_c, a leaf each
-  std::vector<transport::ColourBlock> sums;        // of blocks of near and far leaves, as Row::mixing
-  Eigen::Array3f flood{0.0f, 0.0f, 0.0f};          // of T 1 in each channel, relative to F_c ...
-  Eigen::Array3f floodVariance{0.0f, 0.0f, 0.0f};  // ... and its variance
-  float misfit = 0.0f;                             // squared residual over its variance, mean
-  float noise = 0.0f;                              // the variance that the photographs' noise gives, median
+  std::vector<transport::ColourBlock> blocks;  // of T, relative to F_c, a leaf each
+  std::vector<transport::ColourBlock> sums;    // of blocks of near and far leaves, as Row::mixing
+  Eigen::Array3f flood{0.0f, 0.0f, 0.0f};      // of T 1 in each channel, relative to F_c
+  float misfit = 0.0f;                         // squared residual over its variance, mean
+  float noise = 0.0f;                          // the variance that the photographs' noise gives, median
 };
 
 /// One row of T by Gaussian regression from photographs of dense patterns. With v the means of a pattern over
@@ -50,6 +49,8 @@ class RowRegression {
   const RowFit& solve(Row& row, const RowLight& seen);
   /// What the last fit says that the patterns show, the offset of e included, seen or not: a row each.
   const Eigen::ArrayX3f& predict();
+  /// Variance of the last fit's flood, of the same row.
+  Eigen::Array3f floodVariance(const Row& row) const;
 
  private:
   using Columns = Eigen::MatrixXf;  // a row an equation, of which there is a multiple of `lanes`
@@ -75,8 +76,8 @@ class RowRegression {
   void solveLight(Row& row);
   void findColours(Channel& channel);
   void findMisfit();
-  void findFloodVariance(const Row& row);
   void adopt(Row& row);
+  std::array<const float*, 3> designOf(Eigen::Index leaf) const;
   float colourSpread(const Row& row, Eigen::Index leaf) const;
 
   const PatternMeans& means_;

@@ -40,11 +40,12 @@ std::size_t NodeLayout::index(const Node& node) const {
 
 Node NodeLayout::node(std::size_t index) const {
   require(index < count_, "node {} of {}", index, count_);
-  for (int level = levels() - 1; level >= 0; --level) {
-    for (std::size_t projector = grids_.size(); projector-- > 0;) {
+  // Most nodes that anyone asks about are of the finest levels.
+  for (int level = 0; level < levels(); ++level) {
+    for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
       if (level >= levels(projector)) continue;
       const Grid& grid = grids_[projector][static_cast<std::size_t>(level)];
-      if (index < grid.offset) continue;
+      if (index >= grid.offset + grid.size.count()) continue;
       Pixel place = pixelAt(grid.size, index - grid.offset);
       return {static_cast<int>(projector), level, place.x, place.y};
     }

@@ -204,6 +204,26 @@ class TestMultiplexed : public QObject {
     QVERIFY2(left < 0.02, qPrintable(QString::number(left)));
   }
 
+  /// The next level's first patterns are photographed while the rows of a level are solved.
+  void devicesDoNotWaitForWhatIsSolved() {
+    struct Looking : sentinels::AcquisitionObserver {
+      bool wantsDrafts() const override { return true; }
+      void grew(const std::vector<int>&, int) override { told = captures; }
+      void drafted(const Draft& draft) override {
+        if (draft.level > 0) ahead.push_back(captures - told);
+      }
+      int captures = 0, told = 0;
+      std::vector<int> ahead;  // of what rows were told
+    } looking;
+    Venue venue = largerVenue();
+    venue.beforeCapture = [&](const rig::CaptureRequest&) { ++looking.captures; };
+    rig::NoShotLog log;
+    Run run(venue);
+    const Acquisition whole = run(log, {}, &looking);
+    QVERIFY(looking.ahead.size() >= 3);
+    QVERIFY(std::ranges::all_of(looking.ahead, [](int shots) { return shots >= 8; }));
+  }
+
   /// Blocks cannot show what is inside them: that is no reason to leave a camera pixel out.
   void whatIsCoarseIsNotFlagged() {
     Venue venue = largerVenue();

@@ -6,7 +6,9 @@
 
 #include <QtTest>
 #include <atomic>
+#include <chrono>
 #include <numeric>
+#include <semaphore>
 #include <stdexcept>
 #include <vector>
 
@@ -62,6 +64,50 @@ class TestParallel : public QObject {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       QCOMPARE(chunkedSum(values), reference);
     }
+  }
+
+  /// Each waits for the other, so that neither is done before the other has begun.
+  void devicesAreWaitedForWhileAllCoresCompute() {
+    std::binary_semaphore computing{0}, waiting{0};
+    std::atomic<int> done = 0;
+    const bool met = computeWhile(
+        [&] {
+          computing.release();
+          if (waiting.try_acquire_for(std::chrono::seconds(60)))
+            parallelFor(0, 1000, 1, [&](std::size_t) { ++done; });
+        },
+        [&] {
+          waiting.release();
+          return computing.try_acquire_for(std::chrono::seconds(60));
+        });
+    QVERIFY(met);
+    QCOMPARE(done.load(), 1000);
+  }
+  void oneThreadIsEnoughToComputeWhileWaiting() {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    int computed = 0;
+    QCOMPARE(computeWhile([&] { computed = 1; }, [] { return 2; }), 2);
+    QCOMPARE(computed, 1);
+  }
+  void exceptionsEndWhatIsComputedMeanwhile() {
+    QVERIFY_THROWS_EXCEPTION(std::runtime_error,
+                             computeWhile([] { throw std::runtime_error("no disk"); }, [] { return 1; }));
+    std::binary_semaphore computing{0};
+    std::atomic<bool> ended = false;
+    auto computeWithoutEnd = [&](std::size_t item) {
+      if (item == 0) computing.release();
+      const auto most = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+      while (!tbb::is_current_task_group_canceling() && std::chrono::steady_clock::now() < most) {
+      }
+      if (tbb::is_current_task_group_canceling()) ended = true;
+    };
+    auto fail = [&]() -> int {
+      computing.acquire();
+      throw std::logic_error("no camera");
+    };
+    QVERIFY_THROWS_EXCEPTION(std::logic_error,
+                             computeWhile([&] { parallelFor(0, 1000, 1, computeWithoutEnd); }, fail));
+    QVERIFY(ended);
   }
 
   void anExceptionComesThrough() {

@@ -66,7 +66,7 @@ class TestPatterns : public QObject {
     std::array<std::vector<float>, 3> read;
     for (std::vector<float>& channel : read) channel.resize(patterns.size());
     for (std::size_t node = 0; node < layout.count(); ++node) {
-      means.read(node, {read[0].data(), read[1].data(), read[2].data()});
+      means.read(means.layout().node(node), {read[0].data(), read[1].data(), read[2].data()});
       for (std::size_t number = 0; number < patterns.size(); ++number)
         for (std::size_t c = 0; c < 3; ++c)
           // Rounded to 1/65535.

@@ -137,8 +137,9 @@ class TestRegression : public QObject {
     Scene scene(60);
     RowRegression regression(scene.means, {});
     const RowFit& fit = regression.solve(scene.row, scene.seen(0.01f, 0.01f));
+    const Eigen::Array3f variance = regression.floodVariance(scene.row);
     for (Eigen::Index c = 0; c < 3; ++c) {
-      double deviation = std::sqrt(static_cast<double>(fit.floodVariance[c]));
+      double deviation = std::sqrt(static_cast<double>(variance[c]));
       QVERIFY2(deviation < 0.7 * 0.01 * std::sqrt(6.0), qPrintable(QString::number(deviation)));
       QVERIFY2(std::abs(static_cast<double>(fit.flood[c]) - 1.0) < 4.0 * deviation,
                qPrintable(QString("%1 +- %2").arg(static_cast<double>(fit.flood[c])).arg(deviation)));

@@ -80,6 +80,44 @@ class TestSystemKernels : public QObject {
                 .maxCoeff() < 1e-3);
   }
 
+  void sumsFollowTheirEquations_data() {
+    QTest::addColumn<int>("kernels");
+    for (std::size_t set = 0; set < systemKernels().size(); ++set)
+      QTest::addRow("%s", systemKernels()[set].instructions) << static_cast<int>(set);
+  }
+  void sumsFollowTheirEquations() {
+    QFETCH(int, kernels);
+    const SystemKernels& of = systemKernels()[static_cast<std::size_t>(kernels)];
+    const Eigen::MatrixXf values = randomColumns(48, 8);
+    const std::size_t length = 48;
+    const std::array<const float*, 3> design{values.col(0).data(), values.col(1).data(),
+                                             values.col(2).data()};
+    const Eigen::MatrixXf colours = values.leftCols(3);
+    auto near = [](const auto& a, const auto& b) { return (a - b).cwiseAbs().maxCoeff() < 1e-4f; };
+
+    float variation = of.variation(design[0], length);
+    QVERIFY(std::abs(variation - (values.col(0).array() - 0.5f).square().sum()) < 1e-3f);
+
+    Eigen::VectorXf light = values.col(3), square = values.col(4);
+    of.gather(design[0], length, 2.0f, light.data(), 3.0f, square.data());
+    QVERIFY(near(light, values.col(3) + 2.0f * values.col(0)));
+    QVERIFY(near(square.array(), values.col(4).array() + 3.0f * (values.col(0).array() - 0.5f).square()));
+
+    const Eigen::Vector3f mixing(0.5f, -0.3f, 0.8f);
+    Eigen::VectorXf column = values.col(5), left = values.col(6);
+    of.weigh(design, length, {mixing[0], mixing[1], mixing[2]}, values.col(7).data(), 0.7f, column.data(),
+             0.4f, left.data());
+    const Eigen::VectorXf shown = values.col(7).cwiseProduct(colours * mixing);
+    QVERIFY(near(column, 0.7f * shown));
+    QVERIFY(near(left, values.col(6) - 0.4f * shown));
+
+    const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> block = values.block<3, 3>(0, 5);
+    Eigen::MatrixXf lights = values.middleCols(3, 3);
+    of.relight(design, length, block.data(),
+               {lights.col(0).data(), lights.col(1).data(), lights.col(2).data()});
+    QVERIFY(near(lights, values.middleCols(3, 3) + colours * block.transpose()));
+  }
+
   /// Rounding cannot make a pivot smaller than its prior.
   void pivotsStayAbovePriors() {
     Eigen::MatrixXf columns = randomColumns(8, 1).replicate(1, 12) * 3e4f;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/calibration/leftovers.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/shot_journal.h"
+
+namespace relucent::calibration {
+namespace fs = std::filesystem;
+namespace {
+
+/// The entries of all stages. The folder is open and locked: its manifest was found sound.
+Json resultsIn(const CalibrationFolder& folder) {
+  return Json::parse(readFile(folder.path() / CalibrationFolder::manifestName)).at("results");
+}
+
+bool isHidden(const fs::path& path) {
+  return path.filename().string().starts_with(".");
+}
+
+}  // namespace
+
+std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
+  std::set<std::string> named;
+  for (const Json& entries : resultsIn(folder))
+    for (const Json& entry : entries) named.insert(entry.at("folder").get<std::string>());
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path(), code)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".calibration.part") && name.ends_with(".relucent")) found.push_back(entry.path());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
+    if (isShotLeftover(entry.path())) found.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "results", code)) {
+    const std::string name = entry.path().filename().string();
+    const auto isOfStage = [&](Stage stage) { return name.starts_with(std::string(nameOf(stage)) + "-"); };
+    const std::vector<Stage> stages = allValues<Stage>();
+    const bool isPart = isHidden(entry.path()) && name.ends_with(".part");
+    if (isPart ||
+        (std::ranges::any_of(stages, isOfStage) && entry.is_directory(code) && !named.contains(name)))
+      found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<fs::path> replacedResults(const CalibrationFolder& folder) {
+  std::vector<fs::path> replaced;
+  for (const Json& entries : resultsIn(folder)) {
+    std::set<std::string> newer;
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+      const bool isNewest = newer.insert(entry->at("inputs").get<std::string>()).second;
+      const std::string name = entry->at("folder").get<std::string>();
+      std::error_code code;
+      if (!isNewest && !name.empty() && fs::is_directory(folder.path() / "results" / name, code))
+        replaced.push_back(folder.path() / "results" / name);
+    }
+  }
+  std::ranges::sort(replaced);
+  return replaced;
+}
+
+}  // namespace relucent::calibration

@@ -21,7 +21,7 @@ using calibration::Stage;
 
 /// In a manifest's settings; no fingerprint knows either.
 constexpr const char* keptSection = "kept_photographs";
-constexpr const char* removedSection = "photographs_removed";  // when the results were stored, by stage
+constexpr const char* removedSection = "photographs_removed";  // the result without any, by its folder
 constexpr Stage photographed[]{Stage::linearization, Stage::acquisition};
 
 bool isShot(const fs::directory_entry& entry) {
@@ -54,14 +54,16 @@ std::vector<fs::path> asideFolders(const CalibrationFolder& folder) {
   return aside;
 }
 
+/// The result that follows from the photographs, by the name of its folder: no two have the same.
+std::string lightTransportOf(const CalibrationFolder& folder) {
+  const auto result = resultOf(folder, Stage::acquisition);
+  return result ? result->folder.filename().string() : std::string();
+}
+
 void tellRemoved(CalibrationFolder& folder) {
-  Json removed = Json::object();
-  for (Stage stage : photographed)
-    if (const auto result = currentResultOf(folder, stage))
-      removed[std::string(nameOf(stage))] = result->stored;
+  if (werePhotographsRemoved(folder)) return;
   Json settings = folder.settings();
-  if (settings.value(removedSection, Json()) == removed) return;
-  settings[removedSection] = std::move(removed);
+  settings[removedSection] = lightTransportOf(folder);
   folder.setSettings(std::move(settings));
 }
 
@@ -127,10 +129,8 @@ DiskShare removePhotographs(CalibrationFolder& folder) {
   return removePhotographs(folder, keptPhotographs(folder));
 }
 
-bool werePhotographsRemoved(const CalibrationFolder& folder, const calibration::StageResult& result) {
-  const Json removed = folder.settings().value(removedSection, Json());
-  const std::string stage(nameOf(result.stage));
-  return removed.is_object() && removed.value(stage, Json()) == result.stored;
+bool werePhotographsRemoved(const CalibrationFolder& folder) {
+  return folder.settings().value(removedSection, Json()) == lightTransportOf(folder);
 }
 
 }  // namespace relucent::pipeline

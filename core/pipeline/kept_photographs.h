@@ -52,14 +52,15 @@ struct DiskShare {
   std::uint64_t bytes = 0;
 };
 
-/// Removes them. The manifest says first whose photographs are gone, so that this is known however it ends.
+/// Removes them. The manifest says first which result's photographs are gone, so that this is known however
+/// it ends.
 /// Throws: Error{disk} if one cannot be removed.
 DiskShare removePhotographs(calibration::CalibrationFolder& folder, KeptPhotographs kept);
 /// By the calibration's own choice: the end of a measurement.
 DiskShare removePhotographs(calibration::CalibrationFolder& folder);
 
-/// Whether photographs of this result were removed.
-bool werePhotographsRemoved(const calibration::CalibrationFolder& folder,
-                            const calibration::StageResult& result);
+/// Whether the photographs were removed that the light transport follows from: with other settings
+/// everything is photographed again.
+bool werePhotographsRemoved(const calibration::CalibrationFolder& folder);
 
 }  // namespace relucent::pipeline

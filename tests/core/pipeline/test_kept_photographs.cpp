@@ -184,8 +184,7 @@ class TestKeptPhotographs : public QObject {
     QVERIFY(fs::exists(calibration / "shots/notes.txt"));
     QVERIFY(contentOf(calibration / "results") == results);
     const CalibrationFolder folder = CalibrationFolder::open(calibration, Access::read);
-    for (Stage stage : {Stage::linearization, Stage::acquisition})
-      QCOMPARE(werePhotographsRemoved(folder, *folder.latest(stage)), !shotsStay);
+    QCOMPARE(werePhotographsRemoved(folder), !shotsStay);
   }
 
   void aNewCalibrationKeepsWhatItIsToldTo() {
@@ -212,7 +211,7 @@ class TestKeptPhotographs : public QObject {
       sentinels::AcquisitionObserver nobody;
       goOnMeasuring(folder, devices.rig, measureLinearization(folder, devices.rig, quiet), {}, nobody, {},
                     quiet);
-      QVERIFY(!werePhotographsRemoved(folder, *folder.latest(Stage::acquisition)));
+      QVERIFY(!werePhotographsRemoved(folder));
     };
     measureFiner(copyOfMeasured("with"), KeptPhotographs::everything);
     measureFiner(copyOfMeasured("without"), KeptPhotographs::results);

@@ -6,6 +6,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/venue/venue.h"
 #include "views/image_view.h"
@@ -178,6 +179,19 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.status().state, StepState::done);
     QVERIFY(!page.banner());
     QVERIFY(page.cost().value().patterns > before);
+  }
+
+  void whatIsKeptCanBeChosenAndTakenBack() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::everything);
+    page.setKeptPhotographs(KeptPhotographs::results);
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::results);
+    QCOMPARE(
+        pipeline::keptPhotographs(CalibrationFolder::open(session_->path(), CalibrationFolder::Access::read)),
+        KeptPhotographs::results);
+    page.undoStack().undo();
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::everything);
   }
 
   /// Law: finer takes longer.

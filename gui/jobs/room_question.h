@@ -16,6 +16,8 @@ class RoomQuestion : public QObject, public calibration::RoomWaiter {
   Q_OBJECT
 
  public:
+  explicit RoomQuestion(QObject* parent = nullptr) : QObject(parent) {}
+
   Answer wait(const calibration::FullDisk& disk) override;
   void over() override;
 

@@ -28,7 +28,7 @@ constexpr std::chrono::seconds beforeRetry{5};
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()) {
+    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()), room_(this) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
     finish();

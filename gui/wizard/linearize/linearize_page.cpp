@@ -15,7 +15,8 @@
 
 namespace relucent::gui {
 
-LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(stepName, session, parent) {
+LinearizePage::LinearizePage(Session& session, QObject* parent)
+    : DevicePage(stepName, session, parent), room_(this) {
   next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   measure_ = addCommand(Icon::play, [this] { measure(false); });
   stop_ = addCommand(

@@ -2682,6 +2682,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>عندئذ يحتاج القياس بإعدادات أخرى إلى لقطات جديدة أقل.</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>حُذفت لقطات القياس الأخير: ستُلتقط كلها من جديد.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -2618,6 +2618,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>Eine Messung mit anderen Einstellungen braucht dann weniger neue Fotos.</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Die Fotos der letzten Messung wurden entfernt: Alle werden neu aufgenommen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

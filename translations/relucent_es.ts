@@ -2618,6 +2618,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>Medir con otros ajustes necesita entonces menos fotografías nuevas.</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Las de la última medición se eliminaron: se toman todas de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

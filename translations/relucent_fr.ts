@@ -2618,6 +2618,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>Une mesure avec d’autres réglages demande alors moins de nouvelles photos.</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Celles de la dernière mesure ont été supprimées&#x202f;: toutes seront reprises.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -2618,6 +2618,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>Una misura con altre impostazioni richiede allora meno foto nuove.</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Quelle dell’ultima misura sono state rimosse: vengono scattate tutte di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

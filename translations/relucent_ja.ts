@@ -2602,6 +2602,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>別の設定で測定するとき、新しい写真が少なくて済みます。</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>前回の測定の写真は削除されているため、すべて撮り直します。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

@@ -2602,6 +2602,10 @@
         <source>Measuring with other settings then needs fewer new photographs.</source>
         <translation>用其他设置测量时，需要的新照片会更少。</translation>
     </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>上次测量的照片已删除：全部照片将重新拍摄。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>

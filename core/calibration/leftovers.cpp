@@ -50,19 +50,22 @@ std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
 }
 
 std::vector<fs::path> replacedResults(const CalibrationFolder& folder) {
-  std::vector<fs::path> replaced;
+  // The folder of a result that was removed may have become that of another since.
+  std::set<std::string> found, replaced;
   for (const Json& entries : resultsIn(folder)) {
-    std::set<std::string> newer;
+    std::set<std::string> inputs;
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-      const bool isNewest = newer.insert(entry->at("inputs").get<std::string>()).second;
-      const std::string name = entry->at("folder").get<std::string>();
-      std::error_code code;
-      if (!isNewest && !name.empty() && fs::is_directory(folder.path() / "results" / name, code))
-        replaced.push_back(folder.path() / "results" / name);
+      const bool isNewest = inputs.insert(entry->at("inputs").get<std::string>()).second;
+      (isNewest ? found : replaced).insert(entry->at("folder").get<std::string>());
     }
   }
-  std::ranges::sort(replaced);
-  return replaced;
+  std::vector<fs::path> folders;
+  for (const std::string& name : replaced) {
+    std::error_code code;
+    const fs::path result = folder.path() / "results" / name;
+    if (!name.empty() && !found.contains(name) && fs::is_directory(result, code)) folders.push_back(result);
+  }
+  return folders;
 }
 
 }  // namespace relucent::calibration

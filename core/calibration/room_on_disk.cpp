@@ -2,13 +2,22 @@
 #include "relucent/calibration/room_on_disk.h"
 
 #include <limits>
-#include <utility>
 
 #include "relucent/base/disk_full.h"
 
 namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
+
+/// False: the disk is full.
+bool hasWritten(const RoomOnDisk::Action& write) {
+  try {
+    write();
+  } catch (const DiskFull&) {
+    return false;
+  }
+  return true;
+}
 
 /// Tells the waiter at the end, however that comes.
 class Pause {
@@ -35,44 +44,37 @@ std::uint64_t RoomWaiter::freeBytes(const fs::path& folder) const {
   return code ? std::numeric_limits<std::uint64_t>::max() : space.available;
 }
 
-void RoomOnDisk::pause(std::uint64_t needed, const Action& pausing,
-                       const std::function<bool(std::uint64_t)>& isEnough) {
-  const Pause pause(*waiter_, paused_);
-  if (pausing) pausing();
-  while (true) {
-    progress_.checkpoint();
-    const std::uint64_t free = waiter_->freeBytes(folder_);
-    if (isEnough(free)) return;
-    if (waiter_->wait({folder_, free, needed}) == RoomWaiter::Answer::goOn) {
-      isTold_ = true;
-      return;
-    }
-  }
+bool RoomOnDisk::mayGoOn(std::uint64_t needed) {
+  progress_.checkpoint();
+  const FullDisk disk{folder_, waiter_->freeBytes(folder_), needed};
+  if (disk.free >= needed) return true;
+  isTold_ = waiter_->wait(disk) == RoomWaiter::Answer::goOn;
+  return isTold_;
 }
 
 void RoomOnDisk::waitFor(std::uint64_t least, std::uint64_t enough, const Action& pausing) {
   if (waiter_ == nullptr || isTold_ || waiter_->freeBytes(folder_) >= least) return;
-  pause(enough, pausing, [enough](std::uint64_t free) { return free >= enough; });
+  const Pause pause(*waiter_, paused_);
+  if (pausing) pausing();
+  while (!mayGoOn(enough)) {
+  }
 }
 
 void RoomOnDisk::write(std::uint64_t bytes, const Action& write, const Action& pausing) {
-  while (true) {
-    try {
-      return write();
-    } catch (const DiskFull&) {
-      if (waiter_ == nullptr)
-        throw Error(
-            ErrorKind::disk, RELUCENT_MESSAGE("calibration.disk-full", "the disk is full"),
-            RELUCENT_MESSAGE("calibration.make-room-then-resume",
-                             "every photograph so far is safe: free at least {} MB there, then resume")
-                .with(as::megabytes(bytes + (std::uint64_t{1} << 20))),
-            folder_.string());
-    }
-    isTold_ = false;
-    // The free space may be a lie where the user has a quota: whoever has waited once tries.
-    bool waited = false;
-    pause(bytes, pausing, [&](std::uint64_t free) { return std::exchange(waited, true) && free >= bytes; });
-  }
+  if (hasWritten(write)) return;
+  if (waiter_ == nullptr)
+    throw Error(ErrorKind::disk, RELUCENT_MESSAGE("calibration.disk-full", "the disk is full"),
+                RELUCENT_MESSAGE("calibration.make-room-then-resume",
+                                 "every photograph so far is safe: free at least {} MB there, then resume")
+                    .with(as::megabytes(bytes + (std::uint64_t{1} << 20))),
+                folder_.string());
+  const Pause pause(*waiter_, paused_);
+  if (pausing) pausing();
+  do {
+    // Whoever has a quota may find bytes free and the disk full all the same.
+    progress_.checkpoint();
+    isTold_ = waiter_->wait({folder_, waiter_->freeBytes(folder_), bytes}) == RoomWaiter::Answer::goOn;
+  } while ((!isTold_ && waiter_->freeBytes(folder_) < bytes) || !hasWritten(write));
 }
 
 }  // namespace relucent::calibration

@@ -56,7 +56,8 @@ class RoomOnDisk {
   std::chrono::steady_clock::duration paused() const { return paused_; }
 
  private:
-  void pause(std::uint64_t needed, const Action& pausing, const std::function<bool(std::uint64_t)>& isEnough);
+  /// Whether so much is free; else waits a moment, and whether somebody said so meanwhile.
+  bool mayGoOn(std::uint64_t needed);
 
   std::filesystem::path folder_;
   RoomWaiter* waiter_;

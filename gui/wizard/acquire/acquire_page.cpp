@@ -376,6 +376,7 @@ void AcquirePage::begin() {
 
 /// The time left stands still meanwhile.
 void AcquirePage::diskChanged() {
+  if (!std::exchange(diskWasFull_, isDiskFull()) && isDiskFull()) Q_EMIT asks();
   if (isDiskFull())
     left_.pause(Clock::now());
   else if (!isPaused())

@@ -119,7 +119,7 @@ class AcquirePage : public DevicePage {
  Q_SIGNALS:
   /// It has ended, in any way.
   void measured();
-  /// Somebody has to decide what is done about an alarm.
+  /// Somebody has to decide what is done about an alarm, or to make room on the disk.
   void asks();
   void secondsToLeaveChosen(int seconds);
   void soundChosen(bool sound);
@@ -163,6 +163,7 @@ class AcquirePage : public DevicePage {
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
   RoomQuestion room_;
+  bool diskWasFull_ = false;
   Job job_;  // the last: it ends before what its work uses
 };
 

@@ -113,15 +113,20 @@ QWidget* storagePart(AcquirePage& model) {
   rows->addWidget(box);
   auto* meaning = labelOf(QString(), "note");
   rows->addWidget(meaning);
+  auto* removed =
+      labelOf(AcquirePage::tr("Those of the last measurement were removed: all are taken again."), "note");
+  rows->addWidget(removed);
   QObject::connect(box, &QComboBox::activated, &model, [&model, box] {
     model.setKeptPhotographs(static_cast<Kept>(box->currentData().toInt()));
   });
-  auto refresh = [&model, part, box, meaning] {
+  auto refresh = [&model, part, box, meaning, removed] {
+    removed->setVisible(model.session().werePhotographsRemoved());
     part->setVisible(!model.isMeasuring() && !model.isDone());
     box->setCurrentIndex(box->findData(static_cast<int>(model.keptPhotographs())));
     switch (model.keptPhotographs()) {
       case Kept::everything:
-        return meaning->setText(AcquirePage::tr("Measuring with other settings then needs fewer new photographs."));
+        return meaning->setText(
+            AcquirePage::tr("Measuring with other settings then needs fewer new photographs."));
       case Kept::latest:
         return meaning->setText(AcquirePage::tr(
             "Those that were set aside by measuring again are removed once all is measured."));

@@ -207,6 +207,7 @@ class TestRoomOnDisk : public QObject {
     });
     QCOMPARE(tries, 4);
     QCOMPARE(disk.waits.size(), std::size_t{3});
+    QCOMPARE(disk.pauses, 1);
     QVERIFY(room.paused() > std::chrono::steady_clock::duration::zero());
   }
 

@@ -339,8 +339,28 @@ class TestKeptPhotographs : public QObject {
     std::erase_if(expected, [](const auto& file) { return file.first.starts_with("acquisition-1/"); });
     expected["mine/notes"] = "mine";
     QVERIFY(contentOf(calibration / "results") == expected);
-    // Either setting finds its result.
+    // A third result takes the place of the one that was removed, and stays.
+    {
+      CalibrationFolder folder = CalibrationFolder::open(calibration, Access::write);
+      CalibrateSettings settings = settingsOf(folder);
+      settings.acquisition.relativeThreshold = 0.2;
+      changeSettings(folder, settings);
+      OpenedRig devices = openRig(settings.rig, path("cache"), quiet);
+      sentinels::AcquisitionObserver nobody;
+      goOnMeasuring(folder, devices.rig, measureLinearization(folder, devices.rig, quiet), {}, nobody, {},
+                    quiet);
+      QCOMPARE(currentResultOf(folder, Stage::acquisition)->folder.filename(), fs::path("acquisition-1"));
+    }
+    tidy({calibration}, {}, quiet);
+    {
+      const CalibrationFolder folder = CalibrationFolder::open(calibration, Access::read);
+      loadAcquisition(*currentResultOf(folder, Stage::acquisition));
+    }
+    // Either setting of before finds its result.
     CalibrationFolder folder = CalibrationFolder::open(calibration, Access::write);
+    CalibrateSettings coarser = tiny();
+    coarser.acquisition.relativeThreshold = 0.1;
+    changeSettings(folder, coarser);
     loadAcquisition(*currentResultOf(folder, Stage::acquisition));
     changeSettings(folder, tiny());
     loadAcquisition(*currentResultOf(folder, Stage::acquisition));

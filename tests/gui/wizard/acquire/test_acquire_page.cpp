@@ -190,7 +190,7 @@ class TestAcquirePage : public QObject {
     QVERIFY(room != nullptr);
     page.primary()->trigger();
     QVERIFY(page.isMeasuring() && !page.isDiskFull() && !page.banner());
-    QSignalSpy status(&page, &AcquirePage::statusChanged);
+    QSignalSpy status(&page, &AcquirePage::statusChanged), asks(&page, &AcquirePage::asks);
     QCOMPARE(room->wait({session_->path(), 12'000'000, 96'000'000}), RoomWaiter::Answer::look);
     QVERIFY(page.isDiskFull() && !status.isEmpty());
     QVERIFY(page.status().state == StepState::busy && page.status().result.startsWith("Paused"));
@@ -200,6 +200,7 @@ class TestAcquirePage : public QObject {
     QVERIFY(banner.primary->isEnabled());
     banner.primary->trigger();
     QCOMPARE(room->wait({session_->path(), 12'000'000, 96'000'000}), RoomWaiter::Answer::goOn);
+    QCOMPARE(asks.size(), 1);
     room->over();
     QVERIFY(page.isMeasuring() && !page.isDiskFull() && !page.banner());
     page.finish();

@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>القرص ممتلئ. توقف القياس مؤقتًا.</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>كل اللقطات آمنة. المتاح ⁨%1⁩ والمطلوب ⁨%2⁩، وعندها يتابع القياس تلقائيًا.</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -488,6 +499,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>اختر معايرة أخرى، أو انسخ هذه مجددًا من حيث قيست</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>القرص ممتلئ</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>كل اللقطات حتى الآن آمنة: أخلِ هناك ⁨{} MB⁩ على الأقل، ثم استأنف</translation>
     </message>
 </context>
 <context>
@@ -2617,6 +2642,50 @@
         <source>In the end</source>
         <translation>في النهاية</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>بانتظار مساحة على القرص. لا يُعرض شيء.</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>تابع الآن</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>اللقطات المحفوظة</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>اللقطات التي تُحفظ بعد اكتمال القياس</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>الكل</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>لقطات آخر قياس</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>لا شيء: النتائج فقط</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>اللقطات التي نُحّيت عند إعادة القياس تُحذف بعد اكتمال القياس.</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>تُحذف بعد اكتمال القياس. وعندئذ يلزم تصوير كل شيء من جديد عند تغيير الإعدادات.</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>عندئذ يحتاج القياس بإعدادات أخرى إلى لقطات جديدة أقل.</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>حُذفت لقطات القياس الأخير: ستُلتقط كلها من جديد.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3664,6 +3733,10 @@
             <numerusform>نحو %n نمط اختبار</numerusform>
             <numerusform>نحو %n نمط اختبار</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>تابع الآن</translation>
     </message>
 </context>
 <context>

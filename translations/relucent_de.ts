@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>Die Festplatte ist voll. Die Messung macht Pause.</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>Alle Fotos sind sicher. %1 sind frei, %2 werden gebraucht: Dann läuft die Messung von selbst weiter.</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -480,6 +491,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>wählen Sie eine andere Kalibrierung oder kopieren Sie sie neu von dort, wo sie gemessen wurde</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>die Festplatte ist voll</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>alle bisherigen Fotos sind sicher: geben Sie dort mindestens {} MB frei, dann setzen Sie fort</translation>
     </message>
 </context>
 <context>
@@ -2553,6 +2578,50 @@
         <source>In the end</source>
         <translation>Am Ende</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>Wartet auf Platz auf der Festplatte. Es wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Jetzt weiter</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Fotos behalten</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>Fotos, die nach der ganzen Messung behalten werden</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Die der letzten Messung</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Keine: nur Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>Fotos, die beim erneuten Messen beiseitegelegt wurden, werden entfernt, sobald alles gemessen ist.</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>Sie werden entfernt, sobald alles gemessen ist. Mit anderen Einstellungen wird dann alles neu fotografiert.</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>Eine Messung mit anderen Einstellungen braucht dann weniger neue Fotos.</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Die Fotos der letzten Messung wurden entfernt: Alle werden neu aufgenommen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3564,6 +3633,10 @@
             <numerusform>Etwa %n Testmuster</numerusform>
             <numerusform>Etwa %n Testmuster</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Jetzt weiter</translation>
     </message>
 </context>
 <context>

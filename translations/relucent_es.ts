@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>El disco está lleno. La medición está en pausa.</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>Todas las fotografías están a salvo. Hay %1 libres y se necesitan %2: entonces la medición sigue por sí sola.</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -480,6 +491,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>elija otra calibración o vuelva a copiarla desde donde se midió</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>el disco está lleno</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>todas las fotografías tomadas están a salvo: libere allí al menos {} MB y reanude</translation>
     </message>
 </context>
 <context>
@@ -2553,6 +2578,50 @@
         <source>In the end</source>
         <translation>Al final</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>Esperando espacio en el disco. No se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Seguir ahora</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Fotografías que se conservan</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>Fotografías que se conservan cuando todo está medido</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Todas</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Las de la última medición</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Ninguna: solo resultados</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>Las que se apartaron al medir de nuevo se eliminan cuando todo está medido.</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>Se eliminan cuando todo está medido. Con otros ajustes hay que fotografiarlo todo de nuevo.</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>Medir con otros ajustes necesita entonces menos fotografías nuevas.</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Las de la última medición se eliminaron: se toman todas de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3564,6 +3633,10 @@
             <numerusform>Alrededor de %n patrón de prueba</numerusform>
             <numerusform>Unos %n patrones de prueba</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Seguir ahora</translation>
     </message>
 </context>
 <context>

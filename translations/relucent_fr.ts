@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>Le disque est plein. La mesure est en pause.</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>Toutes les photos sont en sécurité. %1 sont libres, il en faut %2&#x202f;: la mesure reprend alors d’elle-même.</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -480,6 +491,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>choisissez une autre calibration, ou recopiez-la depuis l’endroit où elle a été mesurée</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>le disque est plein</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>toutes les photos prises jusqu’ici sont en sécurité&#x202f;: libérez-y au moins {}&#x202f;Mo, puis reprenez</translation>
     </message>
 </context>
 <context>
@@ -2553,6 +2578,50 @@
         <source>In the end</source>
         <translation>À la fin</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>En attente de place sur le disque. Rien n’est projeté.</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Continuer maintenant</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Photos à conserver</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>Photos à conserver une fois tout mesuré</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Toutes</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Celles de la dernière mesure</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Aucune&#x202f;: résultats seuls</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>Celles mises de côté lors d’une nouvelle mesure sont supprimées une fois tout mesuré.</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>Supprimées une fois tout mesuré. Avec d’autres réglages, il faudra alors tout rephotographier.</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>Une mesure avec d’autres réglages demande alors moins de nouvelles photos.</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Celles de la dernière mesure ont été supprimées&#x202f;: toutes seront reprises.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3564,6 +3633,10 @@
             <numerusform>Environ %n motif d’essai</numerusform>
             <numerusform>Environ %n motifs d’essai</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Continuer maintenant</translation>
     </message>
 </context>
 <context>

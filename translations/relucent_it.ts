@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>Il disco è pieno. La misura è in pausa.</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>Ogni foto è al sicuro. Sono liberi %1, ne servono %2: poi la misura prosegue da sola.</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -480,6 +491,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>scegliere un’altra calibrazione o copiarla di nuovo da dove è stata misurata</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>il disco è pieno</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>ogni foto scattata finora è al sicuro: liberare lì almeno {} MB, poi riprendere</translation>
     </message>
 </context>
 <context>
@@ -2553,6 +2578,50 @@
         <source>In the end</source>
         <translation>Alla fine</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>In attesa di spazio sul disco. Nulla viene proiettato.</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Prosegui ora</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Foto da conservare</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>Foto da conservare a misura completa</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Tutte</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Quelle dell’ultima misura</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Nessuna: solo i risultati</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>Quelle messe da parte misurando di nuovo vengono rimosse a misura completa.</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>Rimosse a misura completa. Con altre impostazioni si deve poi fotografare tutto di nuovo.</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>Una misura con altre impostazioni richiede allora meno foto nuove.</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>Quelle dell’ultima misura sono state rimosse: vengono scattate tutte di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3564,6 +3633,10 @@
             <numerusform>Circa %n pattern di test</numerusform>
             <numerusform>Circa %n pattern di test</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>Prosegui ora</translation>
     </message>
 </context>
 <context>

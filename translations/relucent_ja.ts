@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>ディスクがいっぱいです。測定を一時停止しました。</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>写真はすべて無事です。空きは %1、必要なのは %2 です。空きができると、測定は自動的に再開します。</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -478,6 +489,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>別の校正データを選ぶか、測定した場所からコピーし直してください</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>ディスクがいっぱいです</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>これまでの写真はすべて無事です。保存先に {} MB 以上の空きを作ってから再開してください</translation>
     </message>
 </context>
 <context>
@@ -2537,6 +2562,50 @@
         <source>In the end</source>
         <translation>最終</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>ディスクの空きを待っています。何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>今すぐ続ける</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>残す写真</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>測定がすべて終わった後に残す写真</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>すべて</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>最新の測定のもの</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>なし：結果のみ</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>再測定のときに取り置いた写真は、測定がすべて終わると削除されます。</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>測定がすべて終わると削除されます。別の設定では、すべて撮り直しになります。</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>別の設定で測定するとき、新しい写真が少なくて済みます。</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>前回の測定の写真は削除されているため、すべて撮り直します。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3539,6 +3608,10 @@
         <translation>
             <numerusform>テストパターン約 %n 枚</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>今すぐ続ける</translation>
     </message>
 </context>
 <context>

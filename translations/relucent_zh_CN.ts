@@ -40,6 +40,17 @@
     </message>
 </context>
 <context>
+    <name>FullDisk</name>
+    <message>
+        <source>The disk is full. Measuring has paused.</source>
+        <translation>磁盘已满。测量已暂停。</translation>
+    </message>
+    <message>
+        <source>Every photograph is safe. %1 are free, %2 are needed: then measuring goes on by itself.</source>
+        <translation>所有照片均已保存。可用空间 %1，需要 %2：腾出空间后，测量会自动继续。</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -478,6 +489,20 @@
     <message>
         <source>choose another calibration, or copy it again from where it was measured</source>
         <translation>请选择其他校准数据，或从测量处重新复制</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.disk-full</name>
+    <message>
+        <source>the disk is full</source>
+        <translation>磁盘已满</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.make-room-then-resume</name>
+    <message>
+        <source>every photograph so far is safe: free at least {} MB there, then resume</source>
+        <translation>目前为止的照片都是安全的：请在该处至少腾出 {} MB，然后继续</translation>
     </message>
 </context>
 <context>
@@ -2537,6 +2562,50 @@
         <source>In the end</source>
         <translation>最终</translation>
     </message>
+    <message>
+        <source>Waiting for room on the disk. Nothing is being projected.</source>
+        <translation>正在等待磁盘空间。当前没有投影。</translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>立即继续</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>要保留的照片</translation>
+    </message>
+    <message>
+        <source>Photographs to keep once all is measured</source>
+        <translation>全部测量完成后要保留的照片</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>最近一次测量的</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>不保留：仅结果</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again are removed once all is measured.</source>
+        <translation>重新测量时搁置的照片，会在全部测量完成后删除。</translation>
+    </message>
+    <message>
+        <source>Removed once all is measured. Other settings then have to photograph everything again.</source>
+        <translation>全部测量完成后删除。之后用其他设置需要重新拍摄全部照片。</translation>
+    </message>
+    <message>
+        <source>Measuring with other settings then needs fewer new photographs.</source>
+        <translation>用其他设置测量时，需要的新照片会更少。</translation>
+    </message>
+    <message>
+        <source>Those of the last measurement were removed: all are taken again.</source>
+        <translation>上次测量的照片已删除：全部照片将重新拍摄。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3539,6 +3608,10 @@
         <translation>
             <numerusform>约 %n 个测试图案</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Go on now</source>
+        <translation>立即继续</translation>
     </message>
 </context>
 <context>

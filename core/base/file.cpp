@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "relucent/base/disk_full.h"
 #include "relucent/base/error.h"
 #include "relucent/platform/files.h"
 #include "relucent/platform/process.h"
@@ -51,6 +52,8 @@ Message failureOf(Action action, const std::string& reason) {
 }
 
 [[noreturn]] void failDisk(Action action, const fs::path& path, const std::error_code& code) {
+  if (platform::isDiskFull(code))
+    throw DiskFull(ErrorKind::disk, failureOf(action, code.message()), adviceFor(code), path.string());
   throw Error(ErrorKind::disk, failureOf(action, code.message()), adviceFor(code), path.string());
 }
 

@@ -7,14 +7,12 @@
 
 namespace relucent::calibration {
 
+/// Whether an interrupted write left this file in a journal: no program reads it.
+bool isShotLeftover(const std::filesystem::path& file);
+
 /// Shots on disk, one file each: what makes a measurement resumable.
 ///
-/// A file is a line of JSON (id, fingerprint, exposures asked for and reported, size, bits, checksum) and
-/// then the samples of every exposure of every camera, row by row, channels interleaved, little endian:
-/// whole codes in 8 or 16 bits where the frame consists of codes, else 32-bit floats. Differences between
-/// neighbouring codes are compressed, at the speed of memory (figures: core/calibration/README.md). Files of
-/// earlier programs, which did not compress, are read too.
-///
+/// The form of a file is shot_file.h's.
 /// Names: <stage>-<number>-<fingerprint>.shot, so that shots taken with other settings stay.
 class ShotJournal : public rig::ShotLog {
  public:

@@ -51,6 +51,7 @@ constexpr Subcommand subcommands[] = {
     {"separate", "Separate direct and indirect light", addSeparateOptions},
     {"difference", "Show how two pictures differ, with enhanced contrast", addDifferenceOptions},
     {"report", "Write one HTML file about a calibration", addReportOptions},
+    {"tidy", "Free the disk of what calibrations do not need", addTidyOptions},
     {"bench", "Time the parts that determine the speed", addBenchOptions}};
 
 class Parser {

@@ -20,6 +20,8 @@
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
 #include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/storage.h"
+#include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/report/report.h"
 
@@ -37,13 +39,24 @@ struct CheckRig {
   pipeline::CheckSettings settings;
   std::filesystem::path cache;
 };
+/// What a measurement does where the disk is full.
+enum class FullDiskAction { wait, stop };
+inline constexpr EnumName<FullDiskAction> fullDiskActionNames[]{
+    {FullDiskAction::wait, "wait", "until there is room"},
+    {FullDiskAction::stop, "stop", "with exit status 1, to be resumed"}};
+constexpr EnumNames<FullDiskAction> namesOf(FullDiskAction) {
+  return {"action", fullDiskActionNames};
+}
 struct Calibrate {
   std::filesystem::path calibration;
   pipeline::CalibrateSettings settings;
+  pipeline::KeptPhotographs kept = pipeline::KeptPhotographs::everything;
+  FullDiskAction fullDisk = FullDiskAction::wait;
   std::filesystem::path cache;
 };
 struct Resume {
   std::filesystem::path calibration;
+  FullDiskAction fullDisk = FullDiskAction::wait;
   std::filesystem::path cache;
 };
 struct Verify {
@@ -94,6 +107,10 @@ struct Report {
   report::ReportSettings settings;
   std::filesystem::path cache;
 };
+struct Tidy {
+  std::vector<std::filesystem::path> calibrations;
+  pipeline::TidySettings settings;
+};
 /// What `bench` times: programs of their own, or single parts of core.
 enum class BenchSuite { parts, inverse, engine, acquisition };
 inline constexpr EnumName<BenchSuite> benchSuiteNames[]{{BenchSuite::inverse, "inverse"},
@@ -112,7 +129,7 @@ struct Bench {
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
                              ImportPictures, Plan, Compensate, Evaluate, Export, Relight, Separate,
-                             Difference, Report, Bench>;
+                             Difference, Report, Tidy, Bench>;
 
 struct Arguments {
   Command command;

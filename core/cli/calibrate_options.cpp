@@ -185,6 +185,11 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration; created");
   addDevices(sub, *devices);
   addMeasurement(sub, command->settings);
+  addNamed(sub, "--keep",
+           "Photographs to keep once it is complete: " + listOfNames<pipeline::KeptPhotographs>(),
+           command->kept)
+      ->type_name("WHICH");
+  addFullDisk(sub, command->fullDisk);
   addCache(sub, command->cache);
   addExternalPrograms(sub, *devices);
   addSimulatedDevices(sub, *devices);
@@ -199,6 +204,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
 std::function<Command()> addResumeOptions(CLI::App* sub) {
   auto command = std::make_shared<Resume>();
   addFolder(sub, command->calibration, "Folder of the calibration");
+  addFullDisk(sub, command->fullDisk);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };
 }

@@ -12,6 +12,7 @@
 #include "relucent/cli/devices_document.h"
 #include "relucent/cli/interruption.h"
 #include "relucent/cli/terminal_progress.h"
+#include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
 #include "relucent/report/acquisition_chart.h"
 
@@ -50,6 +51,11 @@ CommandResult outcomeOf(const Result& result) {
 /// One overload a command; each is one call of the pipeline.
 struct Executor {
   Progress& progress;
+  calibration::RoomWaiter* room;
+
+  calibration::RoomWaiter* waiterOf(FullDiskAction action) const {
+    return action == FullDiskAction::wait ? room : nullptr;
+  }
 
   CommandResult operator()(const PrintText& command) const { return {{}, command.text}; }
 
@@ -70,11 +76,14 @@ struct Executor {
 
   CommandResult operator()(const Calibrate& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(pipeline::calibrate(command.calibration, command.settings, command.cache, progress));
+    const pipeline::Storage storage{command.kept, waiterOf(command.fullDisk)};
+    return outcomeOf(
+        pipeline::calibrate(command.calibration, command.settings, storage, command.cache, {}, progress));
   }
 
   CommandResult operator()(const Resume& command) const {
-    return outcomeOf(pipeline::resume(command.calibration, command.cache, progress));
+    return outcomeOf(
+        pipeline::resume(command.calibration, waiterOf(command.fullDisk), command.cache, {}, progress));
   }
 
   CommandResult operator()(const Verify& command) const {
@@ -133,6 +142,10 @@ struct Executor {
 
   CommandResult operator()(const Report& command) const {
     return outcomeOf(report::makeReport(command.calibration, command.settings, command.cache, progress));
+  }
+
+  CommandResult operator()(const Tidy& command) const {
+    return outcomeOf(pipeline::tidy(command.calibrations, command.settings, progress));
   }
 
   CommandResult benchAcquisition(const Bench& command) const {
@@ -203,8 +216,8 @@ void print(const CommandResult& outcome, bool json) {
 
 }  // namespace
 
-CommandResult execute(const Command& command, Progress& progress) {
-  return std::visit(Executor{progress}, command);
+CommandResult execute(const Command& command, Progress& progress, calibration::RoomWaiter* room) {
+  return std::visit(Executor{progress, room}, command);
 }
 
 int runCommandLine(const std::vector<std::string>& arguments) {
@@ -221,7 +234,8 @@ int runCommandLine(const std::vector<std::string>& arguments) {
       Interruption interruption;
       TerminalProgress terminal(TerminalProgress::standardError());
       Progress progress(terminal, interruption.stop());
-      outcome = execute(parsed.command, progress);
+      TerminalRoom room(terminal);
+      outcome = execute(parsed.command, progress, &room);
     }
     print(outcome, parsed.json);
     return outcome.status;

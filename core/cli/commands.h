@@ -17,7 +17,8 @@ struct CommandResult {
 
 /// Does what the command line asks for.
 /// Throws: Error, Cancelled as the pipeline does; Error{input} for settings that cannot be.
-CommandResult execute(const Command& command, Progress& progress);
+/// `room`: who waits where the disk is full and the command says so; null: nobody.
+CommandResult execute(const Command& command, Progress& progress, calibration::RoomWaiter* room = nullptr);
 
 /// The whole program: parses, executes, prints. Returns the exit status, see the README.
 int runCommandLine(const std::vector<std::string>& arguments);

@@ -72,6 +72,12 @@ CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what
       ->check(CLI::IsMember(allNames<Enum>()));
 }
 
+/// What to do where the disk is full: --full-disk.
+inline void addFullDisk(CLI::App* sub, FullDiskAction& action) {
+  addNamed(sub, "--full-disk", "Where the disk is full: " + listOfNames<FullDiskAction>(), action)
+      ->type_name("ACTION");
+}
+
 /// What --camera says: a camera's address or a size. Throws: WrongUsage.
 inline void readCamera(const std::string& text, pipeline::CommandRigSettings& commands, Size& size) {
   if (devices::cameraRegistry().addressFrom(text))
@@ -118,6 +124,7 @@ std::function<Command()> addDualOptions(CLI::App* sub);
 std::function<Command()> addSeparateOptions(CLI::App* sub);
 std::function<Command()> addDifferenceOptions(CLI::App* sub);
 std::function<Command()> addReportOptions(CLI::App* sub);
+std::function<Command()> addTidyOptions(CLI::App* sub);
 std::function<Command()> addBenchOptions(CLI::App* sub);
 
 }  // namespace relucent::cli

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "relucent/platform/terminal.h"
 
@@ -20,13 +21,13 @@ double rounded(double value) {
   return unit * std::round(value / unit);
 }
 
-std::string bytesOf(std::uint64_t bytes) {
+}  // namespace
+
+std::string bytesText(std::uint64_t bytes) {
   auto value = static_cast<double>(bytes);
   if (value < 1e9) return fmt::format("{:.0f} MB", std::max(1.0, rounded(value / 1e6)));
   return fmt::format("{:.1f} GB", value / 1e9);
 }
-
-}  // namespace
 
 std::string workSentence(const WorkLeft& work) {
   return fmt::format(
@@ -34,7 +35,7 @@ std::string workSentence(const WorkLeft& work) {
       "of "
       "memory",
       rounded(work.shots), rounded(work.leastShots), rounded(work.mostShots), rounded(work.exposures),
-      english(roundedDuration(work.seconds)), bytesOf(work.diskBytes), bytesOf(work.memoryBytes));
+      english(roundedDuration(work.seconds)), bytesText(work.diskBytes), bytesText(work.memoryBytes));
 }
 
 std::string barLine(std::string_view stage, double fraction, std::string_view timeLeft, int width) {
@@ -90,10 +91,13 @@ void TerminalProgress::progressed(double fraction, const Message& stage) {
 
 void TerminalProgress::expected(const WorkLeft& work) {
   timeLeft_.expect(terminal_.now(), work.seconds);
-  if (workIsSaid_) return;
-  workIsSaid_ = true;
+  work_ = work;
+  if (!std::exchange(workIsSaid_, true)) say(workSentence(work));
+}
+
+void TerminalProgress::say(const std::string& sentence) {
   finish();
-  *terminal_.out << workSentence(work) << "\n" << std::flush;
+  *terminal_.out << sentence << "\n" << std::flush;
 }
 
 std::string TerminalProgress::timeLeftSentence() const {

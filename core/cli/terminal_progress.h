@@ -31,6 +31,13 @@ class TerminalProgress : public ProgressSink {
   void progressed(double fraction, const Message& stage) override;
   /// Says so in a line of its own the first time; after that the time left follows it.
   void expected(const WorkLeft& work) override;
+  /// What was expected last.
+  const WorkLeft& workLeft() const { return work_; }
+  /// A sentence on a line of its own.
+  void say(const std::string& sentence);
+  /// Nothing is done until resume(): the time left stands still.
+  void pause() { timeLeft_.pause(terminal_.now()); }
+  void resume() { timeLeft_.resume(terminal_.now()); }
   /// Takes the bar away, so that a sentence can be printed in its place. Called by the destructor too.
   void finish();
 
@@ -47,9 +54,13 @@ class TerminalProgress : public ProgressSink {
   std::optional<TimeLeft::Moment> drawn_;
   bool barIsShown_ = false;
   bool workIsSaid_ = false;
+  WorkLeft work_;
   std::string printedStage_;
   double printedFraction_ = -1.0;
 };
+
+/// "490 MB", "2.1 GB": two digits below a GB, at least 1 MB.
+std::string bytesText(std::uint64_t bytes);
 
 /// "About 2100 patterns to photograph (430 to 4300), 4200 photographs, ..."
 std::string workSentence(const WorkLeft& work);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "relucent/base/message.h"
+#include "relucent/cli/terminal_progress.h"
 
 namespace relucent::cli {
 namespace {
@@ -118,6 +119,29 @@ std::string textOf(const pipeline::DifferenceResult& result) {
              "They differ by {:.4g} (root mean square), {:.2f} % of the second; shown {:.3g} times.\n",
              result.rms, 100.0 * result.relative, result.gain) +
          textOf(pipeline::WrittenFiles{result.files});
+}
+
+std::string textOf(const pipeline::TidyResult& result) {
+  const auto part = [](const pipeline::DiskShare& share, std::string_view what) {
+    return share.files == 0 ? std::string()
+                            : fmt::format("; {} {}, {}", share.files, what, bytesText(share.bytes));
+  };
+  std::string text;
+  for (const pipeline::TidiedCalibration& tidied : result.calibrations) {
+    const std::string freed = tidied.freed() == 0 ? "nothing to free"
+                                                  : fmt::format("{} {}", bytesText(tidied.freed()),
+                                                                result.dryRun ? "would be freed" : "freed");
+    text += fmt::format("{}: {}{}{}{}{}{}.\n", tidied.folder.string(), freed,
+                        part(tidied.photographs, result.dryRun ? "patterns' photographs to remove"
+                                                               : "patterns' photographs removed"),
+                        part(tidied.compressed, result.dryRun ? "to compress" : "compressed"),
+                        part(tidied.results, "files of results that were replaced"),
+                        part(tidied.leftovers, "files left by interrupted writes"),
+                        part(tidied.kept, "patterns' photographs stay"));
+    if (!tidied.isComplete && tidied.kept.files > 0)
+      text += "  It is not complete: its photographs are needed to go on.\n";
+  }
+  return text;
 }
 
 std::string textOf(const pipeline::BenchResult& result) {

@@ -13,6 +13,7 @@
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/pipeline/written_files.h"
 
@@ -28,6 +29,7 @@ std::string textOf(const pipeline::CompensateResult& result);
 std::string textOf(const pipeline::EvaluateResult& result);
 std::string textOf(const pipeline::SeparateResult& result);
 std::string textOf(const pipeline::DifferenceResult& result);
+std::string textOf(const pipeline::TidyResult& result);
 std::string textOf(const pipeline::BenchResult& result);
 std::string textOf(const pipeline::InverseBenchResult& result);
 std::string textOf(const pipeline::AcquisitionBenchResult& result);

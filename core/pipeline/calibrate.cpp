@@ -6,6 +6,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/storage.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/platform/process.h"
 
@@ -17,14 +18,14 @@ namespace {
 class Calibrating {
  public:
   Calibrating(calibration::CalibrationFolder& folder, OpenedRig& devices,
-              const sentinels::AlarmHandler& handler)
-      : folder_(folder), devices_(devices), handler_(handler), settings_(settingsOf(folder)) {}
+              const sentinels::AlarmHandler& handler, calibration::RoomWaiter* room)
+      : folder_(folder), devices_(devices), handler_(handler), room_(room), settings_(settingsOf(folder)) {}
 
   CalibrateResult run(Progress& progress) {
     MeasuredCalibration measured;
     measured.rig = settings_.rig;
     Progress linearizing = progress.part(0.15, RELUCENT_MESSAGE("stage.linearizing", "Linearizing"));
-    measured.linearization = measureLinearization(folder_, devices_.rig, linearizing);
+    measured.linearization = measureLinearization(folder_, devices_.rig, room_, linearizing);
     linearizing.report(1.0);
     Progress acquiring = progress.part(
         0.75, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
@@ -44,7 +45,7 @@ class Calibrating {
   void measureVenue(MeasuredCalibration& measured, Progress& progress) {
     sentinels::AcquisitionObserver nobody;
     const transport::Acquisition acquisition =
-        goOnMeasuring(folder_, devices_.rig, measured.linearization, handler_, nobody, {}, progress);
+        goOnMeasuring(folder_, devices_.rig, measured.linearization, handler_, nobody, {}, room_, progress);
     measured.acquisition = figuresOf(acquisition);
     measured.venue = measuredVenueOf(acquisition, settings_.threshold);
   }
@@ -52,25 +53,33 @@ class Calibrating {
   calibration::CalibrationFolder& folder_;
   OpenedRig& devices_;
   const sentinels::AlarmHandler& handler_;
+  calibration::RoomWaiter* room_;
   CalibrateSettings settings_;
 };
 
 CalibrateResult runStages(calibration::CalibrationFolder& folder, const fs::path& cache,
-                          const sentinels::AlarmHandler& handler, Progress& progress) {
+                          const sentinels::AlarmHandler& handler, calibration::RoomWaiter* room,
+                          Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   OpenedRig devices = openRig(settings.rig, cache, opening);
   opening.report(1.0);
   Progress measuring = progress.part(0.8, RELUCENT_MESSAGE("stage.calibrating", "Calibrating"));
-  return Calibrating(folder, devices, handler).run(measuring);
+  return Calibrating(folder, devices, handler, room).run(measuring);
 }
 
 }  // namespace
 
+CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const Storage& storage,
+                          const fs::path& cache, const sentinels::AlarmHandler& handler, Progress& progress) {
+  calibration::CalibrationFolder folder = beginCalibration(path, settings);
+  keepPhotographs(folder, storage.kept);
+  return runStages(folder, cache, handler, storage.room, progress);
+}
+
 CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
                           const sentinels::AlarmHandler& handler, Progress& progress) {
-  calibration::CalibrationFolder folder = beginCalibration(path, settings);
-  return runStages(folder, cache, handler, progress);
+  return calibrate(path, settings, Storage(), cache, handler, progress);
 }
 
 CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& settings, const fs::path& cache,
@@ -78,11 +87,16 @@ CalibrateResult calibrate(const fs::path& path, const CalibrateSettings& setting
   return calibrate(path, settings, cache, {}, progress);
 }
 
-CalibrateResult resume(const fs::path& path, const fs::path& cache, const sentinels::AlarmHandler& handler,
-                       Progress& progress) {
+CalibrateResult resume(const fs::path& path, calibration::RoomWaiter* room, const fs::path& cache,
+                       const sentinels::AlarmHandler& handler, Progress& progress) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
-  return runStages(folder, cache, handler, progress);
+  return runStages(folder, cache, handler, room, progress);
+}
+
+CalibrateResult resume(const fs::path& path, const fs::path& cache, const sentinels::AlarmHandler& handler,
+                       Progress& progress) {
+  return resume(path, nullptr, cache, handler, progress);
 }
 
 CalibrateResult resume(const fs::path& path, const fs::path& cache, Progress& progress) {

@@ -206,6 +206,26 @@ calibration::Json toJson(const AcquisitionBenchResult& result) {
           {"stops", std::move(stops)}};
 }
 
+calibration::Json toJson(const TidyResult& result) {
+  const auto share = [](const DiskShare& of) {
+    return calibration::Json{{"files", of.files}, {"bytes", of.bytes}};
+  };
+  calibration::Json calibrations = calibration::Json::array();
+  std::uint64_t freed = 0;
+  for (const TidiedCalibration& tidied : result.calibrations) {
+    freed += tidied.freed();
+    calibrations.push_back({{"folder", tidied.folder.string()},
+                            {"complete", tidied.isComplete},
+                            {"freed", tidied.freed()},
+                            {"photographs", share(tidied.photographs)},
+                            {"results", share(tidied.results)},
+                            {"leftovers", share(tidied.leftovers)},
+                            {"compressed", share(tidied.compressed)},
+                            {"kept", share(tidied.kept)}});
+  }
+  return {{"calibrations", std::move(calibrations)}, {"freed", freed}, {"dry_run", result.dryRun}};
+}
+
 calibration::Json toJson(const BenchResult& result) {
   calibration::Json benchmarks = calibration::Json::array();
   for (const Benchmark& benchmark : result.benchmarks) {

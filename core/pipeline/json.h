@@ -13,6 +13,7 @@
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/pipeline/written_files.h"
 #include "relucent/venue/venue.h"
@@ -33,6 +34,10 @@ calibration::Json toJson(const EvaluateResult& result);
 calibration::Json toJson(const WrittenFiles& result);
 calibration::Json toJson(const SeparateResult& result);
 calibration::Json toJson(const DifferenceResult& result);
+/// {"calibrations": [{"folder", "complete", "freed", then "photographs", "results", "leftovers",
+/// "compressed",
+///   "kept", each {"files", "bytes"}}], "freed", "dry_run"}: bytes; of compressed files those saved.
+calibration::Json toJson(const TidyResult& result);
 calibration::Json toJson(const BenchResult& result);
 calibration::Json toJson(const InverseBenchResult& result);
 calibration::Json toJson(const AcquisitionBenchResult& result);

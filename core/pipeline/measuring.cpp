@@ -6,10 +6,12 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/calibration/patient_shot_log.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/shot_journal.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stopped_early.h"
@@ -41,16 +43,54 @@ std::optional<Outlook> lastOf(OutlookObserver& looking) {
   }
 }
 
+/// What takes the photographs of one stage and keeps them: where the disk is full, when there is room again.
+class StageShots {
+ public:
+  /// Keeps references: `rig` and `progress` outlive it.
+  StageShots(const calibration::CalibrationFolder& folder, calibration::Stage stage, rig::Rig& rig,
+             calibration::RoomWaiter* waiter, const Progress& progress)
+      : room_(folder.path(), waiter, progress),
+        journal_(folder.shotFolder()),
+        log_(journal_, room_, rig),
+        taker_(rig, log_, std::string(nameOf(stage)), [this] { return workingTime(); }) {}
+
+  rig::ShotTaker& taker() { return taker_; }
+  /// Waits for room for a result of about so many bytes.
+  void waitForResult(std::uint64_t bytes) {
+    const std::uint64_t needed = bytes + calibration::PatientShotLog::spare;
+    room_.waitFor(needed, needed);
+  }
+
+ private:
+  /// Pauses say nothing about how long the next shots take.
+  std::chrono::duration<double> workingTime() const {
+    return std::chrono::steady_clock::now().time_since_epoch() - room_.paused();
+  }
+
+  calibration::RoomOnDisk room_;
+  calibration::ShotJournal journal_;
+  calibration::PatientShotLog log_;
+  rig::ShotTaker taker_;
+};
+
+/// At most: T, and its dozen images of what the cameras saw, before they are compressed.
+std::uint64_t bytesOf(const transport::Acquisition& acquisition) {
+  constexpr std::uint64_t images = 12, bytesOfPixel = 3 * sizeof(float);
+  return acquisition.transport.leaves().bytes() +
+         images * bytesOfPixel * acquisition.transport.cameras().count();
+}
+
 /// Measured on shots of the journal, as far as there are any, and stored.
 transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                 const linearization::Linearization& linearization,
                                 const sentinels::AlarmHandler& handler,
                                 sentinels::AcquisitionObserver& observer,
-                                const OutlookObserver::Tell& outlook, Progress& progress) {
+                                const OutlookObserver::Tell& outlook, calibration::RoomWaiter* room,
+                                Progress& progress) {
   Stopwatch watch;
   rig::Rig used = reducedRig(folder, rig);
-  calibration::ShotJournal journal(folder.shotFolder());
-  rig::ShotTaker shots(used, journal, std::string(nameOf(calibration::Stage::acquisition)));
+  StageShots stage(folder, calibration::Stage::acquisition, used, room, progress);
+  rig::ShotTaker& shots = stage.taker();
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
   OutlookObserver looking(observer, outlook);
   transport::Acquisition acquisition =
@@ -69,6 +109,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
     acquisition.findings.insert(acquisition.findings.begin(),
                                 stoppedEarly(acquisition.stoppedAt, acquisition.expected));
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
+  stage.waitForResult(bytesOf(acquisition));
   calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
   return acquisition;
 }
@@ -85,6 +126,11 @@ calibration::CalibrationFolder beginCalibration(const fs::path& path, const Cali
 
 linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                                   Progress& progress) {
+  return measureLinearization(folder, rig, nullptr, progress);
+}
+
+linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                                  calibration::RoomWaiter* room, Progress& progress) {
   if (auto done = folder.find(calibration::Stage::linearization,
                               calibration::fingerprintOf(folder, calibration::Stage::linearization)))
     return calibration::loadLinearization(*done);
@@ -94,8 +140,8 @@ linearization::Linearization measureLinearization(calibration::CalibrationFolder
   chooseReductions(folder, rig, choosing);
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::linearization);
   rig::Rig used = reducedRig(folder, rig);
-  calibration::ShotJournal journal(folder.shotFolder());
-  rig::ShotTaker shots(used, journal, std::string(nameOf(calibration::Stage::linearization)));
+  StageShots stage(folder, calibration::Stage::linearization, used, room, progress);
+  rig::ShotTaker& shots = stage.taker();
   linearization::Linearization linearization =
       linearization::linearize(shots, settingsOf(folder).linearization, progress);
   for (Message& finding : findingsOf(reductionsOf(folder)))
@@ -118,7 +164,7 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   if (auto done = folder.find(calibration::Stage::acquisition, inputs))
     return calibration::loadAcquisition(*done);
-  return acquired(folder, rig, linearization, handler, observer, {}, progress);
+  return acquired(folder, rig, linearization, handler, observer, {}, nullptr, progress);
 }
 
 transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
@@ -126,11 +172,23 @@ transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig
                                      const sentinels::AlarmHandler& handler,
                                      sentinels::AcquisitionObserver& observer,
                                      const OutlookObserver::Tell& outlook, Progress& progress) {
+  return goOnMeasuring(folder, rig, linearization, handler, observer, outlook, nullptr, progress);
+}
+
+transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                     const linearization::Linearization& linearization,
+                                     const sentinels::AlarmHandler& handler,
+                                     sentinels::AcquisitionObserver& observer,
+                                     const OutlookObserver::Tell& outlook, calibration::RoomWaiter* room,
+                                     Progress& progress) {
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
-  auto done = folder.find(calibration::Stage::acquisition, inputs);
-  if (done && calibration::resultFrom<calibration::Stage::acquisition>(*done).stoppedAt == 0)
-    return calibration::loadAcquisition(*done);
-  return acquired(folder, rig, linearization, handler, observer, outlook, progress);
+  const auto done = folder.find(calibration::Stage::acquisition, inputs);
+  const bool isWhole = done && calibration::resultFrom<calibration::Stage::acquisition>(*done).stoppedAt == 0;
+  transport::Acquisition acquisition =
+      isWhole ? calibration::loadAcquisition(*done)
+              : acquired(folder, rig, linearization, handler, observer, outlook, room, progress);
+  removePhotographs(folder);
+  return acquisition;
 }
 
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,

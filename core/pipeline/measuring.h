@@ -2,6 +2,7 @@
 #pragma once
 
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/room_on_disk.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -23,6 +24,9 @@ calibration::CalibrationFolder beginCalibration(const std::filesystem::path& pat
 /// Throws: as linearize(), chooseReductions(), reduced() and storeLinearization().
 linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                                   Progress& progress);
+/// The same with somebody who waits where the disk is full; null: nobody, that is an Error{disk}.
+linearization::Linearization measureLinearization(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                                  calibration::RoomWaiter* room, Progress& progress);
 /// Throws: as acquire(), reduced() and storeAcquisition().
 transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                           const linearization::Linearization& linearization,
@@ -34,12 +38,20 @@ transport::Acquisition measureAcquisition(calibration::CalibrationFolder& folder
                                           sentinels::AcquisitionObserver& observer, Progress& progress);
 /// Goes on with a measurement that was stopped and kept, as if it had not been; another is as above. Until it
 /// is finished, what was kept stays the result. `outlook` is told, from other threads, what may be expected
-/// as it gets finer; what was expected last is kept with the result.
+/// as it gets finer; what was expected last is kept with the result. Photographs that the calibration's
+/// choice does not keep (kept_photographs.h) are removed once nothing is left to measure.
 transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                      const linearization::Linearization& linearization,
                                      const sentinels::AlarmHandler& handler,
                                      sentinels::AcquisitionObserver& observer,
                                      const OutlookObserver::Tell& outlook, Progress& progress);
+/// The same with somebody who waits where the disk is full; null: nobody.
+transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                                     const linearization::Linearization& linearization,
+                                     const sentinels::AlarmHandler& handler,
+                                     sentinels::AcquisitionObserver& observer,
+                                     const OutlookObserver::Tell& outlook, calibration::RoomWaiter* room,
+                                     Progress& progress);
 /// Chooses the windows' ridge and keeps it, unless that is done. Throws: as invert(); Error{disk}.
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                     Progress& progress);

@@ -12,6 +12,7 @@
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/acquire/retrying_observer.h"
+#include "wizard/devices/full_disk.h"
 #include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
@@ -27,7 +28,7 @@ constexpr std::chrono::seconds beforeRetry{5};
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()) {
+    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()), room_(this) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
     finish();
@@ -52,6 +53,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     left_.expect(Clock::now(), left.seconds);
   });
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
+  connect(&room_, &RoomQuestion::changed, this, &AcquirePage::diskChanged);
   connect(&trace_, &AcquisitionTrace::changed, this, [this] {
     if (auto light = trace_.roomLight()) session_.setRoomLight(*light);
     tellProgress();
@@ -81,6 +83,7 @@ void AcquirePage::makeCommands() {
   again_ = addCommand(Icon::retry, begins);
   goOn_ = addCommand(Icon::play, begins);
   goOnMeasuring_ = addCommand(Icon::play, begins);
+  goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
@@ -96,7 +99,8 @@ AcquirePage::~AcquirePage() {
 }
 
 StepStatus AcquirePage::status() const {
-  if (isPaused()) return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
+  if (isPaused() || isDiskFull())
+    return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
   if (isCountingDown()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
   switch (session_.progress(calibration::Stage::acquisition)) {
@@ -120,6 +124,7 @@ StepStatus AcquirePage::status() const {
 
 QString AcquirePage::hint() const {
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
+  if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
   if (isMeasuring()) return tr("Every photograph is saved. Threshold opens when the last is taken.");
   if (isCountingDown())
@@ -149,6 +154,7 @@ void AcquirePage::updateCommands() {
   keep_->show(tr("Stop and keep"), !isStopping());
   again_->show(tr("Measure again"), session_.areDevicesFree());
   goOn_->show(tr("Resume"), mayStart);
+  goOnWithDisk_->show(tr("Go on now"));
   goOnMeasuring_->show(tr("Go on measuring"), mayStart);
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
@@ -173,6 +179,7 @@ std::optional<double> AcquirePage::progress() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
+  if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale)
@@ -352,19 +359,30 @@ void AcquirePage::begin() {
     return question->wait();
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
-  job_.start([work = workOf(session_), handler, retrying, expects](Progress& progress) {
+  job_.start([work = workOf(session_), handler, retrying, expects, room = &room_](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
     Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
-    linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, reading);
+    linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, room, reading);
     Progress measuring = progress.part(
         0.95, RELUCENT_MESSAGE("stage.measuring-light-transport", "Measuring the light transport"));
-    pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, expects, measuring);
+    pipeline::goOnMeasuring(folder, rig, linearization, handler, *retrying, expects, room, measuring);
   });
   tellProgress();
   tellResult();
+}
+
+/// The time left stands still meanwhile.
+void AcquirePage::diskChanged() {
+  if (!std::exchange(diskWasFull_, isDiskFull()) && isDiskFull()) Q_EMIT asks();
+  if (isDiskFull())
+    left_.pause(Clock::now());
+  else if (!isPaused())
+    left_.resume(Clock::now());
+  tellProgress();
+  tellStatus();
 }
 
 void AcquirePage::finish() {

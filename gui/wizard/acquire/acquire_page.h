@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "jobs/job.h"
+#include "jobs/room_question.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/time_left.h"
 #include "relucent/linearization/linearization.h"
@@ -55,6 +56,8 @@ class AcquirePage : public DevicePage {
   /// What was measured is what the settings want.
   bool isDone() const;
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
+  /// The measurement waits for room on the disk.
+  bool isDiskFull() const { return isMeasuring() && room_.waiting().has_value(); }
   bool isStopping() const { return isMeasuring() && job_.isStopping(); }
   QString stage() const { return job_.stage(); }
   /// Of the shown projector and camera.
@@ -93,6 +96,9 @@ class AcquirePage : public DevicePage {
   /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
   std::vector<BlockLevel> levels() const;
   std::uint64_t freeBytes() const;
+  /// Which photographs stay once all is measured.
+  pipeline::KeptPhotographs keptPhotographs() const { return session_.keptPhotographs(); }
+  void setKeptPhotographs(pipeline::KeptPhotographs kept);
   /// Linear, of the shown camera: as last photographed or as measured. Empty: not yet.
   image::Image floodlight() const;
   /// Another number, another picture; 0: none.
@@ -113,7 +119,7 @@ class AcquirePage : public DevicePage {
  Q_SIGNALS:
   /// It has ended, in any way.
   void measured();
-  /// Somebody has to decide what is done about an alarm.
+  /// Somebody has to decide what is done about an alarm, or to make room on the disk.
   void asks();
   void secondsToLeaveChosen(int seconds);
   void soundChosen(bool sound);
@@ -131,6 +137,7 @@ class AcquirePage : public DevicePage {
   acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
   void change(const QString& what, const acquisition::AcquisitionSettings& settings);
   void keep(const acquisition::AcquisitionSettings& settings);
+  void diskChanged();
   void askAboutAlarm(const sentinels::Alarm& alarm);
   PageCommand* answering(Icon icon, sentinels::Answer answer);
   void ended();
@@ -138,6 +145,7 @@ class AcquirePage : public DevicePage {
   void lookAtResponse();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
+  PageCommand* goOnWithDisk_;                                     // of the banner too
   PageCommand *again_, *goOn_, *goOnMeasuring_;                   // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
@@ -154,6 +162,8 @@ class AcquirePage : public DevicePage {
   QTimer leaving_;  // a second each
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
+  RoomQuestion room_;
+  bool diskWasFull_ = false;
   Job job_;  // the last: it ends before what its work uses
 };
 

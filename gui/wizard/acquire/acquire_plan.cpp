@@ -45,6 +45,19 @@ std::uint64_t AcquirePage::freeBytes() const {
   return freeBytesAt(QString::fromStdString(session_.path().string()));
 }
 
+void AcquirePage::setKeptPhotographs(pipeline::KeptPhotographs kept) {
+  if (isMeasuring() || kept == keptPhotographs()) return;
+  changeUndoably(tr("Photographs to keep"), keptPhotographs(), kept,
+                 [this](pipeline::KeptPhotographs wanted) {
+                   if (isMeasuring()) return;
+                   try {
+                     session_.keepPhotographs(wanted);
+                   } catch (...) {
+                     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+                   }
+                 });
+}
+
 bool AcquirePage::isDone() const {
   return !isMeasuring() &&
          session_.progress(calibration::Stage::acquisition) == calibration::StageProgress::done;

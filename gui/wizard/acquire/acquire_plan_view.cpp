@@ -95,6 +95,50 @@ QWidget* readyPart(AcquirePage& model) {
   return part;
 }
 
+/// What stays on the disk afterwards.
+QWidget* storagePart(AcquirePage& model) {
+  auto* part = new QWidget;
+  auto* rows = new QVBoxLayout(part);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->addWidget(lineOf());
+  rows->addWidget(labelOf(AcquirePage::tr("Photographs to keep"), "section"));
+  auto* box = new QComboBox;
+  box->setObjectName("kept-photographs");
+  box->setAccessibleName(AcquirePage::tr("Photographs to keep once all is measured"));
+  using Kept = pipeline::KeptPhotographs;
+  const auto add = [box](const QString& name, Kept kept) { box->addItem(name, static_cast<int>(kept)); };
+  add(AcquirePage::tr("All"), Kept::everything);
+  add(AcquirePage::tr("Of the latest measurement"), Kept::latest);
+  add(AcquirePage::tr("None: results only"), Kept::results);
+  rows->addWidget(box);
+  auto* meaning = labelOf(QString(), "note");
+  rows->addWidget(meaning);
+  auto* removed =
+      labelOf(AcquirePage::tr("Those of the last measurement were removed: all are taken again."), "note");
+  rows->addWidget(removed);
+  QObject::connect(box, &QComboBox::activated, &model, [&model, box] {
+    model.setKeptPhotographs(static_cast<Kept>(box->currentData().toInt()));
+  });
+  auto refresh = [&model, part, box, meaning, removed] {
+    removed->setVisible(model.session().werePhotographsRemoved());
+    part->setVisible(!model.isMeasuring() && !model.isDone());
+    box->setCurrentIndex(box->findData(static_cast<int>(model.keptPhotographs())));
+    switch (model.keptPhotographs()) {
+      case Kept::everything:
+        return meaning->setText(
+            AcquirePage::tr("Measuring with other settings then needs fewer new photographs."));
+      case Kept::latest:
+        return meaning->setText(AcquirePage::tr(
+            "Those that were set aside by measuring again are removed once all is measured."));
+      case Kept::results:
+        return meaning->setText(AcquirePage::tr(
+            "Removed once all is measured. Other settings then have to photograph everything again."));
+    }
+  };
+  refreshOn(model, part, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
+  return part;
+}
+
 /// What it came to.
 QWidget* resultPart(AcquirePage& model) {
   auto* part = new QWidget;
@@ -177,6 +221,7 @@ QWidget* planOf(AcquirePage& model) {
   QWidget* start = startPart(model);
   column->addWidget(start);
   column->addWidget(readyPart(model));
+  column->addWidget(storagePart(model));
   column->addWidget(resultPart(model));
   auto refresh = [&model, group, choices, sentences, start] {
     if (model.isMeasuring()) return;

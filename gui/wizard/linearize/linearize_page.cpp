@@ -10,11 +10,13 @@
 #include "relucent/pipeline/stored_settings.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
+#include "wizard/devices/full_disk.h"
 #include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
 
-LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(stepName, session, parent) {
+LinearizePage::LinearizePage(Session& session, QObject* parent)
+    : DevicePage(stepName, session, parent), room_(this) {
   next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   measure_ = addCommand(Icon::play, [this] { measure(false); });
   stop_ = addCommand(
@@ -23,6 +25,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(ste
       Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
   renew_ = addCommand(Icon::retry, [this] { measure(false); });
   retry_ = addCommand(Icon::retry, [this] { measure(false); });
+  goOn_ = addCommand(Icon::play, [this] { room_.goOn(); });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     result_.reset();
@@ -39,6 +42,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent) : DevicePage(ste
   connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellStatus);
   connect(&job_, &Job::progressed, this, &LinearizePage::tellProgress);
   connect(&job_, &Job::ended, this, &LinearizePage::ended);
+  connect(&room_, &RoomQuestion::changed, this, &LinearizePage::tellStatus);
   updateCommands();
 }
 
@@ -94,6 +98,7 @@ void LinearizePage::updateCommands() {
   again_->show(tr("Measure again"), free);
   renew_->show(tr("Measure again"), session_.mayMeasure());
   retry_->show(tr("Try again"));
+  goOn_->show(tr("Go on now"));
 }
 
 PageCommand* LinearizePage::primary() const {
@@ -113,6 +118,7 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
+  if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
   if (isMeasuring() ||
       session_.progress(calibration::Stage::linearization) != calibration::StageProgress::stale)
     return std::nullopt;
@@ -157,7 +163,7 @@ void LinearizePage::measure(bool again) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
   lease_ = session_.leaseDevices(stepName);
   // Another seed is another order of the levels: the result of before stays beside the new one.
-  job_.start([work = workOf(session_), again](Progress& progress) {
+  job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
@@ -170,7 +176,7 @@ void LinearizePage::measure(bool again) {
     }
     Progress measuring =
         progress.part(0.8, RELUCENT_MESSAGE("stage.measuring-response", "Measuring the response"));
-    pipeline::measureLinearization(folder, rig, measuring);
+    pipeline::measureLinearization(folder, rig, room, measuring);
   });
   tellResult();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "jobs/job.h"
+#include "jobs/room_question.h"
 #include "wizard/devices/device_page.h"
 
 namespace relucent::gui {
@@ -56,9 +57,10 @@ class LinearizePage : public DevicePage {
   void look();
   void ended();
 
-  PageCommand *next_, *measure_, *stop_, *again_, *renew_, *retry_;
+  PageCommand *next_, *measure_, *stop_, *again_, *renew_, *retry_, *goOn_;
   DeviceLease lease_;
-  Job job_;
+  RoomQuestion room_;
+  Job job_;  // ends before what its work uses
   std::optional<linearization::Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_
 };

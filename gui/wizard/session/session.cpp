@@ -251,6 +251,8 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   const pipeline::RigSettings measured = pipeline::measuredRigOf(folder);
   const auto* screen = std::get_if<pipeline::ScreenRigSettings>(&measured);
   measuredDisplay_ = screen != nullptr ? screen->display : pipeline::ScreenRigSettings::Display();
+  keptPhotographs_ = pipeline::keptPhotographs(folder);
+  photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
   figures_ = calibration::resultsIn(folder);
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),
@@ -331,6 +333,10 @@ void Session::change(const std::function<void(calibration::CalibrationFolder&)>&
 void Session::changeSettings(const pipeline::CalibrateSettings& settings) {
   change(
       [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeSettings(folder, settings); });
+}
+
+void Session::keepPhotographs(pipeline::KeptPhotographs kept) {
+  change([&](calibration::CalibrationFolder& folder) { pipeline::keepPhotographs(folder, kept); });
 }
 
 void Session::changePixels(const reduction::PixelUse& use) {

@@ -16,6 +16,7 @@
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/check.h"
 #include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "wizard/session/device_lease.h"
@@ -138,6 +139,11 @@ class Session : public QObject {
   void decide(const Decision& decision) {
     change([&](calibration::CalibrationFolder& folder) { calibration::storeDecision(folder, decision); });
   }
+  /// Which photographs stay once all is measured; nothing becomes stale. Throws: Error{disk}.
+  void keepPhotographs(pipeline::KeptPhotographs kept);
+  pipeline::KeptPhotographs keptPhotographs() const { return keptPhotographs_; }
+  /// Those that the light transport follows from are gone: other settings photograph everything again.
+  bool werePhotographsRemoved() const { return photographsRemoved_; }
   /// Other pixels of the cameras: what was measured with those of before is out of date. Throws: Error{disk}.
   void changePixels(const reduction::PixelUse& use);
   /// Other devices, before anything is measured. Throws: as changeRig().
@@ -219,6 +225,8 @@ class Session : public QObject {
 
   std::filesystem::path path_, cache_;
   pipeline::CalibrateSettings settings_;
+  pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
+  bool photographsRemoved_ = false;
   pipeline::ScreenRigSettings::Display measuredDisplay_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;

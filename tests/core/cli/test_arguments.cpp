@@ -95,6 +95,24 @@ class TestArguments : public QObject {
                 .settings.pixels.kind == reduction::PixelUse::Kind::all);
   }
 
+  void aFullDiskIsWaitedForUnlessToldOtherwise() {
+    QCOMPARE(parsed<Calibrate>("calibrate d").fullDisk, FullDiskAction::wait);
+    QCOMPARE(parsed<Resume>("resume d").fullDisk, FullDiskAction::wait);
+    QCOMPARE(parsed<Calibrate>("calibrate d --full-disk stop").fullDisk, FullDiskAction::stop);
+    QCOMPARE(parsed<Resume>("resume d --full-disk stop").fullDisk, FullDiskAction::stop);
+  }
+
+  void whatIsKeptIsChosen() {
+    using pipeline::KeptPhotographs;
+    QCOMPARE(parsed<Calibrate>("calibrate d").kept, KeptPhotographs::everything);
+    QCOMPARE(parsed<Calibrate>("calibrate d --keep results").kept, KeptPhotographs::results);
+    const Tidy tidy = parsed<Tidy>("tidy a b --keep latest --dry-run");
+    QCOMPARE(tidy.calibrations, (std::vector<std::filesystem::path>{"a", "b"}));
+    QCOMPARE(tidy.settings.kept, KeptPhotographs::latest);
+    QVERIFY(tidy.settings.dryRun);
+    QVERIFY(!parsed<Tidy>("tidy a").settings.kept && !parsed<Tidy>("tidy a").settings.dryRun);
+  }
+
   void externalProgramsAreARig() {
     Calibrate command = parsed<Calibrate>(
         "calibrate d --projector-command show,{image} --camera-command shoot,{exposure},{output} "
@@ -206,7 +224,7 @@ class TestArguments : public QObject {
     QTest::newRow("version") << QByteArray("--version") << QByteArray("relucent-cli ");
     QTest::newRow("libraries' versions") << QByteArray("--version") << QByteArray("\n  Eigen 3.");
     for (const char* name : {"venues", "calibrate", "resume", "compensate", "evaluate", "export", "relight",
-                             "separate", "difference", "dual", "report", "bench"})
+                             "separate", "difference", "dual", "report", "tidy", "bench"})
       QTest::newRow(name) << QByteArray(name) + " --help" << QByteArray("relucent-cli ") + name;
   }
   void helpAndVersionArePrinted() {
@@ -227,6 +245,8 @@ class TestArguments : public QObject {
     QTest::newRow("nothing to import") << QByteArray("import d") << QByteArray("--patterns is required");
     QTest::newRow("no folder") << QByteArray("calibrate") << QByteArray("CALIBRATION is required");
     QTest::newRow("unknown option") << QByteArray("calibrate d --fast") << QByteArray("--fast");
+    QTest::newRow("nothing to tidy") << QByteArray("tidy") << QByteArray("CALIBRATION is required");
+    QTest::newRow("unknown choice") << QByteArray("tidy d --keep merged") << QByteArray("everything");
     QTest::newRow("no size") << QByteArray("calibrate d --camera big") << QByteArray("'big' is no size");
     QTest::newRow("no pixels") << QByteArray("calibrate d --camera-pixels half")
                                << QByteArray("'half' is no choice of camera pixels: write auto, all or 1/N");

@@ -90,6 +90,39 @@ class TestProgram : public QObject {
     QVERIFY(process.readAllStandardError().contains("standard output"));
   }
 
+  /// On a disk of one megabyte, with either answer to it. Law: in the end the results are those of a disk
+  /// with room.
+  void aFullDiskPausesOrStops() {
+    const QString cli = QString::fromLocal8Bit(qgetenv("RELUCENT_CLI"));
+    QTemporaryDir folder;
+    const auto inside = [&](const QString& script) {
+      QProcess shell;
+      QStringList arguments{"-m", "sh", "-euc", script, "sh", cli, folder.path()};
+      if (::geteuid() != 0) arguments.prepend("-r");
+      shell.start("unshare", arguments);
+      if (!shell.waitForStarted() || !shell.waitForFinished(300'000)) return Run{};
+      return Run{shell.exitCode(), shell.readAllStandardOutput(), shell.readAllStandardError()};
+    };
+    const QString mount = "mkdir -p $2/disk; mount -t tmpfs -o size=1m none $2/disk; ";
+    if (inside(mount).status != 0) QSKIP("nobody may mount a small disk here (unshare, mount)");
+    const QString calibrate =
+        "$1 calibrate $2/disk/venue --venue plain --projector 64x48 --camera 120x90 --paths 16 "
+        "--cache $2/cache ";
+
+    const Run stopped = inside(mount + calibrate + "--full-disk stop");
+    QCOMPARE(stopped.status, 1);
+    QVERIFY2(stopped.err.contains("the disk is full; every photograph so far is safe"), stopped.err);
+
+    const Run waited = inside(mount + calibrate +
+                              "2> $2/said & while kill -0 $! && ! grep -q Paused $2/said; do sleep 0.1; done; "
+                              "mount -o remount,size=300m $2/disk; wait $!; cp -r $2/disk/venue $2/waited");
+    QVERIFY2(waited.status == 0, waited.err);
+    const Run undisturbed = inside("mkdir -p $2/disk; " + calibrate);
+    QCOMPARE(undisturbed.status, 0);
+    const Run compared = inside("diff -r $2/disk/venue/results $2/waited/results");
+    QVERIFY2(compared.status == 0, compared.out + compared.err);
+  }
+
   void theFirstSignalAsksTheSecondEnds_data() {
     QTest::addColumn<int>("signal");
     QTest::newRow("Ctrl-C") << SIGINT;

@@ -4,6 +4,7 @@
 
 #include "relucent/base/random.h"
 #include "relucent/cli/terminal_progress.h"
+#include "relucent/cli/terminal_room.h"
 
 using namespace relucent;
 using namespace relucent::cli;
@@ -120,6 +121,31 @@ class TestTerminalProgress : public QObject {
     QVERIFY2(text.contains(" 50 %  acquisition"), text);
     // Every tenth, and one for the new stage that may fall between two tenths.
     QVERIFY2(text.count('\n') >= 11 && text.count('\n') <= 12, text);
+  }
+
+  /// Said once a pause, on a line of its own; and the time left stands still.
+  void aFullDiskIsSaidOnce() {
+    FakeTerminal fake;
+    fake.width = 80;
+    TerminalProgress progress(fake.terminal());
+    progress.expected({100, 50, 200, 200, 600.0, 3'000'000'000, 0});
+    progress.progressed(0.1, Message::plain("acquisition"));
+    int sleeps = 0;
+    TerminalRoom room(progress, [&](std::chrono::milliseconds) { ++sleeps; });
+    for (int pause = 1; pause <= 2; ++pause) {
+      for (int look = 0; look < 5; ++look) {
+        QCOMPARE(room.wait({"venue", 12'000'000, 96'000'000}), calibration::RoomWaiter::Answer::look);
+        fake.now += 1000.0;
+      }
+      room.over();
+      QCOMPARE(fake.text().count("Paused: the disk of venue is full, 12 MB are free."), pause);
+      QVERIFY2(fake.text().contains("Free at least 96 MB there (3.0 GB for all that is left)"), fake.text());
+    }
+    QCOMPARE(sleeps, 10);
+    fake.out.str("");
+    fake.now += 1.0;
+    progress.progressed(0.11, Message::plain("acquisition"));
+    QVERIFY2(fake.text().contains("about 10 min left"), fake.text());
   }
 
   void timeLeftIsThatOfASteadyRate_data() {

@@ -6,6 +6,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "jobs/room_question.h"
+#include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/venue/venue.h"
 #include "views/image_view.h"
@@ -178,6 +180,44 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.status().state, StepState::done);
     QVERIFY(!page.banner());
     QVERIFY(page.cost().value().patterns > before);
+  }
+
+  /// Law: whoever waits for room is told of above the page, with what is needed, until it goes on.
+  void aFullDiskIsSaidAndGoneOnWith() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    auto* room = page.findChild<RoomQuestion*>();
+    QVERIFY(room != nullptr);
+    page.primary()->trigger();
+    QVERIFY(page.isMeasuring() && !page.isDiskFull() && !page.banner());
+    QSignalSpy status(&page, &AcquirePage::statusChanged), asks(&page, &AcquirePage::asks);
+    QCOMPARE(room->wait({session_->path(), 12'000'000, 96'000'000}), RoomWaiter::Answer::look);
+    QVERIFY(page.isDiskFull() && !status.isEmpty());
+    QVERIFY(page.status().state == StepState::busy && page.status().result.startsWith("Paused"));
+    const Banner banner = page.banner().value();
+    for (std::uint64_t bytes : {12'000'000ULL, 96'000'000ULL})
+      QVERIFY2(banner.more.contains(bytesText(bytes)), qPrintable(banner.more));
+    QVERIFY(banner.primary->isEnabled());
+    banner.primary->trigger();
+    QCOMPARE(room->wait({session_->path(), 12'000'000, 96'000'000}), RoomWaiter::Answer::goOn);
+    QCOMPARE(asks.size(), 1);
+    room->over();
+    QVERIFY(page.isMeasuring() && !page.isDiskFull() && !page.banner());
+    page.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+  }
+
+  void whatIsKeptCanBeChosenAndTakenBack() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::everything);
+    page.setKeptPhotographs(KeptPhotographs::results);
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::results);
+    QCOMPARE(
+        pipeline::keptPhotographs(CalibrationFolder::open(session_->path(), CalibrationFolder::Access::read)),
+        KeptPhotographs::results);
+    page.undoStack().undo();
+    QCOMPARE(page.keptPhotographs(), KeptPhotographs::everything);
   }
 
   /// Law: finer takes longer.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/calibration/leftovers.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/shot_journal.h"
+
+namespace relucent::calibration {
+namespace fs = std::filesystem;
+namespace {
+
+/// The entries of all stages. The folder is open and locked: its manifest was found sound.
+Json resultsIn(const CalibrationFolder& folder) {
+  return Json::parse(readFile(folder.path() / CalibrationFolder::manifestName)).at("results");
+}
+
+bool isHidden(const fs::path& path) {
+  return path.filename().string().starts_with(".");
+}
+
+}  // namespace
+
+std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
+  std::set<std::string> named;
+  for (const Json& entries : resultsIn(folder))
+    for (const Json& entry : entries) named.insert(entry.at("folder").get<std::string>());
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path(), code)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".calibration.part") && name.ends_with(".relucent")) found.push_back(entry.path());
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
+    if (isShotLeftover(entry.path())) found.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "results", code)) {
+    const std::string name = entry.path().filename().string();
+    const auto isOfStage = [&](Stage stage) { return name.starts_with(std::string(nameOf(stage)) + "-"); };
+    const std::vector<Stage> stages = allValues<Stage>();
+    const bool isPart = isHidden(entry.path()) && name.ends_with(".part");
+    if (isPart ||
+        (std::ranges::any_of(stages, isOfStage) && entry.is_directory(code) && !named.contains(name)))
+      found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<fs::path> replacedResults(const CalibrationFolder& folder) {
+  // The folder of a result that was removed may have become that of another since.
+  std::set<std::string> found, replaced;
+  for (const Json& entries : resultsIn(folder)) {
+    std::set<std::string> inputs;
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+      const bool isNewest = inputs.insert(entry->at("inputs").get<std::string>()).second;
+      (isNewest ? found : replaced).insert(entry->at("folder").get<std::string>());
+    }
+  }
+  std::vector<fs::path> folders;
+  for (const std::string& name : replaced) {
+    std::error_code code;
+    const fs::path result = folder.path() / "results" / name;
+    if (!name.empty() && !found.contains(name) && fs::is_directory(result, code)) folders.push_back(result);
+  }
+  return folders;
+}
+
+}  // namespace relucent::calibration

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "relucent/calibration/calibration_folder.h"
+
+namespace relucent::calibration {
+
+/// Files that interrupted writes left, and folders of results that no manifest names: nothing reads them.
+/// Opening a calibration for writing clears away most of them. Files and folders.
+std::vector<std::filesystem::path> leftovers(const CalibrationFolder& folder);
+
+/// Folders of results that nothing can find again, because a newer one was stored for the very same inputs:
+/// of a measurement that was stopped and kept, once it has gone on. Results for other settings are none of
+/// them: they are current again when the settings are set back.
+std::vector<std::filesystem::path> replacedResults(const CalibrationFolder& folder);
+
+}  // namespace relucent::calibration

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QMutex>
+#include <QObject>
+#include <QWaitCondition>
+#include <optional>
+
+#include "relucent/calibration/room_on_disk.h"
+
+namespace relucent::gui {
+
+/// Tells the interface that a measurement waits because the disk is full, and the measurement that it is to
+/// go on. Called on both threads.
+class RoomQuestion : public QObject, public calibration::RoomWaiter {
+  Q_OBJECT
+
+ public:
+  explicit RoomQuestion(QObject* parent = nullptr) : QObject(parent) {}
+
+  Answer wait(const calibration::FullDisk& disk) override;
+  void over() override;
+
+  /// The disk that is waited for; none: nobody waits.
+  std::optional<calibration::FullDisk> waiting() const;
+  /// With what is free. Nothing, if nobody waits.
+  void goOn();
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  mutable QMutex guard_;
+  QWaitCondition told_;
+  std::optional<calibration::FullDisk> waiting_;
+  bool goesOn_ = false;
+};
+
+}  // namespace relucent::gui

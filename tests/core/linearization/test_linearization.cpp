@@ -135,6 +135,28 @@ class DimmingProjector : public Projector {
   std::unique_ptr<Projector> projector_;
 };
 
+/// A projector that tells which share of its picture was lit.
+class WatchedProjector : public Projector {
+ public:
+  WatchedProjector(std::unique_ptr<Projector> projector, std::vector<double>& lit)
+      : projector_(std::move(projector)), lit_(lit) {}
+
+  std::string name() const override { return projector_->name(); }
+  Size size() const override { return projector_->size(); }
+  int bits() const override { return projector_->bits(); }
+  void show(const image::Image& encodedDrive) override {
+    double lit = 0.0;
+    for (std::size_t i = 0; i < encodedDrive.pixels(); ++i)
+      lit += std::ranges::max(encodedDrive.pixel(i)) > 0.0f ? 1.0 : 0.0;
+    lit_.push_back(lit / static_cast<double>(encodedDrive.pixels()));
+    projector_->show(encodedDrive);
+  }
+
+ private:
+  std::unique_ptr<Projector> projector_;
+  std::vector<double>& lit_;
+};
+
 bool says(const Linearization& found, const char* part) {
   return std::ranges::any_of(found.findings, [part](const Message& finding) {
     return QString::fromStdString(english(finding)).contains(part);
@@ -314,6 +336,21 @@ class TestLinearization : public QObject {
     const QString other = QString("scripted projector %1:").arg(2 - which);
     for (const Message& finding : found.findings)
       QVERIFY2(!QString::fromStdString(english(finding)).startsWith(other), english(finding).c_str());
+  }
+
+  /// Where all groups are lit, cells stay dark in which other projectors are seen alone.
+  void severalProjectorsLeaveCellsDark() {
+    Setup setup = setupOf(std::vector<ScriptedProjector>(2), false, 1);
+    setup.settings.levels = 6;
+    ScriptedVenue venue = setup.venue();
+    Rig rig = venue.rig();
+    std::vector<double> lit;
+    rig.projectors[1] = std::make_unique<WatchedProjector>(std::move(rig.projectors[1]), lit);
+    NoShotLog log;
+    ShotTaker taker(rig, log, "linearization");
+    Progress progress;
+    linearize(taker, setup.settings, progress);
+    QVERIFY(std::ranges::any_of(lit, [](double share) { return std::abs(share - 6.0 / 7.0) < 0.03; }));
   }
 
   void aMissingChannelNamesItsProjector() {

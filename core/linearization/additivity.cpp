@@ -27,19 +27,14 @@ Message superpositionFinding(double excess, const std::string& projector) {
 
 }  // namespace
 
-Additivity additivityOf(const ChannelSums& white, const std::array<ChannelSums, mosaicLights>& lights,
-                        const ChannelSums& groupInWhite) {
+Additivity additivityOf(const ChannelSums& white, const ChannelSums& lights, const ChannelSums& groupInWhite,
+                        const ChannelSums& groupLights) {
   Additivity result;
   for (std::size_t c = 0; c < 3; ++c) {
-    double group = 0.0, all = 0.0;
-    for (std::size_t light = 0; light < mosaicLights; ++light) {
-      all += lights[light][c];
-      if (light < 3) group += lights[light][c];
-    }
-    if (!(group > 0.0) || !(white[c] > 0.0)) continue;
-    double excess = groupInWhite[c] / group;
+    if (!(groupLights[c] > 0.0) || !(white[c] > 0.0)) continue;
+    double excess = groupInWhite[c] / groupLights[c];
     result.white = worse(result.white, excess - 1.0);
-    result.superposition = worse(result.superposition, all * excess / white[c] - 1.0);
+    result.superposition = worse(result.superposition, lights[c] * excess / white[c] - 1.0);
   }
   return result;
 }

@@ -19,9 +19,10 @@ struct Additivity {
 /// Sums over well-lit camera values, less black and over the lamp's power, per camera channel.
 using ChannelSums = std::array<double, 3>;
 
-/// From white, the nine lights of a mosaic, and the first group in white.
-Additivity additivityOf(const ChannelSums& white, const std::array<ChannelSums, mosaicLights>& lights,
-                        const ChannelSums& groupInWhite);
+/// From white and the nine lights that make it up, and from the first group in white and its three lights;
+/// both pairs over values of their own.
+Additivity additivityOf(const ChannelSums& white, const ChannelSums& lights, const ChannelSums& groupInWhite,
+                        const ChannelSums& groupLights);
 
 /// Findings about deviations above `limit`: the likely cause and what to switch off.
 std::vector<Message> additivityFindings(const Additivity& additivity, const std::string& projector,

@@ -159,39 +159,30 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, thinning, settings, calibrating);
 
   rig::Shot black = blackOf(shots, choice, thinning, progress);
-  std::vector<MosaicPhotographs> photographs;
-  std::vector<ShotPair> pairs;
-  const double share = 0.75 / static_cast<double>(rig.projectors.size());
-  for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
-    Progress mosaics = progress.part(
-        share, RELUCENT_MESSAGE("stage.measuring-brightness-curves", "Measuring the brightness curves of {}")
-                   .with(rig.projectors[projector]->name()));
-    photographs.push_back(photographMosaics(shots, projector, cameras, choice, black, settings, mosaics));
-    const MosaicPhotographs& taken = photographs.back();
-    pairs.emplace_back(taken.shots.front(), taken.shots.back());
-  }
-  pairs.emplace_back(*atExposures({photographs.front().blackBefore}, choice.dim),
-                     photographs.front().blackAfter);
+  Progress mosaics = progress.part(0.75, progress.stage());
+  const MosaicPhotographs photographs = photographMosaics(shots, cameras, choice, black, settings, mosaics);
+  std::vector<ShotPair> pairs{photographs.white,
+                              {*atExposures({photographs.blackBefore}, choice.dim), photographs.blackAfter}};
   Progress pairing = progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
   for (ShotPair& pair : takePairs(shots, thinning, settings.noisePairs - 2, choice.seconds, pairing))
     pairs.push_back(std::move(pair));
   for (std::size_t camera = 0; camera < cameras.size(); ++camera)
     result.cameras.push_back(withMeasuredNoise(cameras[camera], pairs, camera));
 
+  Progress checking = progress.part(
+      0.05, RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up")
+                .with(namesOf(rig)));
+  checking.checkpoint();
   std::vector<double> flicker(rig.cameras.size(), 0.0);
-  for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
-    const std::string name = rig.projectors[projector]->name();
-    Progress checking = progress.part(
-        0.05 / static_cast<double>(rig.projectors.size()),
-        RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up").with(name));
-    checking.checkpoint();
-    MosaicResult measured = evaluate(photographs[projector], result.cameras, thinning);
+  std::vector<MosaicResult> measured = evaluate(photographs, result.cameras, thinning);
+  for (std::size_t projector = 0; projector < measured.size(); ++projector) {
+    MosaicResult& own = measured[projector];
     result.additivityError.push_back(
-        std::max(std::abs(measured.additivity.white), std::abs(measured.additivity.superposition)));
-    addFindings(result.findings, measured, name, settings.additivityLimit);
+        std::max(std::abs(own.additivity.white), std::abs(own.additivity.superposition)));
+    addFindings(result.findings, own, rig.projectors[projector]->name(), settings.additivityLimit);
     for (std::size_t camera = 0; camera < flicker.size(); ++camera)
-      flicker[camera] = std::max(flicker[camera], measured.flicker[camera]);
-    result.projectors.push_back(std::move(measured.response));
+      flicker[camera] = std::max(flicker[camera], own.flicker[camera]);
+    result.projectors.push_back(std::move(own.response));
   }
   addFlicker(result.findings, rig, flicker);
   progress.report(1.0);
@@ -200,13 +191,12 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
 }
 
 int usualShots(const LinearizationSettings& settings, std::size_t projectors) {
-  constexpr int ofAll = 5;    // exposures and black
-  constexpr int ofEach = 12;  // the lights of a mosaic, one group in white, white, black
+  constexpr int ofAll = 8;    // exposures; a group of all in white; white and black at the end
+  constexpr int ofEach = 10;  // white, the lights of a mosaic
   constexpr int levels = 8;   // in a mosaic
   const int mosaics = (3 * (settings.levels - 2) + levels - 1) / levels;
-  const int whites =
-      projectors > 1 ? static_cast<int>(projectors) : 0;  // of one alone, that all took already
-  return ofAll + static_cast<int>(projectors) * (ofEach + mosaics) + whites;
+  const int known = projectors == 1 ? 1 : 0;  // white of one alone: the exposures took it
+  return ofAll + static_cast<int>(projectors) * ofEach + mosaics - known;
 }
 
 }  // namespace relucent::linearization

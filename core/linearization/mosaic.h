@@ -22,15 +22,18 @@ using MosaicDrive = std::array<double, mosaicLights>;
 /// the picture, so that cameras see all groups wherever they look.
 class Mosaic {
  public:
-  Mosaic(Size projector, Random random);
+  /// `darkCells`, for several projectors at once: half as many cells as a group has are of none. Without
+  /// them, two projectors with the same picture in the same place could exchange light that all their groups
+  /// share, and no camera would see it.
+  Mosaic(Size projector, Random random, bool darkCells);
 
-  /// Every cell in the colour of its group.
+  /// Every cell in the colour of its group, black if it has none.
   image::Image pattern(const MosaicDrive& drive) const;
 
  private:
   Size size_;
   int side_ = 1, across_ = 1;
-  std::vector<std::size_t> groupOfCell_;
+  std::vector<std::size_t> groupOfCell_;  // mosaicGroups: none
 };
 
 }  // namespace relucent::linearization

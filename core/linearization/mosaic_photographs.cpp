@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/linearization/mosaic_photographs.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -16,13 +18,28 @@ namespace {
 
 constexpr std::size_t mostPixels = 100000;  // of all cameras, that are evaluated
 constexpr double leastLight = 0.02;         // of the 99th percentile of white, of values that are evaluated
-constexpr double leastShare = 0.01;         // of white, of a channel that cameras see
-constexpr double mostDim = 0.9;             // of flood light, over what longer exposures gain
-constexpr double mostEarly = 0.75;          // of that, of levels that are shown before
-constexpr double leastGain = 1.5;           // of longer exposures, to be worth it
-constexpr int coarseBits = 8;               // of a linear camera
-constexpr double fewestInRegion = 60.0;     // values
-constexpr double certain = 6.0;             // deviations
+// Of white, of a channel that cameras see: less may be noise that is cut off below zero.
+constexpr double leastShare = 0.02;
+constexpr double mostDim = 0.9;          // of flood light, over what longer exposures gain
+constexpr double mostEarly = 0.75;       // of that, of levels that are shown before
+constexpr double leastGain = 1.5;        // of longer exposures, to be worth it
+constexpr int coarseBits = 8;            // of a linear camera
+constexpr double fewestInRegion = 60.0;  // values
+constexpr double leastPart = 0.15;       // of the light of all projectors
+constexpr double certain = 6.0;          // deviations
+
+// Of one projector alone: white and its nine lights. After all of them one of all first groups in white.
+constexpr std::size_t ownPhotographs = 1 + mosaicLights;
+
+std::size_t whiteOf(std::size_t projector) {
+  return projector * ownPhotographs;
+}
+std::size_t lightOf(std::size_t projector, std::size_t light) {
+  return whiteOf(projector) + 1 + light;
+}
+std::size_t groupsOf(std::size_t projectors) {
+  return projectors * ownPhotographs;
+}
 
 std::size_t divided(std::size_t a, std::size_t b) {
   return (a + b - 1) / b;
@@ -32,7 +49,30 @@ std::size_t divided(std::size_t a, std::size_t b) {
 struct Lights {
   std::vector<std::size_t> at;                       // which values
   std::vector<std::vector<double>> light, variance;  // [photograph][value]
+  std::vector<std::vector<bool>> lit;                // [projector][value]: by more than noise could
+
+  /// Of every projector's white.
+  double whiteVariance(std::size_t value) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < lit.size(); ++p) sum += variance[whiteOf(p)][value];
+    return sum;
+  }
 };
+
+/// Values that white raises by more than noise could.
+std::vector<bool> litBy(const hdr::HdrFrame& white, const hdr::HdrFrame& black) {
+  std::vector<float> rise(white.radiance.size());
+  for (std::size_t i = 0; i < rise.size(); ++i) rise[i] = white.radiance[i] - black.radiance[i];
+  std::vector<float> sorted = rise;
+  auto high = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
+  std::nth_element(sorted.begin(), high, sorted.end());
+  std::vector<bool> lit;
+  for (std::size_t i = 0; i < rise.size(); ++i) {
+    double light = rise[i], noise = std::sqrt(static_cast<double>(white.variance[i] + black.variance[i]));
+    lit.push_back(light > leastLight * static_cast<double>(*high) && light > 5.0 * noise);
+  }
+  return lit;
+}
 
 Lights lightsOf(const MosaicPhotographs& photographs, const std::vector<hdr::CameraModel>& cameras,
                 const Rasters& rasters) {
@@ -45,20 +85,19 @@ Lights lightsOf(const MosaicPhotographs& photographs, const std::vector<hdr::Cam
   const double begin = photographs.blackBefore.id.number,
                end = std::max<double>(begin + 1.0, photographs.blackAfter.id.number);
 
-  const hdr::HdrFrame& white = frames.front();
-  std::vector<float> rise(white.radiance.size());
-  for (std::size_t i = 0; i < rise.size(); ++i) rise[i] = white.radiance[i] - before.radiance[i];
-  std::vector<float> sorted = rise;
-  auto high = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
-  std::nth_element(sorted.begin(), high, sorted.end());
+  // While they are being taken, some projectors' own are still missing.
+  const std::size_t projectors = std::min(photographs.drives.size(), frames.size() / ownPhotographs);
+  std::vector<std::vector<bool>> lit;
+  for (std::size_t p = 0; p < projectors; ++p) lit.push_back(litBy(frames[whiteOf(p)], before));
 
   Lights lights;
-  for (std::size_t i = 0; i < rise.size(); ++i) {
-    double light = rise[i], noise = std::sqrt(static_cast<double>(white.variance[i] + before.variance[i]));
-    bool usable =
-        light > leastLight * static_cast<double>(*high) && light > 5.0 * noise && before.valid[i] != 0;
+  lights.lit.resize(projectors);
+  for (std::size_t i = 0; i < before.valid.size(); ++i) {
+    bool usable = before.valid[i] != 0;
     for (const hdr::HdrFrame& frame : frames) usable = usable && frame.valid[i] != 0;
-    if (usable) lights.at.push_back(i);
+    if (!usable || std::ranges::none_of(lit, [i](const std::vector<bool>& by) { return by[i]; })) continue;
+    lights.at.push_back(i);
+    for (std::size_t p = 0; p < projectors; ++p) lights.lit[p].push_back(lit[p][i]);
   }
   for (std::size_t m = 0; m < frames.size(); ++m) {
     double share = std::clamp((photographs.what[m].time - begin) / (end - begin), 0.0, 1.0);
@@ -87,56 +126,57 @@ LightProducts productsOf(const Lights& lights, const Wanted& wanted) {
       light[m] = lights.light[m][i];
       variance[m] = lights.variance[m][i];
     }
-    products.add(light, variance, 1.0 / variance.front());
+    products.add(light, variance, 1.0 / lights.whiteVariance(i));
   }
   return products;
 }
 
 /// The levels that photographs show, and the photographs in terms of these alone.
 struct Shown {
-  std::vector<double> drives;
+  std::vector<std::vector<double>> drives;  // per projector
   std::vector<MosaicShot> what;
 };
 Shown shownBy(const MosaicPhotographs& photographs) {
-  std::vector<bool> used(photographs.drives.size() + 1, false);
-  used.back() = true;
-  for (const MosaicShot& shot : photographs.what)
-    for (std::size_t level : shot.level) used[level] = true;
-  std::vector<std::size_t> place(used.size(), 0);
   Shown shown{{}, photographs.what};
-  for (std::size_t level = 1; level < used.size(); ++level) {
-    if (!used[level]) continue;
-    shown.drives.push_back(photographs.drives[level - 1]);
-    place[level] = shown.drives.size();
+  for (std::size_t p = 0; p < photographs.drives.size(); ++p) {
+    const std::vector<double>& all = photographs.drives[p];
+    std::vector<bool> used(all.size() + 1, false);
+    used.back() = true;
+    for (const MosaicShot& shot : photographs.what)
+      for (std::size_t level : shot.level[p]) used[level] = true;
+    std::vector<std::size_t> place(used.size(), 0);
+    std::vector<double>& drives = shown.drives.emplace_back();
+    for (std::size_t level = 1; level < used.size(); ++level) {
+      if (!used[level]) continue;
+      drives.push_back(all[level - 1]);
+      place[level] = drives.size();
+    }
+    for (MosaicShot& shot : shown.what)
+      for (std::size_t& level : shot.level[p]) level = place[level];
   }
-  for (MosaicShot& shot : shown.what)
-    for (std::size_t& level : shot.level) level = place[level];
   return shown;
 }
 
-LevelLights usualLights(const std::vector<double>& drives) {
-  LevelLights start;
-  for (std::vector<double>& channel : start)
-    for (double drive : drives) channel.push_back(std::pow(drive, 2.2));
+std::vector<LevelLights> usualLights(const std::vector<std::vector<double>>& drives) {
+  std::vector<LevelLights> start(drives.size());
+  for (std::size_t p = 0; p < drives.size(); ++p)
+    for (std::vector<double>& channel : start[p])
+      for (double drive : drives[p]) channel.push_back(std::pow(drive, 2.2));
   return start;
 }
 
-/// What is known of the response while it is being measured: enough to tell how bright a level will be.
+/// What is known of a response while it is being measured: enough to tell how bright a level will be.
 class Forecast {
  public:
-  Forecast(const MosaicPhotographs& photographs, const Lights& lights) {
-    Shown shown = shownBy(photographs);
-    drives_ = shown.drives;
-    light_ = fitResponse(drives_, shown.what, productsOf(lights, [](std::size_t) { return true; }),
-                         usualLights(drives_))
-                 .light;
+  Forecast(const Shown& shown, std::size_t projector, LevelLights light)
+      : drives_(shown.drives[projector]), light_(std::move(light)) {
     for (std::size_t c = 0; c < 3; ++c) {
       std::vector<bool>& seen = seen_[c];
       seen.assign(drives_.size(), false);
       seen.back() = true;
       for (const MosaicShot& shot : shown.what)
         for (std::size_t group = 0; group < mosaicGroups; ++group)
-          if (std::size_t level = shot.level[3 * group + c]; level > 0) seen[level - 1] = true;
+          if (std::size_t level = shot.level[projector][3 * group + c]; level > 0) seen[level - 1] = true;
     }
   }
 
@@ -169,8 +209,8 @@ class LevelQueue {
       for (std::size_t level = levels; level-- > 1;) channel.push_back(level);
   }
 
-  bool empty() const {
-    return std::ranges::all_of(open_, [](const auto& channel) { return channel.empty(); });
+  bool isOpen() const {
+    return std::ranges::any_of(open_, [](const auto& channel) { return !channel.empty(); });
   }
   /// The highest of a channel that is still open; 0: none.
   std::size_t next(std::size_t channel) const { return open_[channel].empty() ? 0 : open_[channel].front(); }
@@ -178,12 +218,13 @@ class LevelQueue {
 
   /// One channel's next levels in random groups, while `wanted` says so; one group is full if `reference`.
   template <typename Wanted>
-  void show(MosaicShot& shot, std::size_t channel, bool reference, std::size_t full, const Wanted& wanted) {
+  void show(MosaicLevels& levels, std::size_t channel, bool reference, std::size_t full,
+            const Wanted& wanted) {
     std::array<std::size_t, mosaicGroups> groups{};
     for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = i;
     for (std::size_t i = groups.size(); i > 1; --i) std::swap(groups[i - 1], groups[random_.below(i)]);
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      std::size_t& level = shot.level[3 * groups[i] + channel];
+      std::size_t& level = levels[3 * groups[i] + channel];
       if (i == 0 && reference)
         level = full;
       else if (!open_[channel].empty() && wanted(channel, open_[channel].front())) {
@@ -198,66 +239,102 @@ class LevelQueue {
   Random random_;
 };
 
-/// Takes one projector's photographs.
+Message measuringCurves(const std::string& projectors) {
+  return RELUCENT_MESSAGE("stage.measuring-brightness-curves", "Measuring the brightness curves of {}")
+      .with(projectors);
+}
+
+/// Takes the photographs of all projectors.
 class Photographer {
  public:
-  Photographer(rig::ShotTaker& shots, std::size_t projector, const std::vector<hdr::CameraModel>& cameras,
-               const ExposureChoice& choice, const LinearizationSettings& settings, Progress& progress)
-      : shots_(shots),
-        projector_(projector),
-        cameras_(cameras),
-        choice_(choice),
-        progress_(progress),
-        thinning_(shots.rig().cameraRasters()),
-        mosaic_(shots.rig().projectors[projector]->size(), Random{settings.seed, 7, projector}),
-        queue_(rampLevels(settings, shots.rig().projectors[projector]->bits()).size(),
-               Random{settings.seed, 8, projector}) {
-    result_.drives = rampLevels(settings, shots.rig().projectors[projector]->bits());
-    // White and its nine lights, a group in white, the levels, white and black.
-    expected_ = 13.0 + std::ceil(static_cast<double>(queue_.left(0)) / 2.75);
+  Photographer(rig::ShotTaker& shots, const std::vector<hdr::CameraModel>& cameras,
+               const ExposureChoice& choice, const LinearizationSettings& settings)
+      : shots_(shots), cameras_(cameras), choice_(choice), thinning_(shots.rig().cameraRasters()) {
+    const rig::Rig& rig = shots.rig();
+    for (std::size_t p = 0; p < rig.projectors.size(); ++p) {
+      result_.drives.push_back(rampLevels(settings, rig.projectors[p]->bits()));
+      projectors_.push_back({Mosaic(rig.projectors[p]->size(), Random{settings.seed, 7, p}, count() > 1),
+                             LevelQueue(result_.drives.back().size(), Random{settings.seed, 8, p}),
+                             std::nullopt});
+    }
   }
 
-  MosaicPhotographs run(rig::Shot blackBefore) {
+  MosaicPhotographs run(rig::Shot blackBefore, Progress& progress) {
     result_.blackBefore = std::move(blackBefore);
-    photographLights();
-    requireAllChannels();
-    photographLevels();
-    take(white(), choice_.flood);
-    const rig::Shot after = shots_.take(evenPatterns(shots_.rig(), {0, 0, 0}), choice_.dim, progress_);
-    result_.blackAfter = thinning_.of(after);
+    // Each projector's own; groups in white; the levels; white and black.
+    const double ownShare = static_cast<double>(ownPhotographs),
+                 together = 3.0 + std::ceil(static_cast<double>(mostLevels()) / 2.75),
+                 all = ownShare * static_cast<double>(count()) + together;
+    for (std::size_t p = 0; p < count(); ++p) {
+      const std::string name = shots_.rig().projectors[p]->name();
+      Progress own = progress.part(ownShare / all, measuringCurves(name));
+      photographLights(p, own);
+      requireAllChannels(p, name);
+    }
+    Progress joint = progress.part(together / all, measuringCurves(namesOf(shots_.rig())));
+    photographGroups(joint);
+    photographLevels(together, joint);
+    photographWhite(joint);
+    const rig::Shot black = shots_.take(evenPatterns(shots_.rig(), {0, 0, 0}), choice_.dim, joint);
+    result_.blackAfter = thinning_.of(black);
     return std::move(result_);
   }
 
  private:
-  std::size_t full() const { return result_.drives.size(); }
-  MosaicShot white() const {
-    MosaicShot shot;
-    shot.level.fill(full());
+  struct Measured {
+    Mosaic mosaic;
+    LevelQueue queue;
+    std::optional<Forecast> forecast;
+  };
+
+  std::size_t count() const { return shots_.rig().projectors.size(); }
+  std::size_t full(std::size_t projector) const { return result_.drives[projector].size(); }
+  std::size_t mostLevels() const {
+    std::size_t most = 0;
+    for (const std::vector<double>& drives : result_.drives) most = std::max(most, drives.size() - 1);
+    return most;
+  }
+  MosaicShot dark() const { return {std::vector<MosaicLevels>(count(), MosaicLevels{}), 0.0}; }
+  MosaicShot white(std::size_t projector) const {
+    MosaicShot shot = dark();
+    shot.level[projector].fill(full(projector));
     return shot;
   }
 
-  void take(MosaicShot what, const std::vector<double>& exposures) {
-    std::vector<image::Image> patterns = evenPatterns(shots_.rig(), {0, 0, 0});
-    MosaicDrive drive{};
-    for (std::size_t q = 0; q < mosaicLights; ++q)
-      drive[q] = what.level[q] > 0 ? result_.drives[what.level[q] - 1] : 0.0;
-    patterns[projector_] = mosaic_.pattern(drive);
-    keep(what, thinning_.of(shots_.take(patterns, exposures, progress_)));
+  void take(MosaicShot what, const std::vector<double>& exposures, const Progress& progress) {
+    std::vector<image::Image> patterns;
+    for (std::size_t p = 0; p < count(); ++p) {
+      MosaicDrive drive{};
+      for (std::size_t q = 0; q < mosaicLights; ++q)
+        drive[q] = what.level[p][q] > 0 ? result_.drives[p][what.level[p][q] - 1] : 0.0;
+      patterns.push_back(projectors_[p].mosaic.pattern(drive));
+    }
+    keep(std::move(what), thinning_.of(shots_.take(patterns, exposures, progress)));
   }
   void keep(MosaicShot what, rig::Shot shot) {
     what.time = shot.id.number;
-    result_.what.push_back(what);
+    result_.what.push_back(std::move(what));
     result_.shots.push_back(std::move(shot));
-    progress_.report(std::min(1.0, static_cast<double>(result_.what.size()) / expected_));
   }
 
-  void photographLights() {
-    std::optional<rig::Shot> taken;
-    if (shots_.rig().projectors.size() == 1) taken = atExposures(choice_.whites, choice_.flood);
-    if (taken)
-      keep(white(), *std::move(taken));
+  /// White of all projectors, as it was photographed to choose the exposures.
+  rig::Shot firstWhite() const {
+    std::optional<rig::Shot> taken = atExposures(choice_.whites, choice_.flood);
+    require(taken.has_value(), "white was not photographed at the exposures for flood light");
+    return *std::move(taken);
+  }
+
+  void photographLights(std::size_t projector, Progress& progress) {
+    auto report = [&] {
+      progress.report(static_cast<double>(result_.what.size() - whiteOf(projector)) /
+                      static_cast<double>(ownPhotographs));
+    };
+    // Of one projector alone, the cells make up all of white.
+    if (count() == 1)
+      keep(white(projector), firstWhite());
     else
-      take(white(), choice_.flood);
+      take(white(projector), choice_.flood, progress);
+    report();
     // Where a light does not fall, there is hardly more than black: less than a code of a coarse camera,
     // which rounds all of it down. Longer exposures tell.
     const bool coarse = isCoarse();
@@ -265,13 +342,17 @@ class Photographer {
     for (double seconds : choice_.flood)
       if (std::ranges::count(floodAndDim, seconds) == 0) floodAndDim.push_back(seconds);
     for (std::size_t q = 0; q < mosaicLights; ++q) {
-      MosaicShot light;
-      light.level[q] = full();
-      take(light, coarse ? floodAndDim : choice_.flood);
+      MosaicShot light = dark();
+      light.level[projector][q] = full(projector);
+      take(light, coarse ? floodAndDim : choice_.flood, progress);
+      report();
     }
-    MosaicShot group;
-    std::fill_n(group.level.begin(), 3, full());
-    take(group, choice_.flood);
+  }
+
+  void photographGroups(const Progress& progress) {
+    MosaicShot groups = dark();
+    for (std::size_t p = 0; p < count(); ++p) std::fill_n(groups.level[p].begin(), 3, full(p));
+    take(groups, choice_.flood, progress);
   }
 
   bool isCoarse() const {
@@ -283,10 +364,10 @@ class Photographer {
     return false;
   }
 
-  void requireAllChannels() const {
+  void requireAllChannels(std::size_t projector, const std::string& name) const {
     const Lights lights = lightsOf(result_, cameras_, thinning_.rasters());
-    const std::string name = shots_.rig().projectors[projector_]->name();
-    if (static_cast<double>(lights.at.size()) < 3.0 * static_cast<double>(mosaicLights))
+    const std::vector<bool>& lit = lights.lit[projector];
+    if (static_cast<double>(std::ranges::count(lit, true)) < 3.0 * static_cast<double>(mosaicLights))
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("linearization.white-not-measurable",
@@ -295,17 +376,18 @@ class Photographer {
               "linearization.check-view-and-exposure",
               "check that its picture is in view and not overexposed: close the aperture or lower the gain"),
           name);
-    for (std::size_t c = 0; c < 3; ++c) {
-      double light = 0.0, variance = 0.0, all = 0.0;
-      for (std::size_t i = 0; i < lights.at.size(); ++i) {
-        double weight = 1.0 / lights.variance[0][i];
-        all += weight * lights.light[0][i];
-        for (std::size_t group = 0; group < mosaicGroups; ++group) {
-          light += weight * lights.light[1 + 3 * group + c][i];
-          variance += weight * weight * lights.variance[1 + 3 * group + c][i];
-        }
+    std::array<double, 3> light{}, variance{};
+    for (std::size_t i = 0; i < lights.at.size(); ++i) {
+      if (!lit[i]) continue;
+      double weight = 1.0 / lights.variance[whiteOf(projector)][i];
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        light[q % 3] += weight * lights.light[lightOf(projector, q)][i];
+        variance[q % 3] += weight * weight * lights.variance[lightOf(projector, q)][i];
       }
-      if (light > leastShare * all && light > 5.0 * std::sqrt(variance)) continue;
+    }
+    const double all = light[0] + light[1] + light[2];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (light[c] > leastShare * all && light[c] > 5.0 * std::sqrt(variance[c])) continue;
       static constexpr std::array<const char*, 3> names{"red", "green", "blue"};
       throw Error(ErrorKind::input,
                   RELUCENT_ENGLISH_MESSAGE("linearization.colour-not-seen",
@@ -319,27 +401,34 @@ class Photographer {
   }
 
   /// As far as is known, of full; 0 where no level is left.
-  double nextLight(std::size_t channel) const {
-    const std::size_t level = queue_.next(channel);
-    return level > 0 ? lightOf(channel, level) : 0.0;
+  double nextLight(std::size_t projector, std::size_t channel) const {
+    const std::size_t level = projectors_[projector].queue.next(channel);
+    return level > 0 ? forecastOf(projector, channel, level) : 0.0;
   }
-  double lightOf(std::size_t channel, std::size_t level) const {
-    return forecast_ ? forecast_->lightOf(channel, result_.drives[level - 1]) : 1.0;
+  double nextLight(std::size_t projector) const {
+    return std::max({nextLight(projector, 0), nextLight(projector, 1), nextLight(projector, 2)});
+  }
+  double forecastOf(std::size_t projector, std::size_t channel, std::size_t level) const {
+    const std::optional<Forecast>& forecast = projectors_[projector].forecast;
+    return forecast ? forecast->lightOf(channel, result_.drives[projector][level - 1]) : 1.0;
   }
 
   /// The channel with the fewest levels left has room for a full light.
-  std::size_t referenceChannel() const {
+  std::size_t referenceChannel(std::size_t projector) const {
+    const LevelQueue& queue = projectors_[projector].queue;
     std::size_t found = 0;
     for (std::size_t c = 1; c < 3; ++c)
-      if (std::pair(queue_.left(c), nextLight(c)) < std::pair(queue_.left(found), nextLight(found)))
+      if (std::pair(queue.left(c), nextLight(projector, c)) <
+          std::pair(queue.left(found), nextLight(projector, found)))
         found = c;
     return found;
   }
 
-  /// White, the lights, the group in white, and the last two mosaics.
+  /// The projectors' own, the groups in white, and the last two mosaics.
   MosaicPhotographs lastPhotographs() const {
-    constexpr std::size_t first = 2 + mosaicLights, last = 2;
-    MosaicPhotographs result{result_.drives, {}, {}, result_.blackBefore, {}};
+    constexpr std::size_t last = 2;
+    const std::size_t first = groupsOf(count()) + 1;
+    MosaicPhotographs result{result_.drives, {}, {}, {}, result_.blackBefore, {}};
     for (std::size_t m = 0; m < result_.what.size(); ++m) {
       if (m >= first && m + last < result_.what.size()) continue;
       result.what.push_back(result_.what[m]);
@@ -348,34 +437,52 @@ class Photographer {
     return result;
   }
 
-  void photographLevels() {
+  void forecast() {
+    const MosaicPhotographs last = lastPhotographs();
+    const Lights lights = lightsOf(last, cameras_, thinning_.rasters());
+    const Shown shown = shownBy(last);
+    std::vector<ResponseFit> fits =
+        fitResponses(shown.drives, shown.what, productsOf(lights, [](std::size_t) { return true; }),
+                     usualLights(shown.drives));
+    for (std::size_t p = 0; p < count(); ++p)
+      projectors_[p].forecast.emplace(shown, p, std::move(fits[p].light));
+  }
+
+  void photographLevels(double expected, Progress& progress) {
     // Light that longer exposures make as bright as the flood image.
     const double dim = choice_.dimmerBy > leastGain ? mostDim / choice_.dimmerBy : 0.0;
-    while (!queue_.empty()) {
-      const bool bright = std::max({nextLight(0), nextLight(1), nextLight(2)}) > dim;
-      const std::size_t reference = referenceChannel();
-      MosaicShot shot;
-      for (std::size_t c = 0; c < 3; ++c)
-        queue_.show(shot, c, bright && c == reference, full(), [&](std::size_t channel, std::size_t level) {
-          return !bright || lightOf(channel, level) > dim * mostEarly;
-        });
-      take(shot, bright ? choice_.flood : choice_.dim);
-      if (!bright) continue;
-      const MosaicPhotographs last = lastPhotographs();
-      forecast_.emplace(last, lightsOf(last, cameras_, thinning_.rasters()));
+    for (double taken = 1.0; std::ranges::any_of(projectors_, &LevelQueue::isOpen, &Measured::queue);
+         ++taken) {
+      bool bright = false;
+      for (std::size_t p = 0; p < count(); ++p) bright = bright || nextLight(p) > dim;
+      MosaicShot shot = dark();
+      for (std::size_t p = 0; p < count(); ++p) {
+        // The others' brighter levels come first.
+        if (bright && nextLight(p) <= dim * mostEarly) continue;
+        const std::size_t reference = referenceChannel(p);
+        for (std::size_t c = 0; c < 3; ++c)
+          projectors_[p].queue.show(shot.level[p], c, bright && c == reference, full(p),
+                                    [&](std::size_t channel, std::size_t level) {
+                                      return !bright || forecastOf(p, channel, level) > dim * mostEarly;
+                                    });
+      }
+      take(shot, bright ? choice_.flood : choice_.dim, progress);
+      progress.report(std::min(1.0, taken / expected));
+      if (bright) forecast();
     }
   }
 
+  void photographWhite(const Progress& progress) {
+    const rig::Shot taken = shots_.take(evenPatterns(shots_.rig(), {1, 1, 1}), choice_.flood, progress);
+    result_.white = {firstWhite(), thinning_.of(taken)};
+    if (count() == 1) keep(white(0), result_.white.second);
+  }
+
   rig::ShotTaker& shots_;
-  std::size_t projector_;
   const std::vector<hdr::CameraModel>& cameras_;
   const ExposureChoice& choice_;
-  Progress& progress_;
   Thinning thinning_;
-  Mosaic mosaic_;
-  LevelQueue queue_;
-  std::optional<Forecast> forecast_;
-  double expected_ = 1.0;
+  std::vector<Measured> projectors_;
   MosaicPhotographs result_;
 };
 
@@ -394,19 +501,146 @@ hdr::ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<
   return hdr::curveFromRamp(x, y, weights);
 }
 
-Additivity additivityIn(const MosaicPhotographs& photographs, const Lights& lights, double drift) {
+/// Sums of every photograph over values that `wanted` says.
+template <typename Wanted>
+std::vector<ChannelSums> sumsOf(const Lights& lights, const Wanted& wanted) {
   std::vector<ChannelSums> sums(lights.light.size(), ChannelSums{});
   for (std::size_t m = 0; m < sums.size(); ++m)
-    for (std::size_t i = 0; i < lights.at.size(); ++i) sums[m][lights.at[i] % 3] += lights.light[m][i];
-  for (std::size_t m = 0; m < sums.size(); ++m)
-    for (double& sum : sums[m])
-      sum /= 1.0 + drift * (photographs.what[m].time - photographs.what.front().time);
-  std::array<ChannelSums, mosaicLights> single{};
-  std::copy_n(sums.begin() + 1, mosaicLights, single.begin());
-  return additivityOf(sums.front(), single, sums[1 + mosaicLights]);
+    for (std::size_t i = 0; i < lights.at.size(); ++i)
+      if (wanted(i)) sums[m][lights.at[i] % 3] += lights.light[m][i];
+  return sums;
+}
+
+/// What sums say of the additivity of projectors' light, the drift of their lamps divided out.
+class Additivities {
+ public:
+  Additivities(const MosaicPhotographs& photographs, const Lights& lights,
+               const std::vector<ResponseFit>& fits)
+      : photographs_(photographs), lights_(lights), fits_(fits) {}
+
+  /// White where each projector shines; its first group where that is the brightest of all first groups.
+  std::vector<Additivity> run() const {
+    const std::vector<std::size_t> brightest = brightestGroups();
+    std::vector<Groups> groups;
+    for (std::size_t p = 0; p < fits_.size(); ++p) groups.push_back(groupsAt(p, brightest));
+    takeOffOthers(groups);
+    std::vector<Additivity> result;
+    for (std::size_t p = 0; p < fits_.size(); ++p) {
+      const auto sums = sumsOf(lights_, [&](std::size_t i) { return lights_.lit[p][i]; });
+      result.push_back(additivityOf(inUnits(sums, p, whiteOf(p)), lightsOf(sums, p, mosaicLights),
+                                    groups[p].inWhite, groups[p].lights[p]));
+    }
+    return result;
+  }
+
+ private:
+  /// At one projector's place, in units of its lamp.
+  struct Groups {
+    ChannelSums inWhite{};            // all first groups
+    std::vector<ChannelSums> lights;  // of each projector's first group, one by one
+  };
+
+  double lampIn(std::size_t projector, std::size_t shot) const {
+    return 1.0 + fits_[projector].drift *
+                     (photographs_.what[shot].time - photographs_.what[whiteOf(projector)].time);
+  }
+  ChannelSums inUnits(const std::vector<ChannelSums>& sums, std::size_t projector, std::size_t shot) const {
+    ChannelSums result = sums[shot];
+    for (double& sum : result) sum /= lampIn(projector, shot);
+    return result;
+  }
+  ChannelSums lightsOf(const std::vector<ChannelSums>& sums, std::size_t projector, std::size_t count) const {
+    ChannelSums result{};
+    for (std::size_t q = 0; q < count; ++q) {
+      const ChannelSums light = inUnits(sums, projector, lightOf(projector, q));
+      for (std::size_t c = 0; c < 3; ++c) result[c] += light[c];
+    }
+    return result;
+  }
+
+  std::vector<std::size_t> brightestGroups() const {
+    std::vector<std::size_t> brightest;
+    for (std::size_t i = 0; i < lights_.at.size(); ++i) {
+      std::vector<double> light(fits_.size(), 0.0);
+      for (std::size_t p = 0; p < light.size(); ++p)
+        for (std::size_t q = 0; q < 3; ++q) light[p] += lights_.light[lightOf(p, q)][i];
+      brightest.push_back(static_cast<std::size_t>(std::ranges::max_element(light) - light.begin()));
+    }
+    return brightest;
+  }
+
+  Groups groupsAt(std::size_t projector, const std::vector<std::size_t>& brightest) const {
+    const std::size_t shot = groupsOf(fits_.size());
+    const auto sums = sumsOf(
+        lights_, [&](std::size_t i) { return brightest[i] == projector && lights_.lit[projector][i]; });
+    Groups groups{inUnits(sums, projector, shot), {}};
+    for (std::size_t p = 0; p < fits_.size(); ++p) {
+      groups.lights.push_back(lightsOf(sums, p, 3));
+      for (double& light : groups.lights.back()) light *= lampIn(p, shot) / lampIn(projector, shot);
+    }
+    return groups;
+  }
+
+  /// Takes off what the other groups add at each one's place, which their own places tell:
+  ///   in white_p = sum_o e_o lights_po,   p the places, o the projectors,   solved for e.
+  static void takeOffOthers(std::vector<Groups>& groups) {
+    const auto count = static_cast<Eigen::Index>(groups.size());
+    auto at = [&groups](Eigen::Index p) -> Groups& { return groups[static_cast<std::size_t>(p)]; };
+    for (std::size_t c = 0; c < 3; ++c) {
+      Eigen::MatrixXd lights(count, count);
+      Eigen::VectorXd inWhite(count);
+      for (Eigen::Index p = 0; p < count; ++p) {
+        inWhite[p] = at(p).inWhite[c];
+        for (Eigen::Index o = 0; o < count; ++o) lights(p, o) = at(p).lights[static_cast<std::size_t>(o)][c];
+      }
+      const Eigen::VectorXd excess = lights.completeOrthogonalDecomposition().solve(inWhite);
+      for (Eigen::Index p = 0; p < count; ++p)
+        for (Eigen::Index o = 0; o < count; ++o)
+          if (o != p) at(p).inWhite[c] -= excess[o] * lights(p, o);
+    }
+  }
+
+  const MosaicPhotographs& photographs_;
+  const Lights& lights_;
+  const std::vector<ResponseFit>& fits_;
+};
+
+/// A projector's white in one region.
+struct RegionLight {
+  double values = 0.0;  // that it lights
+  double light = 0.0;
+};
+
+std::vector<RegionLight> regionLights(const Lights& lights, std::size_t projector, const Thinning& thinning) {
+  std::vector<RegionLight> regions(thinning.regions());
+  for (std::size_t i = 0; i < lights.at.size(); ++i) {
+    RegionLight& region = regions[thinning.regionOf(lights.at[i] / 3)];
+    region.light += lights.light[whiteOf(projector)][i];
+    if (lights.lit[projector][i]) region.values += 1.0;
+  }
+  return regions;
+}
+
+/// Whether a projector lights regions [first, end) enough to tell its response from what is not exactly known
+/// of the others'. `lights`: [projector][region].
+bool shinesIn(const std::vector<std::vector<RegionLight>>& lights, std::size_t projector, std::size_t first,
+              std::size_t end) {
+  double values = 0.0, own = 0.0, all = 0.0;
+  for (std::size_t region = first; region < end; ++region) {
+    values += lights[projector][region].values;
+    own += lights[projector][region].light;
+    for (const std::vector<RegionLight>& each : lights) all += each[region].light;
+  }
+  return values >= fewestInRegion && own >= leastPart * all;
 }
 
 }  // namespace
+
+std::string namesOf(const rig::Rig& rig) {
+  std::string names;
+  for (const auto& projector : rig.projectors) names += (names.empty() ? "" : ", ") + projector->name();
+  return names;
+}
 
 Thinning::Thinning(const Rasters& cameras)
     : cameras_(cameras), stride_(std::max<std::size_t>(1, divided(cameras.count(), mostPixels))) {
@@ -449,15 +683,14 @@ std::vector<double> rampLevels(const LinearizationSettings& settings, int bits) 
   return levels;
 }
 
-MosaicPhotographs photographMosaics(rig::ShotTaker& shots, std::size_t projector,
-                                    const std::vector<hdr::CameraModel>& cameras,
+MosaicPhotographs photographMosaics(rig::ShotTaker& shots, const std::vector<hdr::CameraModel>& cameras,
                                     const ExposureChoice& choice, rig::Shot blackBefore,
                                     const LinearizationSettings& settings, Progress& progress) {
-  return Photographer(shots, projector, cameras, choice, settings, progress).run(std::move(blackBefore));
+  return Photographer(shots, cameras, choice, settings).run(std::move(blackBefore), progress);
 }
 
-MosaicResult evaluate(const MosaicPhotographs& photographs, const std::vector<hdr::CameraModel>& cameras,
-                      const Thinning& thinning) {
+std::vector<MosaicResult> evaluate(const MosaicPhotographs& photographs,
+                                   const std::vector<hdr::CameraModel>& cameras, const Thinning& thinning) {
   const Lights lights = lightsOf(photographs, cameras, thinning.rasters());
   std::vector<LightProducts> regions;
   for (std::size_t region = 0; region < thinning.regions(); ++region)
@@ -469,29 +702,42 @@ MosaicResult evaluate(const MosaicPhotographs& photographs, const std::vector<hd
     return sum;
   };
 
-  MosaicResult result;
   const Shown shown = shownBy(photographs);
-  const ResponseFit fit =
-      fitResponse(shown.drives, shown.what, sumOf(0, regions.size()), usualLights(shown.drives));
-  result.additivity = additivityIn(photographs, lights, fit.drift);
-  for (std::size_t c = 0; c < 3; ++c)
-    result.response.channels[c] = curveOf(shown.drives, fit.light[c], fit.deviation[c]);
+  const std::vector<ResponseFit> fits =
+      fitResponses(shown.drives, shown.what, sumOf(0, regions.size()), usualLights(shown.drives));
+  std::vector<LevelLights> found;
+  std::vector<std::vector<RegionLight>> white;
+  std::vector<MosaicResult> results(fits.size());
+  const std::vector<Additivity> additivity = Additivities(photographs, lights, fits).run();
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    found.push_back(fits[p].light);
+    white.push_back(regionLights(lights, p, thinning));
+    results[p].additivity = additivity[p];
+    for (std::size_t c = 0; c < 3; ++c)
+      results[p].response.channels[c] = curveOf(shown.drives[p], fits[p].light[c], fits[p].deviation[c]);
+  }
 
   for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
     const LightProducts seen = sumOf(9 * camera, 9 * camera + 9);
-    if (cameras.size() == 1 || seen.values() < fewestInRegion)
-      result.flicker.push_back(fit.flicker);
-    else
-      result.flicker.push_back(fitResponse(shown.drives, shown.what, seen, fit.light).flicker);
+    std::vector<ResponseFit> own = fits;
+    if (cameras.size() > 1 && seen.values() >= fewestInRegion)
+      own = fitResponses(shown.drives, shown.what, seen, found);
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      const bool enough = shinesIn(white, p, 9 * camera, 9 * camera + 9);
+      results[p].flicker.push_back(enough ? own[p].flicker : fits[p].flicker);
+    }
   }
-  for (const LightProducts& region : regions) {
-    if (region.values() < fewestInRegion) continue;
-    RegionDeviation deviation = deviationOf(fit, shown.what, region);
-    for (std::size_t c = 0; c < 3; ++c)
-      if (std::abs(deviation.amplitude[c]) > certain * deviation.deviation[c])
-        result.unevenness = std::max(result.unevenness, std::abs(deviation.amplitude[c]));
+  for (std::size_t region = 0; region < regions.size(); ++region) {
+    if (regions[region].values() < fewestInRegion) continue;
+    const std::vector<RegionDeviation> deviations = deviationsOf(fits, shown.what, regions[region]);
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      if (!shinesIn(white, p, region, region + 1)) continue;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::abs(deviations[p].amplitude[c]) > certain * deviations[p].deviation[c])
+          results[p].unevenness = std::max(results[p].unevenness, std::abs(deviations[p].amplitude[c]));
+    }
   }
-  return result;
+  return results;
 }
 
 }  // namespace relucent::linearization

@@ -54,51 +54,70 @@ RampPreview::Light RampPreview::lightOf(const rig::RawFrame& frame) {
   return light;
 }
 
-void RampPreview::add(const image::Image& encodedPattern, const rig::RawFrame& frame) {
-  if (encodedPattern.empty() || encodedPattern.channels() != 3 || frame.signal.empty() ||
-      !(frame.seconds > 0.0))
-    return;
-  Light light = lightOf(frame);
-  if (isBlack(encodedPattern)) {
-    black_ = std::move(light);
-  } else if (auto channel = singleChannel(encodedPattern)) {
-    addKnown({*channel, litPlaces(encodedPattern, *channel), std::move(light)});
-  } else {
-    addMosaic(encodedPattern, light);
+void RampPreview::add(const std::vector<image::Image>& encodedPatterns, const rig::RawFrame& frame) {
+  if (encodedPatterns.empty() || frame.signal.empty() || !(frame.seconds > 0.0)) return;
+  std::vector<std::size_t> lit;
+  for (std::size_t p = 0; p < encodedPatterns.size(); ++p) {
+    if (encodedPatterns[p].empty() || encodedPatterns[p].channels() != 3) return;
+    if (!isBlack(encodedPatterns[p])) lit.push_back(p);
   }
+  projectors_.resize(std::max(projectors_.size(), encodedPatterns.size()));
+  Light light = lightOf(frame);
+  if (lit.empty()) {
+    black_ = std::move(light);
+    return;
+  }
+  const image::Image& first = encodedPatterns[lit.front()];
+  if (auto channel = singleChannel(first); channel && lit.size() == 1) {
+    addKnown(projectors_[lit.front()], {*channel, litPlaces(first, *channel), std::move(light)});
+    return;
+  }
+  std::vector<Shown> shown;
+  for (std::size_t p : lit) {
+    const std::vector<Shown> own = shownBy(projectors_[p], encodedPatterns[p]);
+    if (own.empty()) return;
+    shown.insert(shown.end(), own.begin(), own.end());
+  }
+  if (black_.size() == light.size()) addMosaics(shown, light);
 }
 
-void RampPreview::addKnown(Known known) {
-  auto same = std::ranges::find_if(known_, [&](const Known& other) {
+void RampPreview::addKnown(Measured& projector, Known known) {
+  auto same = std::ranges::find_if(projector.known, [&](const Known& other) {
     return other.channel == known.channel && other.places == known.places;
   });
-  if (same != known_.end()) {
+  if (same != projector.known.end()) {
     *same = std::move(known);
     return;
   }
   // Another mosaic begins.
-  if (known_.size() == mosaicLights) {
-    known_.clear();
-    levels_ = {};
-  }
-  known_.push_back(std::move(known));
+  if (projector.known.size() == mosaicLights) projector = {};
+  projector.known.push_back(std::move(known));
 }
 
-void RampPreview::addMosaic(const image::Image& pattern, const Light& light) {
-  if (known_.size() < mosaicLights || black_.size() != light.size()) return;
-  std::array<float, mosaicLights> drive{};
-  for (std::size_t q = 0; q < mosaicLights; ++q) {
-    drive[q] = pattern.pixel(known_[q].places.front())[known_[q].channel];
-    for (std::size_t place : known_[q].places)
-      if (pattern.pixel(place)[known_[q].channel] != drive[q]) return;
+std::vector<RampPreview::Shown> RampPreview::shownBy(Measured& projector, const image::Image& pattern) {
+  if (projector.known.size() < mosaicLights) return {};
+  std::vector<double> drives;
+  for (const Known& known : projector.known) {
+    const float drive = pattern.pixel(known.places.front())[known.channel];
+    for (std::size_t place : known.places)
+      if (pattern.pixel(place)[known.channel] != drive) return {};
+    drives.push_back(static_cast<double>(drive));
   }
+  std::vector<Shown> shown;
+  for (std::size_t q = 0; q < mosaicLights; ++q) {
+    const Known& known = projector.known[q];
+    shown.push_back({&known, &projector.levels[known.channel][drives[q]]});
+  }
+  return shown;
+}
 
-  constexpr auto count = static_cast<Eigen::Index>(mosaicLights);
+void RampPreview::addMosaics(const std::vector<Shown>& shown, const Light& light) const {
+  const auto count = static_cast<Eigen::Index>(shown.size());
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count), row(count);
   for (std::size_t i = 0; i < light.size(); ++i) {
     for (Eigen::Index q = 0; q < count; ++q) {
-      const Light& known = known_[static_cast<std::size_t>(q)].light;
+      const Light& known = shown[static_cast<std::size_t>(q)].known->light;
       row[q] =
           (known.size() == light.size() ? known[i] : std::numeric_limits<double>::quiet_NaN()) - black_[i];
     }
@@ -110,18 +129,19 @@ void RampPreview::addMosaic(const image::Image& pattern, const Light& light) {
   square.diagonal().array() += 1e-9 * square.trace();
   if (!(square.trace() > 0.0)) return;
   const Eigen::VectorXd shares = square.ldlt().solve(right);
-  for (std::size_t q = 0; q < mosaicLights; ++q) {
-    Mean& mean = levels_[known_[q].channel][static_cast<double>(drive[q])];
-    mean.sum += shares[static_cast<Eigen::Index>(q)];
-    ++mean.photographs;
+  for (std::size_t q = 0; q < shown.size(); ++q) {
+    shown[q].mean->sum += shares[static_cast<Eigen::Index>(q)];
+    ++shown[q].mean->photographs;
   }
 }
 
-std::array<std::map<double, double>, 3> RampPreview::curves() const {
+std::array<std::map<double, double>, 3> RampPreview::curves(std::size_t projector) const {
   std::array<std::map<double, double>, 3> curves;
+  if (projector >= projectors_.size()) return curves;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (levels_[c].empty()) continue;
-    for (const auto& [drive, mean] : levels_[c]) curves[c][drive] = mean.sum / mean.photographs;
+    for (const auto& [drive, mean] : projectors_[projector].levels[c])
+      if (mean.photographs > 0) curves[c][drive] = mean.sum / mean.photographs;
+    if (curves[c].empty()) continue;
     curves[c][0.0] = 0.0;
     curves[c][1.0] = 1.0;
   }

@@ -9,17 +9,17 @@
 
 namespace relucent::linearization {
 
-/// Approximate response of a projector while it is being measured, drive -> light, without the drift, the
+/// Approximate responses of projectors while they are being measured, drive -> light, without the drift, the
 /// noise and the smoothness of the fit. For display only.
 class RampPreview {
  public:
-  /// Adds one photograph: of black, of one of a mosaic's nine lights at full, or, once these and black are
-  /// known, of a mosaic. Least squares over pixels tell how much of each light it shows. Other patterns, and
-  /// pixels that are saturated, are ignored.
-  void add(const image::Image& encodedPattern, const rig::RawFrame& frame);
+  /// Adds one photograph of what all projectors show: black, one of the nine lights of one projector's mosaic
+  /// at full, or, once these and black are known, mosaics of one or more. Least squares over pixels tell how
+  /// much of each light it shows. Other patterns, and pixels that are saturated, are ignored.
+  void add(const std::vector<image::Image>& encodedPatterns, const rig::RawFrame& frame);
 
-  /// Per channel: drive -> light relative to full. Empty until a mosaic has been photographed.
-  std::array<std::map<double, double>, 3> curves() const;
+  /// Per channel: drive -> light relative to full. Empty until a mosaic of this projector was photographed.
+  std::array<std::map<double, double>, 3> curves(std::size_t projector = 0) const;
 
  private:
   /// Signal per second of some of a photograph's pixels; not a number where it is saturated.
@@ -34,14 +34,24 @@ class RampPreview {
     double sum = 0.0;
     int photographs = 0;
   };
+  struct Measured {
+    std::vector<Known> known;
+    std::array<std::map<double, Mean>, 3> levels;
+  };
+  /// How much of a known light a photograph should show.
+  struct Shown {
+    const Known* known;
+    Mean* mean;  // of its level
+  };
 
   static Light lightOf(const rig::RawFrame& frame);
-  void addKnown(Known known);
-  void addMosaic(const image::Image& pattern, const Light& light);
+  static void addKnown(Measured& projector, Known known);
+  /// Of every light that `pattern` shows; none if it is not a mosaic of known lights.
+  static std::vector<Shown> shownBy(Measured& projector, const image::Image& pattern);
+  void addMosaics(const std::vector<Shown>& shown, const Light& light) const;
 
   Light black_;
-  std::vector<Known> known_;
-  std::array<std::map<double, Mean>, 3> levels_;
+  std::vector<Measured> projectors_;
 };
 
 }  // namespace relucent::linearization

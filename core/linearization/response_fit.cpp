@@ -47,6 +47,7 @@ VectorXd scalesOf(const LightProducts& products) {
 /// chi^2 at X and, with U = dX / d parameters (a row for each of X's elements, light after light), its
 /// gradient and the approximation of its curvature that Kaufman gives:
 ///   Q = I - X^+ X,  gradient/2 = -U^T vec(X^+^T C Q),  curvature/2 = U^T (X^+^T C X^+ (x) Q) U
+/// Given are the rows of U for some consecutive lights from `first` on, the others' being zero.
 class Projection {
  public:
   Projection(const MatrixXd& products, const MatrixXd& x) {
@@ -67,18 +68,22 @@ class Projection {
   }
 
   double chiSquare() const { return chiSquare_; }
-  VectorXd descent(const MatrixXd& u) const {
+  VectorXd descent(const MatrixXd& u, std::size_t first) const {
+    const Index shots = rest_.rows();
     VectorXd result = VectorXd::Zero(u.cols());
-    for (Index q = 0; q < slope_.rows(); ++q)
-      result += u.middleRows(q * slope_.cols(), slope_.cols()).transpose() * slope_.row(q).transpose();
+    for (Index q = 0; q < u.rows() / shots; ++q)
+      result += u.middleRows(q * shots, shots).transpose() * slope_.row(toIndex(first) + q).transpose();
     return result;
   }
-  MatrixXd curvature(const MatrixXd& u) const {
-    Index shots = rest_.rows();
-    MatrixXd result = MatrixXd::Zero(u.cols(), u.cols());
-    for (Index q = 0; q < lights_.rows(); ++q) {
-      MatrixXd mixed = MatrixXd::Zero(shots, u.cols());
-      for (Index p = 0; p < lights_.rows(); ++p) mixed += lights_(q, p) * u.middleRows(p * shots, shots);
+  /// A row for each parameter of `u`, a column for each of `other`.
+  MatrixXd curvature(const MatrixXd& u, std::size_t first, const MatrixXd& other,
+                     std::size_t firstOther) const {
+    const Index shots = rest_.rows();
+    MatrixXd result = MatrixXd::Zero(u.cols(), other.cols());
+    for (Index q = 0; q < u.rows() / shots; ++q) {
+      MatrixXd mixed = MatrixXd::Zero(shots, other.cols());
+      for (Index p = 0; p < other.rows() / shots; ++p)
+        mixed += lights_(toIndex(first) + q, toIndex(firstOther) + p) * other.middleRows(p * shots, shots);
       result += u.middleRows(q * shots, shots).transpose() * (rest_ * mixed);
     }
     return result;
@@ -96,34 +101,133 @@ struct Prior {
   double of(const VectorXd& x) const { return x.dot(matrix * x) - 2.0 * right.dot(x); }
 };
 
-/// Parameters: the light of the levels between dark and full, channel after channel; the logarithms of the
-/// photographs' powers; the white segment.
-class Fit {
+/// A light of a photograph as a row of X's derivatives.
+Index rowOf(std::size_t light, std::size_t shot, std::size_t shots) {
+  return toIndex(light * shots + shot);
+}
+
+/// What is unknown of one projector: the light of the levels between dark and full, channel after channel;
+/// the logarithms of the lamp's power in the photographs that it lights; the white segment.
+class Unknowns {
  public:
-  Fit(const std::vector<double>& drives, const std::vector<MosaicShot>& shots, const LightProducts& products,
-      const LevelLights& start)
-      : shots_(shots),
+  Unknowns(std::size_t projector, const std::vector<double>& drives, const std::vector<MosaicShot>& shots,
+           const VectorXd& scales, const LevelLights& start)
+      : projector_(projector),
+        shots_(shots),
+        scales_(scales),
         levels_(drives.size() - 1),
-        products_(whitened(products)),
-        scales_(scalesOf(products)),
-        x_(VectorXd::Zero(toIndex(3 * levels_ + shots.size() + 1))) {
+        lit_(shots.size(), false) {
+    for (std::size_t m = 0; m < shots.size(); ++m) {
+      lit_[m] = std::ranges::any_of(levelsIn(m), [](std::size_t level) { return level > 0; });
+      powerAt_.push_back(toIndex(3 * levels_ + litShots_.size()));
+      if (lit_[m]) litShots_.push_back(m);
+    }
+    x_ = VectorXd::Zero(toIndex(3 * levels_ + litShots_.size() + 1));
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < levels_; ++k) x_[toIndex(c * levels_ + k)] = start[c][k];
     makeSmoothness(drives);
     makeLine();
   }
 
-  ResponseFit run() {
-    double flicker = firstFlicker;
-    for (int round = 0; round < flickerRounds; ++round) {
-      solve(flicker);
-      flicker = flickerOf();
+  const VectorXd& values() const { return x_; }
+  void set(const VectorXd& values) { x_ = values; }
+
+  Prior prior(double flicker) const {
+    Prior prior{MatrixXd::Zero(x_.size(), x_.size()), VectorXd::Zero(x_.size())};
+    for (std::size_t i = 0; i < smoothness_.size(); ++i) {
+      double rough = smoothness_[i].dot(x_) - constants_[i];
+      double weight = 1.0 / (roughness * roughness + rough * rough);
+      prior.matrix += weight * smoothness_[i] * smoothness_[i].transpose();
+      prior.right += weight * constants_[i] * smoothness_[i];
     }
-    return result(flicker);
+    prior.matrix.block(firstPower(), firstPower(), powerCount(), powerCount()) +=
+        aboutLine_ / (flicker * flicker);
+    // Without this a measurement of a single instant would not be determined.
+    prior.matrix.diagonal().array() += 1e-6;
+    return prior;
+  }
+
+  /// This projector's rows of X for the unknowns `x`.
+  MatrixXd patterns(const VectorXd& x) const {
+    MatrixXd patterns = MatrixXd::Zero(toIndex(mosaicLights), toIndex(shots_.size()));
+    for (std::size_t m : litShots_)
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        std::size_t least = darkest(x, levelsIn(m), q);
+        double added = whiteSegment(x) * lightOf(x, least, levelsIn(m)[q / 3 * 3 + least]);
+        patterns(toIndex(q), toIndex(m)) = powerOf(x, m) * (lightOf(x, q % 3, levelsIn(m)[q]) + added);
+      }
+    return patterns;
+  }
+
+  /// Their derivatives, light after light.
+  MatrixXd derivatives() const {
+    MatrixXd u = MatrixXd::Zero(toIndex(mosaicLights * shots_.size()), x_.size());
+    const MatrixXd here = patterns(x_);
+    for (std::size_t m : litShots_)
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        Index row = rowOf(q, m, shots_.size());
+        double power = powerOf(x_, m);
+        u(row, powerAt_[m]) = here(toIndex(q), toIndex(m));
+        auto enter = [&](std::size_t channel, double factor) {
+          std::size_t level = levelsIn(m)[q / 3 * 3 + channel];
+          if (level > 0 && level <= levels_) u(row, toIndex(channel * levels_ + level - 1)) += factor * power;
+          return lightOf(x_, channel, level);
+        };
+        enter(q % 3, 1.0);
+        u(row, x_.size() - 1) = power * enter(darkest(x_, levelsIn(m), q), whiteSegment(x_));
+      }
+    return u;
+  }
+
+  /// One step of expectation maximisation: of the deviations from the line, what is known of them included.
+  double flicker(const MatrixXd& covariance) const {
+    MatrixXd known = covariance.block(firstPower(), firstPower(), powerCount(), powerCount());
+    double squares = (aboutLine_ * powers()).squaredNorm() + (aboutLine_ * known * aboutLine_).trace();
+    return std::clamp(std::sqrt(squares / static_cast<double>(std::max<Index>(1, powerCount() - 1))),
+                      leastFlicker, mostFlicker);
+  }
+
+  ResponseFit result(const VectorXd& variances, double flicker) const {
+    ResponseFit fit;
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < levels_; ++k) {
+        Index at = toIndex(c * levels_ + k);
+        fit.light[c].push_back(x_[at]);
+        fit.deviation[c].push_back(std::sqrt(std::max(0.0, variances[at])));
+      }
+      fit.light[c].push_back(1.0);
+      fit.deviation[c].push_back(0.0);
+    }
+    for (std::size_t m = 0; m < shots_.size(); ++m)
+      fit.power.push_back(lit_[m] ? powerOf(x_, m) / scales_[toIndex(m)] : 1.0);
+    fit.flicker = flicker;
+    fit.whiteSegment = whiteSegment(x_);
+    fit.drift = time_.squaredNorm() > 0.0 ? time_.dot(powers()) / time_.squaredNorm() : 0.0;
+    return fit;
   }
 
  private:
-  Index powerAt(std::size_t shot) const { return toIndex(3 * levels_ + shot); }
+  const MosaicLevels& levelsIn(std::size_t shot) const { return shots_[shot].level[projector_]; }
+  Index firstPower() const { return toIndex(3 * levels_); }
+  Index powerCount() const { return toIndex(litShots_.size()); }
+  VectorXd powers() const { return x_.segment(firstPower(), powerCount()); }
+
+  double lightOf(const VectorXd& x, std::size_t channel, std::size_t level) const {
+    if (level == 0) return 0.0;
+    return level > levels_ ? 1.0 : x[toIndex(channel * levels_ + level - 1)];
+  }
+  double powerOf(const VectorXd& x, std::size_t shot) const {
+    return scales_[toIndex(shot)] * std::exp(x[powerAt_[shot]]);
+  }
+  double whiteSegment(const VectorXd& x) const { return x[x.size() - 1]; }
+
+  /// The channel in which a light's group is darkest.
+  std::size_t darkest(const VectorXd& x, const MosaicLevels& levels, std::size_t light) const {
+    std::size_t first = light / 3 * 3, found = 0;
+    for (std::size_t c = 1; c < 3; ++c)
+      if (lightOf(x, c, levels[first + c]) < lightOf(x, found, levels[first + found])) found = c;
+    return found;
+  }
 
   /// What the four nearest levels say about each by a cubic, over the square root of drive.
   void makeSmoothness(const std::vector<double>& drives) {
@@ -158,94 +262,126 @@ class Fit {
 
   /// Powers less the straight line through the start of time that is closest to them.
   void makeLine() {
-    Index count = toIndex(shots_.size());
-    time_.resize(count);
-    for (std::size_t m = 0; m < shots_.size(); ++m) time_[toIndex(m)] = shots_[m].time - shots_.front().time;
-    aboutLine_ = MatrixXd::Identity(count, count);
+    time_.resize(powerCount());
+    for (std::size_t i = 0; i < litShots_.size(); ++i)
+      time_[toIndex(i)] = shots_[litShots_[i]].time - shots_[litShots_.front()].time;
+    aboutLine_ = MatrixXd::Identity(powerCount(), powerCount());
     if (time_.squaredNorm() > 0.0) aboutLine_ -= time_ * time_.transpose() / time_.squaredNorm();
   }
 
-  Prior prior(double flicker) const {
-    Prior prior{MatrixXd::Zero(x_.size(), x_.size()), VectorXd::Zero(x_.size())};
-    for (std::size_t i = 0; i < smoothness_.size(); ++i) {
-      double rough = smoothness_[i].dot(x_) - constants_[i];
-      double weight = 1.0 / (roughness * roughness + rough * rough);
-      prior.matrix += weight * smoothness_[i] * smoothness_[i].transpose();
-      prior.right += weight * constants_[i] * smoothness_[i];
+  std::size_t projector_;
+  const std::vector<MosaicShot>& shots_;
+  const VectorXd& scales_;
+  std::size_t levels_;  // between dark and full
+  std::vector<bool> lit_;
+  std::vector<std::size_t> litShots_;
+  std::vector<Index> powerAt_;
+  VectorXd x_, time_;
+  MatrixXd aboutLine_;
+  std::vector<VectorXd> smoothness_;
+  std::vector<double> constants_;
+};
+
+/// All projectors' unknowns, one projector's after the other's.
+class Fit {
+ public:
+  Fit(const std::vector<std::vector<double>>& drives, const std::vector<MosaicShot>& shots,
+      const LightProducts& products, const std::vector<LevelLights>& start)
+      : shots_(toIndex(shots.size())), products_(whitened(products)), scales_(scalesOf(products)) {
+    for (std::size_t p = 0; p < drives.size(); ++p) {
+      first_.push_back(size_);
+      projectors_.emplace_back(p, drives[p], shots, scales_, start[p]);
+      size_ += projectors_.back().values().size();
     }
-    Index count = toIndex(shots_.size());
-    prior.matrix.block(powerAt(0), powerAt(0), count, count) += aboutLine_ / (flicker * flicker);
-    // Without this a measurement of a single instant would not be determined.
-    prior.matrix.diagonal().array() += 1e-6;
-    return prior;
+  }
+  // The projectors refer to the scales.
+  Fit(const Fit&) = delete;
+  Fit& operator=(const Fit&) = delete;
+
+  std::vector<ResponseFit> run() {
+    std::vector<double> flicker(projectors_.size(), firstFlicker);
+    for (int round = 0; round < flickerRounds; ++round) {
+      solve(flicker);
+      const MatrixXd known = covariance();
+      for (std::size_t p = 0; p < projectors_.size(); ++p)
+        flicker[p] = projectors_[p].flicker(known.block(first_[p], first_[p], count(p), count(p)));
+    }
+    const VectorXd variances = covariance().diagonal();
+    std::vector<ResponseFit> result;
+    for (std::size_t p = 0; p < projectors_.size(); ++p)
+      result.push_back(projectors_[p].result(variances.segment(first_[p], count(p)), flicker[p]));
+    return result;
   }
 
-  double lightOf(const VectorXd& x, std::size_t channel, std::size_t level) const {
-    if (level == 0) return 0.0;
-    return level > levels_ ? 1.0 : x[toIndex(channel * levels_ + level - 1)];
-  }
-  double powerOf(const VectorXd& x, std::size_t shot) const {
-    return scales_[toIndex(shot)] * std::exp(x[powerAt(shot)]);
-  }
-  double whiteSegment(const VectorXd& x) const { return x[x.size() - 1]; }
+ private:
+  Index count(std::size_t projector) const { return projectors_[projector].values().size(); }
 
-  /// The channel in which a light's group is darkest.
-  std::size_t darkest(const VectorXd& x, const MosaicShot& shot, std::size_t light) const {
-    std::size_t first = light / 3 * 3, found = 0;
-    for (std::size_t c = 1; c < 3; ++c)
-      if (lightOf(x, c, shot.level[first + c]) < lightOf(x, found, shot.level[first + found])) found = c;
-    return found;
+  VectorXd values() const {
+    VectorXd x(size_);
+    for (std::size_t p = 0; p < projectors_.size(); ++p)
+      x.segment(first_[p], count(p)) = projectors_[p].values();
+    return x;
+  }
+  void set(const VectorXd& x) {
+    for (std::size_t p = 0; p < projectors_.size(); ++p) projectors_[p].set(x.segment(first_[p], count(p)));
   }
 
   MatrixXd patternsOf(const VectorXd& x) const {
-    MatrixXd patterns(toIndex(mosaicLights), toIndex(shots_.size()));
-    for (std::size_t m = 0; m < shots_.size(); ++m)
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
-        std::size_t least = darkest(x, shots_[m], q);
-        double added = whiteSegment(x) * lightOf(x, least, shots_[m].level[q / 3 * 3 + least]);
-        patterns(toIndex(q), toIndex(m)) = powerOf(x, m) * (lightOf(x, q % 3, shots_[m].level[q]) + added);
-      }
+    MatrixXd patterns(toIndex(projectors_.size() * mosaicLights), shots_);
+    for (std::size_t p = 0; p < projectors_.size(); ++p)
+      patterns.middleRows(toIndex(p * mosaicLights), toIndex(mosaicLights)) =
+          projectors_[p].patterns(x.segment(first_[p], count(p)));
     return patterns;
   }
 
-  MatrixXd derivatives() const {
-    MatrixXd u = MatrixXd::Zero(toIndex(mosaicLights * shots_.size()), x_.size());
-    const MatrixXd patterns = patternsOf(x_);
-    for (std::size_t m = 0; m < shots_.size(); ++m)
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
-        Index row = toIndex(q * shots_.size() + m);
-        double power = powerOf(x_, m);
-        u(row, powerAt(m)) = patterns(toIndex(q), toIndex(m));
-        auto enter = [&](std::size_t channel, double factor) {
-          std::size_t level = shots_[m].level[q / 3 * 3 + channel];
-          if (level > 0 && level <= levels_) u(row, toIndex(channel * levels_ + level - 1)) += factor * power;
-          return lightOf(x_, channel, level);
-        };
-        enter(q % 3, 1.0);
-        u(row, x_.size() - 1) = power * enter(darkest(x_, shots_[m], q), whiteSegment(x_));
+  Prior prior(const std::vector<double>& flicker) const {
+    Prior prior{MatrixXd::Zero(size_, size_), VectorXd::Zero(size_)};
+    for (std::size_t p = 0; p < projectors_.size(); ++p) {
+      const Prior own = projectors_[p].prior(flicker[p]);
+      prior.matrix.block(first_[p], first_[p], count(p), count(p)) = own.matrix;
+      prior.right.segment(first_[p], count(p)) = own.right;
+    }
+    return prior;
+  }
+
+  /// Of chi^2 alone. A projector's unknowns change its own lights only.
+  void linearize(const Projection& here, MatrixXd& curvature, VectorXd& descent) const {
+    std::vector<MatrixXd> derivatives;
+    for (const Unknowns& projector : projectors_) derivatives.push_back(projector.derivatives());
+    curvature.resize(size_, size_);
+    descent.resize(size_);
+    for (std::size_t p = 0; p < projectors_.size(); ++p) {
+      descent.segment(first_[p], count(p)) = here.descent(derivatives[p], p * mosaicLights);
+      for (std::size_t other = p; other < projectors_.size(); ++other) {
+        const MatrixXd block =
+            here.curvature(derivatives[p], p * mosaicLights, derivatives[other], other * mosaicLights);
+        curvature.block(first_[p], first_[other], count(p), count(other)) = block;
+        if (other != p) curvature.block(first_[other], first_[p], count(other), count(p)) = block.transpose();
       }
-    return u;
+    }
   }
 
   /// Levenberg's and Marquardt's steps.
-  void solve(double flicker) {
+  void solve(const std::vector<double>& flicker) {
     double damping = 1e-4;
     for (int step = 0; step < mostSteps; ++step) {
-      Prior before = prior(flicker);
-      Projection here(products_, patternsOf(x_));
-      MatrixXd u = derivatives();
-      curvature_ = here.curvature(u) + before.matrix;
-      VectorXd descent = here.descent(u) - before.matrix * x_ + before.right;
-      double value = here.chiSquare() + before.of(x_), moved = 0.0;
+      const VectorXd x = values();
+      const Prior before = prior(flicker);
+      const Projection here(products_, patternsOf(x));
+      VectorXd descent;
+      linearize(here, curvature_, descent);
+      curvature_ += before.matrix;
+      descent = descent - before.matrix * x + before.right;
+      double value = here.chiSquare() + before.of(x), moved = 0.0;
       for (bool better = false; !better; damping *= 10.0) {
         MatrixXd damped = curvature_;
         damped.diagonal() *= 1.0 + damping;
-        VectorXd change = damped.ldlt().solve(descent), next = x_ + change;
+        VectorXd change = damped.ldlt().solve(descent), next = x + change;
         double there = Projection(products_, patternsOf(next)).chiSquare() + before.of(next);
         better = there <= value + 1e-9 * std::abs(value);
         moved = change.cwiseAbs().maxCoeff();
         if (better)
-          x_ = next;
+          set(next);
         else if (damping > 1e8)
           return;
       }
@@ -254,45 +390,15 @@ class Fit {
     }
   }
 
-  VectorXd powers() const { return x_.segment(powerAt(0), toIndex(shots_.size())); }
   MatrixXd covariance() const {
     return curvature_.ldlt().solve(MatrixXd::Identity(curvature_.rows(), curvature_.cols()));
   }
 
-  /// One step of expectation maximisation: of the deviations from the line, what is known of them included.
-  double flickerOf() const {
-    Index count = toIndex(shots_.size());
-    MatrixXd known = covariance().block(powerAt(0), powerAt(0), count, count);
-    double squares = (aboutLine_ * powers()).squaredNorm() + (aboutLine_ * known * aboutLine_).trace();
-    return std::clamp(std::sqrt(squares / static_cast<double>(std::max<Index>(1, count - 1))), leastFlicker,
-                      mostFlicker);
-  }
-
-  ResponseFit result(double flicker) const {
-    ResponseFit fit;
-    VectorXd variances = covariance().diagonal();
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < levels_; ++k) {
-        Index at = toIndex(c * levels_ + k);
-        fit.light[c].push_back(x_[at]);
-        fit.deviation[c].push_back(std::sqrt(std::max(0.0, variances[at])));
-      }
-      fit.light[c].push_back(1.0);
-      fit.deviation[c].push_back(0.0);
-    }
-    for (std::size_t m = 0; m < shots_.size(); ++m) fit.power.push_back(powerOf(x_, m) / scales_[toIndex(m)]);
-    fit.flicker = flicker;
-    fit.whiteSegment = whiteSegment(x_);
-    fit.drift = time_.squaredNorm() > 0.0 ? time_.dot(powers()) / time_.squaredNorm() : 0.0;
-    return fit;
-  }
-
-  const std::vector<MosaicShot>& shots_;
-  std::size_t levels_;  // between dark and full
-  MatrixXd products_, curvature_, aboutLine_;
-  VectorXd scales_, time_, x_;
-  std::vector<VectorXd> smoothness_;
-  std::vector<double> constants_;
+  Index shots_, size_ = 0;
+  MatrixXd products_, curvature_;
+  VectorXd scales_;
+  std::vector<Unknowns> projectors_;
+  std::vector<Index> first_;  // of each projector's unknowns
 };
 
 }  // namespace
@@ -314,46 +420,59 @@ LightProducts& LightProducts::operator+=(const LightProducts& other) {
   return *this;
 }
 
-ResponseFit fitResponse(const std::vector<double>& drives, const std::vector<MosaicShot>& shots,
-                        const LightProducts& products, const LevelLights& start) {
-  require(!drives.empty() && drives.back() == 1.0, "the highest of {} drives is not full", drives.size());
+std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
+                                      const std::vector<MosaicShot>& shots, const LightProducts& products,
+                                      const std::vector<LevelLights>& start) {
+  require(drives.size() == start.size(), "{} projectors' drives and {} responses", drives.size(),
+          start.size());
+  for (const std::vector<double>& own : drives)
+    require(!own.empty() && own.back() == 1.0, "the highest of {} drives is not full", own.size());
+  for (const MosaicShot& shot : shots)
+    require(shot.level.size() == drives.size(), "a photograph of {} projectors of {}", shot.level.size(),
+            drives.size());
   require(products.shots() == shots.size(), "products of {} for {} photographs", products.shots(),
           shots.size());
   return Fit(drives, shots, products, start).run();
 }
 
-RegionDeviation deviationOf(const ResponseFit& fit, const std::vector<MosaicShot>& shots,
-                            const LightProducts& region) {
+std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,
+                                          const std::vector<MosaicShot>& shots, const LightProducts& region) {
   const MatrixXd products = whitened(region);
   const VectorXd scales = scalesOf(region);
-  VectorXd amplitude = VectorXd::Zero(3);
+  const std::size_t lights = fits.size() * mosaicLights;
+  const Index unknown = toIndex(3 * fits.size());
+  VectorXd amplitude = VectorXd::Zero(unknown);
   MatrixXd curvature;
   for (int round = 0; round < 3; ++round) {
-    MatrixXd x = MatrixXd::Zero(toIndex(mosaicLights), toIndex(shots.size()));
-    MatrixXd u = MatrixXd::Zero(toIndex(mosaicLights * shots.size()), 3);
+    MatrixXd x = MatrixXd::Zero(toIndex(lights), toIndex(shots.size()));
+    MatrixXd u = MatrixXd::Zero(toIndex(lights * shots.size()), unknown);
     for (std::size_t m = 0; m < shots.size(); ++m)
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
-        std::size_t c = q % 3, level = shots[m].level[q];
-        double light = level > 0 ? fit.light[c][level - 1] : 0.0, least = 1.0;
+      for (std::size_t row = 0; row < lights; ++row) {
+        const std::size_t p = row / mosaicLights, q = row % mosaicLights, c = q % 3;
+        const ResponseFit& fit = fits[p];
+        const MosaicLevels& levels = shots[m].level[p];
+        double light = levels[q] > 0 ? fit.light[c][levels[q] - 1] : 0.0, least = 1.0;
         for (std::size_t other = 0; other < 3; ++other) {
-          std::size_t beside = shots[m].level[q / 3 * 3 + other];
+          std::size_t beside = levels[q / 3 * 3 + other];
           least = std::min(least, beside > 0 ? fit.light[other][beside - 1] : 0.0);
         }
         double bend = light > 0.0 ? -std::exp(1.0) * light * std::log(light) : 0.0;
         double power = scales[toIndex(m)] * fit.power[m];
-        x(toIndex(q), toIndex(m)) = power * (light + amplitude[toIndex(c)] * bend + fit.whiteSegment * least);
-        u(toIndex(q * shots.size() + m), toIndex(c)) = power * bend;
+        const Index at = toIndex(3 * p + c);
+        x(toIndex(row), toIndex(m)) = power * (light + amplitude[at] * bend + fit.whiteSegment * least);
+        u(rowOf(row, m, shots.size()), at) = power * bend;
       }
     Projection here(products, x);
-    curvature = here.curvature(u);
+    curvature = here.curvature(u, 0, u, 0);
     curvature.diagonal().array() += 1.0;  // where a region tells nothing of a channel it deviates by nothing
-    amplitude += curvature.ldlt().solve(here.descent(u) - amplitude);
+    amplitude += curvature.ldlt().solve(here.descent(u, 0) - amplitude);
   }
-  RegionDeviation result;
-  VectorXd variances = curvature.ldlt().solve(MatrixXd::Identity(3, 3)).diagonal();
-  for (std::size_t c = 0; c < 3; ++c) {
-    result.amplitude[c] = amplitude[toIndex(c)];
-    result.deviation[c] = std::sqrt(std::max(0.0, variances[toIndex(c)]));
+  std::vector<RegionDeviation> result(fits.size());
+  const VectorXd variances = curvature.ldlt().solve(MatrixXd::Identity(unknown, unknown)).diagonal();
+  for (Index at = 0; at < unknown; ++at) {
+    RegionDeviation& own = result[static_cast<std::size_t>(at / 3)];
+    own.amplitude[static_cast<std::size_t>(at % 3)] = amplitude[at];
+    own.deviation[static_cast<std::size_t>(at % 3)] = std::sqrt(std::max(0.0, variances[at]));
   }
   return result;
 }

@@ -10,11 +10,13 @@
 
 namespace relucent::linearization {
 
-/// What a photograph of a mosaic shows.
+/// What a mosaic's lights show: 0 dark, k the projector's k-th drive; the last is full.
+using MosaicLevels = std::array<std::size_t, mosaicLights>;
+
+/// What a photograph of all projectors' mosaics shows.
 struct MosaicShot {
-  std::array<std::size_t, mosaicLights>
-      level{};        // of every light: 0 dark, k the k-th drive; the last is full
-  double time = 0.0;  // when, counted in shots: for the drift of the lamp
+  std::vector<MosaicLevels> level;  // per projector
+  double time = 0.0;                // when, counted in shots: for the drift of the lamps
 };
 
 /// Weighted products of the photographs' light: all that the fit needs to know of the pixels.
@@ -40,37 +42,44 @@ class LightProducts {
 /// Light of every drive but 0 relative to full drive, per channel; the last is 1.
 using LevelLights = std::array<std::vector<double>, 3>;
 
+/// Of one projector.
 struct ResponseFit {
   LevelLights light;
-  LevelLights deviation;      // standard deviations
-  std::vector<double> power;  // of the lamp in every photograph, relative to a straight line's start
-  double flicker = 0.0;       // relative standard deviation of that power about the line
-  double drift = 0.0;         // relative change of power per shot: the line
+  LevelLights deviation;  // standard deviations
+  std::vector<double>
+      power;             // of the lamp in every photograph, relative to a straight line's start; 1 where dark
+  double flicker = 0.0;  // relative standard deviation of that power about the line
+  double drift = 0.0;    // relative change of power per shot: the line
   double whiteSegment = 0.0;  // light added where all channels are lit: this times their smallest
 };
 
-/// The response that a projector's whole picture has in common, from photographs of mosaics. Light is linear,
-/// so each photograph, at every camera value i, is a sum of nine lights:
-///   L_im = power_m sum_q a_iq f_channel(q)(drive_qm) + noise
+/// The response that each projector's whole picture has in common, from photographs of mosaics, which may
+/// overlap. Light is linear, so each photograph, at every camera value i, is a sum of nine lights a
+/// projector:
+///   L_im = sum_p power_pm sum_q a_ipq f_p,channel(q)(drive_pqm) + noise
 /// whatever of it is direct, scattered or blurred. The lights a_i are eliminated (variable projection); what
 /// is left to minimise depends on products of photographs only:
 ///   chi^2 = trace(C (I - X^+ X)),  C = LightProducts over the noise,
-///   X_qm = power_m (f(drive_qm) + w min over the group's channels of f)
-/// over f, the powers (about a straight line in time, as far off as the photographs say they are) and the
-/// light w of a white segment. Fourth differences of f are 7e-4 a priori, with the tails of a Cauchy
-/// distribution: what is smooth becomes smoother, kinks and steps remain. `drives` ascend and end with 1.
-/// `start`: where the search begins. Source: core/linearization/README.md, [GOL], [KAU].  Throws:
-/// Error{numerics} if the lights cannot be told apart.
-ResponseFit fitResponse(const std::vector<double>& drives, const std::vector<MosaicShot>& shots,
-                        const LightProducts& products, const LevelLights& start);
+///   X_pq,m = power_pm (f_p(drive_pqm) + w_p min over the group's channels of f_p)
+/// over f, the powers (each lamp's about a straight line in time, as far off as the photographs say they are)
+/// and the lights w of white segments. Fourth differences of f are 7e-4 a priori, with the tails of a Cauchy
+/// distribution: what is smooth becomes smoother, kinks and steps remain.
+/// Per projector `drives`, which ascend and end with 1, and `start`, where the search begins.
+/// Source: core/linearization/README.md, [GOL], [KAU].
+/// Throws: Error{numerics} if the lights cannot be told apart.
+std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
+                                      const std::vector<MosaicShot>& shots, const LightProducts& products,
+                                      const std::vector<LevelLights>& start);
 
-/// How far one region's response is from `fit`, the whole picture's: for every channel the amplitude of
+/// How far one region's response is from a projector's fit, the whole picture's: for every channel the
+/// amplitude of
 ///   f -> f - amplitude e f ln f,
 /// which is what another exponent does, at most `amplitude` of white; and its standard deviation.
 struct RegionDeviation {
   std::array<double, 3> amplitude{}, deviation{};
 };
-RegionDeviation deviationOf(const ResponseFit& fit, const std::vector<MosaicShot>& shots,
-                            const LightProducts& region);
+/// Per projector.
+std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,
+                                          const std::vector<MosaicShot>& shots, const LightProducts& region);
 
 }  // namespace relucent::linearization

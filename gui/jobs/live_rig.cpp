@@ -48,7 +48,7 @@ void LiveRig::setLeastInterval(int milliseconds) {
 void LiveRig::shown(std::size_t index, const image::Image& encodedDrive) {
   QMutexLocker lock(&guard_);
   Shown& shown = at(projectors_, index);
-  shown.pattern = encodedDrive;
+  at(patterns_, index) = encodedDrive;
   const std::vector<float>& drive = encodedDrive.data();
   shown.dark = std::all_of(drive.begin(), drive.end(), [](float value) { return !(value > 0.0f); });
   shown.white =
@@ -64,13 +64,7 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
     photographed.frame = frame;
     photographed.request = request;
     if (isFloodlit() && !isOverexposed(frame.signal)) photographed.floodlight = {frame.signal, photographs_};
-    if (index == 0) {
-      // Light of several projectors at once is no one's ramp.
-      auto lit =
-          std::count_if(projectors_.begin(), projectors_.end(), [](const Shown& s) { return !s.dark; });
-      for (Shown& shown : projectors_)
-        if (lit == 0 || (lit == 1 && !shown.dark)) shown.ramps.add(shown.pattern, frame);
-    }
+    if (index == 0) ramps_.add(patterns_, frame);
     if (since_.isValid() && since_.elapsed() < interval_) return;
     since_.start();
   }
@@ -80,7 +74,7 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
 LivePictures LiveRig::pictures(std::size_t projector, std::size_t camera) const {
   QMutexLocker lock(&guard_);
   LivePictures live;
-  if (projector < projectors_.size()) live.pattern = projectors_[projector].pattern;
+  if (projector < patterns_.size()) live.pattern = patterns_[projector];
   if (camera < cameras_.size()) {
     live.frame = cameras_[camera].frame;
     live.request = cameras_[camera].request;
@@ -108,8 +102,7 @@ int LiveRig::floodlightNumber(std::size_t camera) const {
 
 std::array<std::map<double, double>, 3> LiveRig::ramps(std::size_t projector) const {
   QMutexLocker lock(&guard_);
-  return projector < projectors_.size() ? projectors_[projector].ramps.curves()
-                                        : std::array<std::map<double, double>, 3>{};
+  return ramps_.curves(projector);
 }
 
 void LiveRig::pause() {

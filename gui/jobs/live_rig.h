@@ -48,7 +48,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
   };
   Floodlight floodlight(std::size_t camera = 0) const;
   int floodlightNumber(std::size_t camera = 0) const;
-  /// Of a projector that is lit alone, in the first camera's photographs.
+  /// As the first camera's photographs show them.
   std::array<std::map<double, double>, 3> ramps(std::size_t projector = 0) const;
 
   /// Pauses before the next pattern; the projectors show black meanwhile.
@@ -67,9 +67,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
   QWaitCondition resumed_;
   bool paused_ = false;
   struct Shown {
-    image::Image pattern;
     bool dark = true, white = false;
-    linearization::RampPreview ramps;
   };
   struct Photographed {
     rig::RawFrame frame;
@@ -78,7 +76,9 @@ class LiveRig : public QObject, public rig::RigWatcher {
   };
   bool isFloodlit() const;
   std::vector<Shown> projectors_;
+  std::vector<image::Image> patterns_;  // of the projectors
   std::vector<Photographed> cameras_;
+  linearization::RampPreview ramps_;
   int photographs_ = 0;
   QElapsedTimer since_;
 };

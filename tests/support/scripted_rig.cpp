@@ -35,6 +35,7 @@ struct ScriptedVenue::State {
   ScriptedSettings settings;
   std::vector<image::Image> shown;  // per projector
   Stack lamp;                       // radiance of what is shown, at full lamp power; empty: to be computed
+  std::vector<double> power;        // of the lamps that `lamp` is of
   std::atomic<int> captures{0};
 
   const ScriptedProjector& projector(std::size_t index) const { return pick(settings.projectors, index); }
@@ -67,10 +68,32 @@ struct ScriptedVenue::State {
     return linear;
   }
 
-  CameraStack lampRadiance(const std::vector<image::Image>& patterns) const {
-    CameraStack light = transport.apply(linearDrive(patterns, true));
+  /// `power` of every projector's own lamp.
+  CameraStack lampRadiance(const std::vector<image::Image>& patterns,
+                           const std::vector<double>& power) const {
+    ProjectorStack drive = linearDrive(patterns, true);
+    const Rasters& rasters = transport.projectors();
+    for (std::size_t p = 0; p < rasters.devices(); ++p)
+      for (std::size_t i = 0; i < 3 * rasters.size(p).count(); ++i)
+        drive[3 * rasters.offset(p) + i] *= static_cast<float>(power[p]);
+    CameraStack light = transport.apply(drive);
     for (std::size_t i = 0; i < light.size(); ++i) light[i] += black.empty() ? 0.0f : black[i];
     return light;
+  }
+
+  std::vector<double> brightness() const {
+    std::vector<double> power;
+    for (std::size_t p = 0; p < transport.projectors().devices(); ++p)
+      power.push_back(projector(p).brightness);
+    return power;
+  }
+  /// Drift and flicker included, if a projector has such of its own.
+  std::vector<double> powerIn(int shot, std::uint64_t shotKey) const {
+    std::vector<double> power = brightness();
+    for (std::size_t p = 0; p < power.size(); ++p)
+      power[p] *= 1.0 + projector(p).drift * shot / 1000.0 +
+                  projector(p).flicker * Random{settings.seed, 4, shotKey, p}.normal();
+    return power;
   }
 
   template <typename Model>
@@ -115,13 +138,17 @@ class CameraOfScript : public rig::Camera {
   rig::RawFrame capture(const rig::CaptureRequest& request) override {
     if (state_->settings.beforeCapture) state_->settings.beforeCapture(request);
     ++state_->captures;
-    if (state_->lamp.empty()) state_->lamp = state_->lampRadiance(state_->shown);
 
     const ScriptedSettings& settings = state_->settings;
     std::uint64_t shotKey =
         Fingerprint().add(request.shot.stage).add(request.shot.number).add(request.exposure).low();
     double lamp = 1.0 + settings.drift * request.shot.number / 1000.0 +
                   settings.flicker * Random{settings.seed, 1, shotKey}.normal();
+    std::vector<double> power = state_->powerIn(request.shot.number, shotKey);
+    if (state_->lamp.empty() || state_->power != power) {
+      state_->lamp = state_->lampRadiance(state_->shown, power);
+      state_->power = std::move(power);
+    }
     double reported = std::clamp(request.seconds, model().exposures.shortest, model().exposures.longest);
     double seconds = reported * trueTimeFactor(reported);
 
@@ -200,7 +227,7 @@ ProjectorStack ScriptedVenue::linearDrive(const std::vector<image::Image>& encod
 }
 
 CameraStack ScriptedVenue::radiance(const std::vector<image::Image>& encodedPatterns) const {
-  CameraStack light = state_->lampRadiance(encodedPatterns);
+  CameraStack light = state_->lampRadiance(encodedPatterns, state_->brightness());
   for (std::size_t i = 0; i < light.size(); ++i)
     light[i] += state_->settings.ambient.empty() ? 0.0f : state_->settings.ambient[i];
   return light;
@@ -292,6 +319,8 @@ class Builder {
  private:
   void light(std::size_t camera, std::size_t projector) {
     Size size = cameras_.size(camera);
+    const double parts = settings_.sideBySide ? static_cast<double>(layout_.projectors().devices()) : 1.0,
+                 begin = settings_.sideBySide ? static_cast<double>(projector) : 0.0;
     Correspondence place(layout_.projectors().size(projector), settings_.shareSeen,
                          Random{settings_.seed, 1, camera, projector});
     std::array<Texture, 3> reflectance{Texture(Random{settings_.seed, 2, camera, 0}),
@@ -311,8 +340,9 @@ class Builder {
         }
       }
       std::vector<Leaf>& leaves = rows_[cameras_.offset(camera) + index];
-      addDirect(leaves, projector, place(u, v), mix);
-      if (settings_.interreflection > 0.0) addFarField(leaves, projector, place(u, v), mix);
+      const Point at = place(parts * u - begin, v);
+      addDirect(leaves, projector, at, mix);
+      if (settings_.interreflection > 0.0) addFarField(leaves, projector, at, mix);
     });
   }
 

@@ -24,6 +24,9 @@ struct ScriptedProjector {
   int bits = 8;
   std::array<Curve, 3> curves{gammaCurve(2.2), gammaCurve(2.2), gammaCurve(2.2)};  // drive -> radiance
   double whiteSegment = 0.0;  // light added where all channels are lit: this times their smallest
+  double brightness = 1.0;    // of its light, times what the transport says
+  double drift = 0.0;         // of its own lamp, besides that of all: relative change over 1000 shots
+  double flicker = 0.0;       // likewise: relative deviation between exposures
 };
 
 /// How a scripted camera behaves.
@@ -84,6 +87,7 @@ struct SyntheticSettings {
   double interreflection = 0.0;  // far-field light as a share of a pixel's direct light
   int interreflectionLevel = 3;  // pyramid level whose nodes carry the far field; finer levels are direct
   double brightness = 20.0;      // radiance of a white surface under full white, camera signal per second
+  bool sideBySide = false;       // projectors share out the camera's width; or each fills all of it
   double shareSeen = 0.9;  // of the camera's width that the projection fills; the rest sees far field only
   std::uint64_t seed = 1;
 };

@@ -51,16 +51,16 @@ class TestRampPreview : public QObject {
 
  private slots:
   void aMosaicShowsItsLevels() {
-    const Mosaic mosaic(size, Random{3});
+    const Mosaic mosaic(size, Random{3}, false);
     RampPreview preview;
-    preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    preview.add({Image(size, 3)}, photographOf(Image(size, 3)));
     for (std::size_t q = 0; q < mosaicLights; ++q) {
       const Image pattern = mosaic.pattern(lightAlone(q));
-      preview.add(pattern, photographOf(pattern));
+      preview.add({pattern}, photographOf(pattern));
       for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
     }
     // Other exposures are as good.
-    preview.add(mosaic.pattern(levels), photographOf(mosaic.pattern(levels), 0.25));
+    preview.add({mosaic.pattern(levels)}, photographOf(mosaic.pattern(levels), 0.25));
     const auto curves = preview.curves();
     for (std::size_t q = 0; q < mosaicLights; ++q)
       QVERIFY(std::abs(curves[q % 3].at(levels[q]) - levels[q] * levels[q]) < 1e-4);
@@ -70,18 +70,50 @@ class TestRampPreview : public QObject {
     }
   }
 
+  /// Two pictures in the same place: what each shows is told by their dark cells.
+  void mosaicsOfTwoProjectorsAreToldApart() {
+    const std::array<Mosaic, 2> mosaics{Mosaic(size, Random{3}, true), Mosaic(size, Random{4}, true)};
+    const std::array<MosaicDrive, 2> drives{levels, {0.75, 0.125, 0.5, 0.25, 1.0, 0.375, 0.5, 0.625, 0.75}};
+    auto photographOfBoth = [](const Image& first, const Image& second) {
+      RawFrame frame = photographOf(first);
+      const RawFrame other = photographOf(second), none = photographOf(Image(size, 3));
+      for (std::size_t i = 0; i < frame.signal.data().size(); ++i)
+        frame.signal.data()[i] += 0.25f * (other.signal.data()[i] - none.signal.data()[i]);
+      return frame;
+    };
+    const Image black(size, 3);
+    RampPreview preview;
+    preview.add({black, black}, photographOf(black));
+    for (std::size_t q = 0; q < mosaicLights; ++q) {
+      const Image first = mosaics[0].pattern(lightAlone(q)), second = mosaics[1].pattern(lightAlone(q));
+      preview.add({first, black}, photographOfBoth(first, black));
+      preview.add({black, second}, photographOfBoth(black, second));
+    }
+    const Image first = mosaics[0].pattern(drives[0]), second = mosaics[1].pattern(drives[1]);
+    preview.add({first, second}, photographOfBoth(first, second));
+    for (std::size_t p = 0; p < 2; ++p) {
+      const auto curves = preview.curves(p);
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        const double drive = drives[p][q], found = curves[q % 3].at(drive);
+        QVERIFY2(std::abs(found - drive * drive) < 1e-3,
+                 qPrintable(QString("%1 at %2").arg(found).arg(drive)));
+      }
+    }
+    QVERIFY(preview.curves(2)[0].empty());
+  }
+
   void anotherMosaicBeginsAnew() {
     RampPreview preview;
-    preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    preview.add({Image(size, 3)}, photographOf(Image(size, 3)));
     for (std::uint64_t seed : {1, 2}) {
-      const Mosaic mosaic(size, Random{seed});
+      const Mosaic mosaic(size, Random{seed}, false);
       for (std::size_t q = 0; q < mosaicLights; ++q) {
         const Image pattern = mosaic.pattern(lightAlone(q));
-        preview.add(pattern, photographOf(pattern));
+        preview.add({pattern}, photographOf(pattern));
       }
       if (seed == 2)
         for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
-      preview.add(mosaic.pattern(levels), photographOf(mosaic.pattern(levels)));
+      preview.add({mosaic.pattern(levels)}, photographOf(mosaic.pattern(levels)));
     }
     QVERIFY(std::abs(preview.curves()[0].at(0.25) - 0.0625) < 1e-4);
   }
@@ -97,12 +129,12 @@ class TestRampPreview : public QObject {
   }
   void whatTellsNothingChangesNothing() {
     QFETCH(int, what);
-    const Mosaic mosaic(size, Random{3});
+    const Mosaic mosaic(size, Random{3}, false);
     RampPreview preview;
-    if (what != 1) preview.add(Image(size, 3), photographOf(Image(size, 3)));
+    if (what != 1) preview.add({Image(size, 3)}, photographOf(Image(size, 3)));
     if (what != 0)
       for (std::size_t q = 0; q < mosaicLights; ++q)
-        preview.add(mosaic.pattern(lightAlone(q)), photographOf(mosaic.pattern(lightAlone(q))));
+        preview.add({mosaic.pattern(lightAlone(q))}, photographOf(mosaic.pattern(lightAlone(q))));
     Image pattern = mosaic.pattern(levels);
     RawFrame frame = photographOf(pattern);
     if (what == 2) frame.seconds = 0.0;
@@ -110,7 +142,7 @@ class TestRampPreview : public QObject {
     if (what == 4)
       for (std::size_t i = 0; i < pattern.data().size(); ++i)
         pattern.data()[i] = static_cast<float>(i % 101) / 101.0f;
-    preview.add(what == 5 ? Image() : pattern, frame);
+    preview.add({what == 5 ? Image() : pattern}, frame);
     for (const auto& curve : preview.curves()) QVERIFY(curve.empty());
   }
 };

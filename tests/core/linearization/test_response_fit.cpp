@@ -18,42 +18,64 @@ namespace {
 
 constexpr std::size_t levelCount = 12;
 
-/// Lights a_iq of camera values: most see one group, all of them something of all others.
-std::vector<std::array<double, mosaicLights>> lightsOf(std::size_t values, Random random) {
-  std::vector<std::array<double, mosaicLights>> lights(values);
-  for (std::size_t i = 0; i < values; ++i)
-    for (std::size_t q = 0; q < mosaicLights; ++q) {
-      double direct = q / 3 == i % 3 ? (q % 3 == i / 3 % 3 ? 0.5 : 0.1) : 0.0;
-      lights[i][q] = (direct + 0.05) * (0.5 + random.uniform());
+struct Emitter {
+  double drift = 0.0, flicker = 0.0, whiteSegment = 0.0;
+  double brightness = 1.0;
+  std::array<double, 3> gammas{2.2, 1.0, 3.0};
+};
+
+enum class Where { samePlace, sideBySide };
+
+/// Lights a_iq of camera values: most see one group, all of them something of all others. Two projectors with
+/// the same place have a constant ratio of brightness there: only cells of no group tell them apart.
+std::vector<std::vector<double>> lightsOf(std::size_t values, const std::vector<Emitter>& emitters,
+                                          Where where, Random random) {
+  const std::size_t count = emitters.size();
+  std::vector<std::vector<double>> lights(values, std::vector<double>(count * mosaicLights, 0.0));
+  for (std::size_t i = 0; i < values; ++i) {
+    std::array<double, mosaicLights> surface{};
+    for (double& value : surface) value = 0.5 + random.uniform();
+    for (std::size_t p = 0; p < count; ++p) {
+      const std::size_t group = count > 1 ? random.below(mosaicGroups + 1) : i % mosaicGroups;
+      if (where == Where::sideBySide && i % count != p) continue;
+      for (std::size_t q = 0; q < mosaicLights; ++q) {
+        double direct = q / 3 == group ? (q % 3 == i / 3 % 3 ? 0.5 : 0.1) : 0.0;
+        lights[i][p * mosaicLights + q] = emitters[p].brightness * (direct + 0.05) * surface[q % 3];
+      }
     }
+  }
   return lights;
 }
 
 struct World {
-  std::vector<double> drives;
-  LevelLights truth;
+  std::vector<Emitter> emitters;
+  Where where = Where::samePlace;
+  std::vector<std::vector<double>> drives;  // [projector][level]
+  std::vector<LevelLights> truth;
   std::vector<MosaicShot> shots;
-  std::vector<double> power;  // of the lamp
-  double whiteSegment = 0.0;
+  std::vector<std::vector<double>> power;  // of the lamps, [projector][shot]
   double noise = 0.0;
 
   LightProducts products(std::size_t values, Random random, double exponent = 1.0) const {
     LightProducts result(shots.size());
-    const auto lights = lightsOf(values, Random{9});
-    for (const std::array<double, mosaicLights>& light : lights) {
+    const auto lights = lightsOf(values, emitters, where, Random{9});
+    for (const std::vector<double>& light : lights) {
       std::vector<double> seen(shots.size(), 0.0),
           variance(shots.size(), std::pow(std::max(noise, 1e-4), 2.0));
       for (std::size_t m = 0; m < shots.size(); ++m) {
-        auto emitted = [&](std::size_t q) {
-          std::size_t level = shots[m].level[q];
-          return level > 0 ? std::pow(truth[q % 3][level - 1], exponent) : 0.0;
-        };
-        for (std::size_t q = 0; q < mosaicLights; ++q) {
-          std::size_t first = q / 3 * 3;
-          double least = std::min({emitted(first), emitted(first + 1), emitted(first + 2)});
-          seen[m] += light[q] * (emitted(q) + whiteSegment * least);
+        for (std::size_t p = 0; p < emitters.size(); ++p) {
+          auto emitted = [&](std::size_t q) {
+            std::size_t level = shots[m].level[p][q];
+            return level > 0 ? std::pow(truth[p][q % 3][level - 1], exponent) : 0.0;
+          };
+          for (std::size_t q = 0; q < mosaicLights; ++q) {
+            std::size_t first = q / 3 * 3;
+            double least = std::min({emitted(first), emitted(first + 1), emitted(first + 2)});
+            seen[m] +=
+                power[p][m] * light[p * mosaicLights + q] * (emitted(q) + emitters[p].whiteSegment * least);
+          }
         }
-        seen[m] = power[m] * seen[m] + noise * random.normal();
+        seen[m] += noise * random.normal();
       }
       result.add(seen, variance, 1.0 / variance.front());
     }
@@ -61,48 +83,64 @@ struct World {
   }
 };
 
-/// White, the lights, a group in white, all levels: as photographMosaics() shows them.
-World worldOf(std::uint64_t seed, double drift, double flicker) {
+/// White, every projector's lights and one group in white, the levels of all: as photographMosaics() shows
+/// them.
+World worldOf(std::uint64_t seed, std::vector<Emitter> emitters, Where where = Where::samePlace) {
   World world;
-  for (std::size_t k = 1; k <= levelCount; ++k)
-    world.drives.push_back(std::pow(static_cast<double>(k) / levelCount, 2.0));
-  const std::array<double, 3> gammas{2.2, 1.0, 3.0};
-  for (std::size_t c = 0; c < 3; ++c)
-    for (double drive : world.drives) world.truth[c].push_back(std::pow(drive, gammas[c]));
-
-  MosaicShot white, group;
-  white.level.fill(levelCount);
-  std::fill_n(group.level.begin(), 3, levelCount);
-  world.shots.push_back(white);
-  for (std::size_t q = 0; q < mosaicLights; ++q) {
-    MosaicShot light;
-    light.level[q] = levelCount;
-    world.shots.push_back(light);
+  world.where = where;
+  const std::size_t count = emitters.size();
+  MosaicShot dark{std::vector<MosaicLevels>(count, MosaicLevels{}), 0.0}, white = dark;
+  for (std::size_t p = 0; p < count; ++p) {
+    std::vector<double>& drives = world.drives.emplace_back();
+    for (std::size_t k = 1; k <= levelCount; ++k)
+      drives.push_back(std::pow(static_cast<double>(k) / levelCount, 2.0));
+    LevelLights& truth = world.truth.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+      for (double drive : drives) truth[c].push_back(std::pow(drive, emitters[p].gammas[c]));
+    white.level[p].fill(levelCount);
   }
-  world.shots.push_back(group);
-  for (std::size_t high = levelCount - 1; high > 0; high -= std::min<std::size_t>(high, 2)) {
-    MosaicShot shot;
-    for (std::size_t c = 0; c < 3; ++c) {
-      shot.level[c] = high;
-      shot.level[3 + (c + high) % 3] = high > 1 ? high - 1 : 0;
-      shot.level[6 + c] = c == high % 3 ? levelCount : high;
+  world.shots.push_back(white);
+  for (std::size_t p = 0; p < count; ++p) {
+    for (std::size_t q = 0; q < mosaicLights; ++q) {
+      MosaicShot light = dark;
+      light.level[p][q] = levelCount;
+      world.shots.push_back(light);
     }
+    MosaicShot group = dark;
+    std::fill_n(group.level[p].begin(), 3, levelCount);
+    world.shots.push_back(group);
+  }
+  for (std::size_t high = levelCount - 1; high > 0; high -= std::min<std::size_t>(high, 2)) {
+    MosaicShot shot = dark;
+    for (std::size_t p = 0; p < count; ++p)
+      for (std::size_t c = 0; c < 3; ++c) {
+        // Which group shows what differs from projector to projector.
+        auto group = [p](std::size_t g) { return 3 * ((g + p) % mosaicGroups); };
+        shot.level[p][group(0) + c] = high;
+        shot.level[p][group(1) + (c + high) % 3] = high > 1 ? high - 1 : 0;
+        shot.level[p][group(2) + c] = c == high % 3 ? levelCount : high;
+      }
     world.shots.push_back(shot);
   }
   world.shots.push_back(white);
   Random random{seed};
+  world.power.resize(count);
   for (std::size_t m = 0; m < world.shots.size(); ++m) {
     world.shots[m].time = static_cast<double>(m);
-    world.power.push_back(1.0 + drift * static_cast<double>(m) + flicker * random.normal());
+    for (std::size_t p = 0; p < count; ++p)
+      world.power[p].push_back(1.0 + emitters[p].drift * static_cast<double>(m) +
+                               emitters[p].flicker * random.normal());
   }
+  world.emitters = std::move(emitters);
   return world;
 }
 
-LevelLights startOf(const World& world) {
-  LevelLights start;
-  for (std::vector<double>& channel : start)
-    for (double drive : world.drives) channel.push_back(std::pow(drive, 2.2));
-  return start;
+std::vector<ResponseFit> fitOf(const World& world, const LightProducts& products) {
+  std::vector<LevelLights> start(world.drives.size());
+  for (std::size_t p = 0; p < start.size(); ++p)
+    for (std::vector<double>& channel : start[p])
+      for (double drive : world.drives[p]) channel.push_back(std::pow(drive, 2.2));
+  return fitResponses(world.drives, world.shots, products, start);
 }
 
 double worst(const LevelLights& found, const LevelLights& truth) {
@@ -119,17 +157,22 @@ class TestResponseFit : public QObject {
   Q_OBJECT
 
  private slots:
-  /// Law: the nine lights of a mosaic make up white, and every cell belongs to one group.
+  /// Law: the nine lights of a mosaic make up white, and every cell belongs to one group or, where cells stay
+  /// dark, to none.
   void aMosaicsLightsAddUpToWhite_data() {
     QTest::addColumn<int>("width");
     QTest::addColumn<int>("height");
-    for (Size size : {Size{1, 1}, Size{5, 4}, Size{64, 48}, Size{33, 100}})
-      QTest::addRow("%dx%d", size.width, size.height) << size.width << size.height;
+    QTest::addColumn<bool>("darkCells");
+    for (bool darkCells : {false, true})
+      for (Size size : {Size{1, 1}, Size{5, 4}, Size{64, 48}, Size{33, 100}})
+        QTest::addRow("%dx%d%s", size.width, size.height, darkCells ? ", dark cells" : "")
+            << size.width << size.height << darkCells;
   }
   void aMosaicsLightsAddUpToWhite() {
     QFETCH(int, width);
     QFETCH(int, height);
-    const Mosaic mosaic({width, height}, Random{4});
+    QFETCH(bool, darkCells);
+    const Mosaic mosaic({width, height}, Random{4}, darkCells);
     Image sum({width, height}, 3);
     for (std::size_t q = 0; q < mosaicLights; ++q) {
       MosaicDrive drive{};
@@ -137,17 +180,28 @@ class TestResponseFit : public QObject {
       const Image light = mosaic.pattern(drive);
       for (std::size_t i = 0; i < sum.data().size(); ++i) sum.data()[i] += light.data()[i];
     }
-    QCOMPARE(sum, Image({width, height}, 3, 1.0f));
+    MosaicDrive all{};
+    all.fill(1.0);
+    QCOMPARE(sum, mosaic.pattern(all));
+    const auto dark = std::ranges::count(sum.data(), 0.0f);
+    QCOMPARE(std::ranges::count(sum.data(), 1.0f) + dark, static_cast<std::ptrdiff_t>(sum.data().size()));
+    if (!darkCells) QCOMPARE(dark, std::ptrdiff_t{0});
   }
 
+  void groupsAreEquallyLarge_data() {
+    QTest::addColumn<bool>("darkCells");
+    QTest::newRow("all cells lit") << false;
+    QTest::newRow("dark cells") << true;
+  }
   void groupsAreEquallyLarge() {
-    const Mosaic mosaic({96, 72}, Random{4});
+    QFETCH(bool, darkCells);
+    const Mosaic mosaic({96, 72}, Random{4}, darkCells);
     const Image pattern = mosaic.pattern({1, 0, 0, 0, 1, 0, 0, 0, 1});
     for (std::size_t c = 0; c < 3; ++c) {
       double share = 0.0;
       for (std::size_t i = 0; i < pattern.pixels(); ++i)
         share += static_cast<double>(pattern.pixel(i)[c]) / static_cast<double>(pattern.pixels());
-      QVERIFY(std::abs(share - 1.0 / 3.0) < 0.02);
+      QVERIFY(std::abs(share - (darkCells ? 2.0 / 7.0 : 1.0 / 3.0)) < 0.02);
     }
   }
 
@@ -166,32 +220,84 @@ class TestResponseFit : public QObject {
     QFETCH(double, drift);
     QFETCH(double, flicker);
     QFETCH(double, whiteSegment);
-    World world = worldOf(1, drift, flicker);
-    world.whiteSegment = whiteSegment;
-    const ResponseFit fit =
-        fitResponse(world.drives, world.shots, world.products(900, Random{2}), startOf(world));
+    const World world = worldOf(1, {{drift, flicker, whiteSegment}});
+    const ResponseFit fit = fitOf(world, world.products(900, Random{2})).front();
     // Photographs of three dark lights share a power that smoothness and the line alone tell.
     const double tolerance = flicker > 0.0 ? 3.0 * flicker : 1e-5;
-    QVERIFY2(worst(fit.light, world.truth) < tolerance,
-             qPrintable(QString::number(worst(fit.light, world.truth))));
+    QVERIFY2(worst(fit.light, world.truth[0]) < tolerance,
+             qPrintable(QString::number(worst(fit.light, world.truth[0]))));
     QVERIFY(std::abs(fit.whiteSegment - whiteSegment) < 0.02 * whiteSegment + tolerance);
     QVERIFY2(std::abs(fit.drift - drift) < 2e-4 + 0.2 * flicker, qPrintable(QString::number(fit.drift)));
   }
 
+  /// Law: the same holds for two projectors in the same photographs, each with what its own lamp does.
+  void twoProjectorsAreToldApart_data() {
+    QTest::addColumn<std::vector<Emitter>>("emitters");
+    QTest::addColumn<bool>("sideBySide");
+    const std::array<double, 3> soft{1.8, 1.8, 1.8}, usual{2.2, 2.2, 2.2};
+    const std::vector<std::pair<const char*, std::vector<Emitter>>> rows{
+        {"alike", {{}, {}}},
+        {"other curves, one four times as bright",
+         {{.brightness = 0.25, .gammas = usual}, {.brightness = 1.0, .gammas = soft}}},
+        {"one drifts", {{}, {.drift = 1e-3}}},
+        {"they drift apart", {{.drift = -1e-3}, {.drift = 1e-3}}},
+        {"one flickers", {{}, {.flicker = 4e-3}}},
+        {"white segment in the first", {{.whiteSegment = 0.4}, {}}},
+        {"white segment in the second, all else", {{.drift = 1e-3}, {.flicker = 2e-3, .whiteSegment = 0.4}}}};
+    for (bool sideBySide : {false, true})
+      for (const auto& [name, emitters] : rows)
+        QTest::addRow("%s, %s", name, sideBySide ? "side by side" : "in the same place")
+            << emitters << sideBySide;
+  }
+  void twoProjectorsAreToldApart() {
+    QFETCH(std::vector<Emitter>, emitters);
+    QFETCH(bool, sideBySide);
+    const World world = worldOf(1, emitters, sideBySide ? Where::sideBySide : Where::samePlace);
+    const std::vector<ResponseFit> fits = fitOf(world, world.products(1800, Random{2}));
+    QCOMPARE(fits.size(), emitters.size());
+    double most = 0.0;
+    for (const Emitter& emitter : emitters) most = std::max(most, emitter.flicker);
+    const double tolerance = most > 0.0 ? 3.0 * most : 1e-5;
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      const Emitter& emitter = emitters[p];
+      const QString name = QString("projector %1: %2");
+      QVERIFY2(worst(fits[p].light, world.truth[p]) < tolerance,
+               qPrintable(name.arg(p).arg(worst(fits[p].light, world.truth[p]))));
+      QVERIFY2(std::abs(fits[p].whiteSegment - emitter.whiteSegment) <
+                   0.02 * emitter.whiteSegment + tolerance + 1e-4,
+               qPrintable(name.arg(p).arg(fits[p].whiteSegment)));
+      QVERIFY2(std::abs(fits[p].drift - emitter.drift) < 2e-4 + 0.2 * emitter.flicker,
+               qPrintable(name.arg(p).arg(fits[p].drift)));
+      QVERIFY2(std::abs(fits[p].flicker - emitter.flicker) < 0.4 * emitter.flicker + 1.2e-3,
+               qPrintable(name.arg(p).arg(fits[p].flicker)));
+    }
+  }
+
   /// Law: with noise the errors are what the fit says that they are.
+  void deviationsTellTheErrors_data() {
+    QTest::addColumn<int>("projectors");
+    QTest::addColumn<bool>("sideBySide");
+    QTest::newRow("one projector") << 1 << false;
+    QTest::newRow("two in the same place") << 2 << false;
+    QTest::newRow("two side by side") << 2 << true;
+  }
   void deviationsTellTheErrors() {
-    World world = worldOf(1, 0.0, 0.0);
+    QFETCH(int, projectors);
+    QFETCH(bool, sideBySide);
+    World world = worldOf(1, std::vector<Emitter>(static_cast<std::size_t>(projectors)),
+                          sideBySide ? Where::sideBySide : Where::samePlace);
     world.noise = 5e-3;
     double squares = 0.0, count = 0.0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      const ResponseFit fit =
-          fitResponse(world.drives, world.shots, world.products(900, Random{seed}), startOf(world));
-      for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k + 1 < levelCount; ++k) {
-          squares += std::pow((fit.light[c][k] - world.truth[c][k]) / fit.deviation[c][k], 2.0);
-          count += 1.0;
-        }
-      QVERIFY(worst(fit.light, world.truth) < 0.01);
+      const std::vector<ResponseFit> fits = fitOf(world, world.products(900, Random{seed}));
+      for (std::size_t p = 0; p < fits.size(); ++p) {
+        for (std::size_t c = 0; c < 3; ++c)
+          for (std::size_t k = 0; k + 1 < levelCount; ++k) {
+            squares += std::pow((fits[p].light[c][k] - world.truth[p][c][k]) / fits[p].deviation[c][k], 2.0);
+            count += 1.0;
+          }
+        QVERIFY(worst(fits[p].light, world.truth[p]) < 0.01);
+      }
     }
     QVERIFY2(squares / count > 0.4 && squares / count < 1.7, qPrintable(QString::number(squares / count)));
   }
@@ -199,25 +305,30 @@ class TestResponseFit : public QObject {
   /// Law: a region of the same response deviates by nothing, one of another exponent by what that makes.
   void aRegionsExponentIsFound_data() {
     QTest::addColumn<double>("exponent");
-    for (double exponent : {1.0, 1.02, 1.1, 0.9}) QTest::addRow("%.2f", exponent) << exponent;
+    QTest::addColumn<int>("projectors");
+    for (int projectors : {1, 2})
+      for (double exponent : {1.0, 1.02, 1.1, 0.9})
+        QTest::addRow("%.2f, %d projectors", exponent, projectors) << exponent << projectors;
   }
   void aRegionsExponentIsFound() {
     QFETCH(double, exponent);
-    const World world = worldOf(1, 0.0, 0.0);
-    const ResponseFit fit =
-        fitResponse(world.drives, world.shots, world.products(900, Random{2}), startOf(world));
-    const RegionDeviation region = deviationOf(fit, world.shots, world.products(300, Random{3}, exponent));
+    QFETCH(int, projectors);
+    const World world = worldOf(1, std::vector<Emitter>(static_cast<std::size_t>(projectors)));
+    const std::vector<ResponseFit> fits = fitOf(world, world.products(1800, Random{2}));
+    const std::vector<RegionDeviation> regions =
+        deviationsOf(fits, world.shots, world.products(600, Random{3}, exponent));
+    QCOMPARE(regions.size(), fits.size());
     // f^(1 + x) = f + x f ln f + ..., against -b e f ln f.
     const double expected = (1.0 - exponent) / std::exp(1.0);
-    for (double amplitude : region.amplitude)
-      QVERIFY2(std::abs(amplitude - expected) < 0.15 * std::abs(expected) + 1e-4,
-               qPrintable(QString("%1 for %2").arg(amplitude).arg(expected)));
+    for (const RegionDeviation& region : regions)
+      for (double amplitude : region.amplitude)
+        QVERIFY2(std::abs(amplitude - expected) < 0.15 * std::abs(expected) + 1e-4,
+                 qPrintable(QString("%1 for %2").arg(amplitude).arg(expected)));
   }
 
   void lightsThatNothingTellsApartAreRefused() {
-    World world = worldOf(1, 0.0, 0.0);
-    QVERIFY_EXCEPTION_THROWN(
-        fitResponse(world.drives, world.shots, LightProducts(world.shots.size()), startOf(world)), Error);
+    const World world = worldOf(1, {{}});
+    QVERIFY_EXCEPTION_THROWN(fitOf(world, LightProducts(world.shots.size())), Error);
   }
 
   void additivityIsOfColoursAndOfPlaces_data() {
@@ -229,17 +340,13 @@ class TestResponseFit : public QObject {
   void additivityIsOfColoursAndOfPlaces() {
     QFETCH(double, white);
     QFETCH(double, places);
-    std::array<ChannelSums, mosaicLights> lights{};
-    for (std::size_t q = 0; q < mosaicLights; ++q) lights[q].fill(1.0 + 0.1 * static_cast<double>(q));
-    double group = 0.0, all = 0.0;
-    for (std::size_t q = 0; q < mosaicLights; ++q) {
-      all += lights[q][0];
-      if (q < 3) group += lights[q][0];
-    }
+    const ChannelSums lights{9.0, 6.0, 12.0}, groupLights{1.0, 0.5, 2.0};
     ChannelSums inWhite{}, whole{};
-    inWhite.fill(group * (1.0 + white));
-    whole.fill(all * (1.0 + white) / (1.0 + places));
-    const Additivity found = additivityOf(whole, lights, inWhite);
+    for (std::size_t c = 0; c < 3; ++c) {
+      inWhite[c] = groupLights[c] * (1.0 + white);
+      whole[c] = lights[c] * (1.0 + white) / (1.0 + places);
+    }
+    const Additivity found = additivityOf(whole, lights, inWhite, groupLights);
     QVERIFY(std::abs(found.white - white) < 1e-12);
     QVERIFY(std::abs(found.superposition - places) < 1e-12);
     QCOMPARE(additivityFindings(found, "projector", 0.025).size(),

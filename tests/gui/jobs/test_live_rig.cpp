@@ -84,10 +84,10 @@ class TestLiveRig : public QObject {
     QVERIFY(live.floodlight(1).signal.empty());
   }
 
-  /// Black belongs to both; one that shines alone has the light; together it is no one's.
-  void aRampIsOfTheProjectorThatShinesAlone() {
+  /// Black belongs to both; a light that shines alone is its projector's; together they are told apart.
+  void everyProjectorHasItsRamps() {
     constexpr Size size{12, 12};
-    const linearization::Mosaic mosaic(size, Random{1});
+    const linearization::Mosaic mosaic(size, Random{1}, true);
     LiveRig live(0);
     // A camera that sees the projectors' pixels side by side, the second one's half as bright at half drive.
     auto show = [&live](const Image& first, const Image& second) {
@@ -100,7 +100,12 @@ class TestLiveRig : public QObject {
       }
       live.photographed(0, {}, frame);
     };
-    const Image black(size, 3), grey = mosaic.pattern({0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
+    auto grey = [&mosaic](double drive) {
+      linearization::MosaicDrive drives{};
+      drives.fill(drive);
+      return mosaic.pattern(drives);
+    };
+    const Image black(size, 3);
     show(black, black);
     for (std::size_t q = 0; q < linearization::mosaicLights; ++q) {
       linearization::MosaicDrive drive{};
@@ -108,11 +113,13 @@ class TestLiveRig : public QObject {
       show(mosaic.pattern(drive), black);
       show(black, mosaic.pattern(drive));
     }
-    show(grey, black);
-    show(black, grey);
-    show(grey, grey);
+    show(grey(0.5), black);
+    show(black, grey(0.5));
+    show(grey(0.25), grey(0.75));
     QVERIFY(std::abs(live.ramps(0)[0].at(0.5) - 0.25) < 1e-5);
+    QVERIFY(std::abs(live.ramps(0)[0].at(0.25) - 0.0625) < 1e-5);
     QVERIFY(std::abs(live.ramps(1)[0].at(0.5) - 0.5) < 1e-5);
+    QVERIFY(std::abs(live.ramps(1)[0].at(0.75) - 0.75) < 1e-5);
     QCOMPARE(live.ramps(0)[0].at(1.0), 1.0);
     QVERIFY(live.ramps(2)[0].empty());
   }

@@ -44,7 +44,7 @@ constexpr int fewDetails = 4;
 // Camera pixels of which the predictions are judged, about.
 constexpr std::size_t judgedRows = 40000;
 // Patterns that have to wait for a check before one is made only to confirm them.
-constexpr int fewUnconfirmed = 20;
+constexpr int fewUnconfirmed = 28;
 // Thresholds of dim pixels are raised by at most this.
 constexpr float mostDimming = 10.0f;
 // Parts of the camera pixels that wait to be written.

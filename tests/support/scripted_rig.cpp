@@ -35,7 +35,7 @@ struct ScriptedVenue::State {
   ScriptedSettings settings;
   std::vector<image::Image> shown;  // per projector
   Stack lamp;                       // radiance of what is shown, at full lamp power; empty: to be computed
-  std::vector<double> power;        // of the lamps that `lamp` is of
+  std::vector<double> lampPower;    // of the lamps that `lamp` is of
   std::atomic<int> captures{0};
 
   const ScriptedProjector& projector(std::size_t index) const { return pick(settings.projectors, index); }
@@ -145,9 +145,9 @@ class CameraOfScript : public rig::Camera {
     double lamp = 1.0 + settings.drift * request.shot.number / 1000.0 +
                   settings.flicker * Random{settings.seed, 1, shotKey}.normal();
     std::vector<double> power = state_->powerIn(request.shot.number, shotKey);
-    if (state_->lamp.empty() || state_->power != power) {
+    if (state_->lamp.empty() || state_->lampPower != power) {
       state_->lamp = state_->lampRadiance(state_->shown, power);
-      state_->power = std::move(power);
+      state_->lampPower = std::move(power);
     }
     double reported = std::clamp(request.seconds, model().exposures.shortest, model().exposures.longest);
     double seconds = reported * trueTimeFactor(reported);

@@ -259,12 +259,14 @@ class TestLinearization : public QObject {
         {"lamps drift apart", {dimming, drifting}},
         {"one lamp flickers", {flickering, plain}},
         {"three", {plain, uneven, dimming}}};
-    quint64 seed = 1;
+    quint64 seed = 0;
     for (bool sideBySide : {false, true})
       for (const auto& [name, projectors] : rigs) {
+        ++seed;
+        // Each takes seconds, and ten times as long under sanitizers.
+        if (sideBySide && seed % 3 != 0) continue;
         QTest::addRow("%s, %s", name, sideBySide ? "side by side" : "in the same place")
             << projectors << sideBySide << seed;
-        ++seed;
       }
   }
   void severalProjectorsAreRecovered() {
@@ -308,9 +310,10 @@ class TestLinearization : public QObject {
     for (bool sideBySide : {false, true})
       for (int which : {0, 1})
         for (int fault = 0; fault < 3; ++fault)
-          QTest::addRow("%s in projector %d, %s", faults[static_cast<std::size_t>(fault)].first, which + 1,
-                        sideBySide ? "side by side" : "in the same place")
-              << fault << which << sideBySide << faults[static_cast<std::size_t>(fault)].second;
+          if (sideBySide == (which == 1))
+            QTest::addRow("%s in projector %d, %s", faults[static_cast<std::size_t>(fault)].first, which + 1,
+                          sideBySide ? "side by side" : "in the same place")
+                << fault << which << sideBySide << faults[static_cast<std::size_t>(fault)].second;
   }
   void findingsNameTheirProjector() {
     QFETCH(int, fault);

@@ -38,6 +38,25 @@ void parallelChunks(std::size_t begin, std::size_t end, std::size_t chunks, cons
       tbb::simple_partitioner());
 }
 
+/// foreground() on this thread, then wait() for what goes on beside it. If the first throws, abandon() waits
+/// in its place; what that throws is lost, since the first exception says more.
+template <typename Foreground, typename Abandon, typename Wait>
+auto finishedBeside(const Foreground& foreground, const Abandon& abandon, const Wait& wait) {
+  auto finished = [&]() -> decltype(foreground()) {
+    try {
+      return foreground();
+    } catch (...) {
+      try {
+        abandon();
+      } catch (...) {  // NOLINT(bugprone-empty-catch): see above
+      }
+      throw;
+    }
+  }();
+  wait();
+  return finished;
+}
+
 /// Runs foreground() on this thread, as devices require, and background() on another core; returns the result
 /// of the first when both are done. They must not touch the same data. An exception is rethrown here, that of
 /// the foreground if both throw. An empty background is skipped.
@@ -46,19 +65,8 @@ auto runWithBackground(const std::function<void()>& background, const Foreground
   if (!background) return foreground();
   tbb::task_group group;
   group.run(background);
-  auto finished = [&]() -> decltype(foreground()) {
-    try {
-      return foreground();
-    } catch (...) {
-      try {
-        group.wait();
-      } catch (...) {  // NOLINT(bugprone-empty-catch): the foreground's exception says more
-      }
-      throw;
-    }
-  }();
-  group.wait();
-  return finished;
+  auto wait = [&] { group.wait(); };
+  return finishedBeside(foreground, wait, wait);
 }
 
 /// Runs waiting() on this thread, which hardly uses its core, as while devices expose, and computing() on all
@@ -76,20 +84,12 @@ auto computeWhile(const std::function<void()>& computing, const Waiting& waiting
   tbb::task_arena arena(cores, allCores ? 0 : 1);
   tbb::task_group group;
   arena.execute([&] { group.run(computing); });
-  auto finished = [&]() -> decltype(waiting()) {
-    try {
-      return waiting();
-    } catch (...) {
-      group.cancel();
-      try {
-        arena.execute([&] { group.wait(); });
-      } catch (...) {  // NOLINT(bugprone-empty-catch): the other exception says more
-      }
-      throw;
-    }
-  }();
-  arena.execute([&] { group.wait(); });
-  return finished;
+  auto wait = [&] { arena.execute([&] { group.wait(); }); };
+  auto abandon = [&] {
+    group.cancel();
+    wait();
+  };
+  return finishedBeside(waiting, abandon, wait);
 }
 
 }  // namespace relucent

@@ -61,6 +61,7 @@ class Followed {
   }
 
   std::uint8_t* of(std::size_t row) { return flags_.data() + begin_[row]; }
+  const std::uint8_t* of(std::size_t row) const { return flags_.data() + begin_[row]; }
 
  private:
   std::vector<std::size_t> begin_;
@@ -86,9 +87,10 @@ void addParent(std::vector<Leaf>& leaves, std::size_t parent, const std::vector<
                     std::sqrt(variance)});
 }
 
-void findFollowed(Followed& followed, const std::vector<Row>& rows, const Rasters& cameras,
-                  const transport::NodeLayout& layout, int level, const std::vector<float>& thresholds,
-                  const DivisionSettings& settings) {
+Followed findFollowed(const std::vector<Row>& rows, const Rasters& cameras,
+                      const transport::NodeLayout& layout, int level, const std::vector<float>& thresholds,
+                      const DivisionSettings& settings) {
+  Followed followed(rows);
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     parallelFor(0, cameras.size(camera).count(), 256, [&](std::size_t pixel) {
       std::size_t row = cameras.offset(camera) + pixel;
@@ -106,6 +108,7 @@ void findFollowed(Followed& followed, const std::vector<Row>& rows, const Raster
         *flag++ = follow ? 1 : 0;
       }
     });
+  return followed;
 }
 
 /// The row's leaves with those of the level divided, joined or as they are.
@@ -155,12 +158,24 @@ std::vector<Leaf> divided(const std::vector<Leaf>& leaves, const std::uint8_t* f
 
 void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
             const std::vector<float>& thresholds, const DivisionSettings& settings) {
-  Followed followed(rows);
-  findFollowed(followed, rows, cameras, layout, level, thresholds, settings);
+  const Followed followed = findFollowed(rows, cameras, layout, level, thresholds, settings);
   parallelFor(0, rows.size(), 256, [&](std::size_t row) {
     if (rows[row].leaves.empty()) return;
     rows[row].leaves = divided(rows[row].leaves, followed.of(row), layout, level, thresholds[row], settings);
   });
+}
+
+std::vector<std::size_t> childrenAfterDivision(const std::vector<Row>& rows, const Rasters& cameras,
+                                               const transport::NodeLayout& layout, int level,
+                                               const std::vector<float>& thresholds,
+                                               const DivisionSettings& settings) {
+  const Followed followed = findFollowed(rows, cameras, layout, level, thresholds, settings);
+  std::vector<std::size_t> children(rows.size(), 0);
+  parallelFor(0, rows.size(), 256, [&](std::size_t row) {
+    for (std::size_t i = 0; i < rows[row].leaves.size(); ++i)
+      if (followed.of(row)[i]) children[row] += layout.children(layout.node(rows[row].leaves[i].node)).size();
+  });
+  return children;
 }
 
 }  // namespace relucent::multiplexing

@@ -21,4 +21,11 @@ struct DivisionSettings {
 void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
             const std::vector<float>& thresholds, const DivisionSettings& settings);
 
+/// How many leaves of the next finer level each row would have then.
+[[nodiscard]] std::vector<std::size_t> childrenAfterDivision(const std::vector<Row>& rows,
+                                                             const Rasters& cameras,
+                                                             const transport::NodeLayout& layout, int level,
+                                                             const std::vector<float>& thresholds,
+                                                             const DivisionSettings& settings);
+
 }  // namespace relucent::multiplexing

@@ -99,6 +99,32 @@ class TestDivision : public QObject {
     for (const Row& row : rows) coversOnce(layout, row);
   }
 
+  void childrenAreCountedBefore_data() {
+    QTest::addColumn<int>("level");
+    for (int level : {3, 2, 1}) QTest::addRow("level %d", level) << level;
+  }
+  /// As many as dividing then makes, also at the border, and where neighbours ask for them.
+  void childrenAreCountedBefore() {
+    QFETCH(int, level);
+    NodeLayout layout(Rasters({{29, 19}, {13, 9}}));
+    std::vector<Row> rows = rowsWith(layout, 9, level);
+    rows[7].leaves.clear();
+    for (std::size_t row = 0; row < 6; ++row)
+      for (std::size_t leaf = row; leaf < rows[row].leaves.size(); leaf += 2)
+        rows[row].leaves[leaf].light = 0.1f;
+    const std::vector<float> thresholds(9, 0.012f);
+    std::vector<std::size_t> counted =
+        childrenAfterDivision(rows, Rasters(Size{3, 3}), layout, level, thresholds, {});
+    divide(rows, Rasters(Size{3, 3}), layout, level, thresholds, {});
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      QCOMPARE(counted[row],
+               static_cast<std::size_t>(std::ranges::count_if(rows[row].leaves, [&](const Leaf& leaf) {
+                 return layout.node(leaf.node).level == level - 1;
+               })));
+    QVERIFY(counted[0] > 0);
+    QVERIFY(counted[8] < counted[0]);
+  }
+
   /// What was divided in vain is one leaf again, with the same light.
   void siblingsAreJoined() {
     NodeLayout layout(Size{13, 9});

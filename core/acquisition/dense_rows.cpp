@@ -22,7 +22,6 @@ using multiplexing::RowFit;
 using multiplexing::RowLight;
 using multiplexing::RowRegression;
 using multiplexing::RowSettings;
-using Code = transport::BlockSparseWriter::Code;
 
 constexpr float startingSpread = 0.1f;
 constexpr float rootSpread = 1.0f;
@@ -252,21 +251,25 @@ transport::Draft DenseRows::draft() const {
   return draftOf(rows_, photographs_, references_, means_.layout(), level_);
 }
 
-/// The row's leaves as codes, what rounding leaves over handed on to the next, and what is known of them.
-void DenseRows::finishRow(std::size_t row, const RowFit& fit, const Eigen::Array3f& floodVariance,
-                          std::vector<Code>& codes, MeasuredTransport& measured) const {
-  Eigen::Array3f flood = photographs_.flood(row);
-  float scale = references_.fullScale[row] / 32767.0f, variance = 0.0f;
-  transport::ColourBlock rest = transport::ColourBlock::Zero();
+/// The row's leaves in radiance.
+void DenseRows::encodeRow(std::size_t row, const RowFit& fit, transport::SharedColourEncoder& encoder,
+                          transport::SharedColourRow& encoded) const {
+  const Eigen::Vector3f flood = photographs_.flood(row);
+  std::vector<std::uint32_t> nodes;
+  std::vector<transport::ColourBlock> blocks;
   for (std::size_t j = 0; j < fit.blocks.size(); ++j) {
-    transport::ColourBlock value = fit.blocks[j];
-    value.array().colwise() *= flood;
-    value += rest;
-    codes.push_back(transport::codeOf(value, scale));
-    for (std::size_t i = 0; i < 9; ++i)
-      rest.data()[i] = value.data()[i] - scale * static_cast<float>(codes.back()[i]);
-    variance += rows_[row].leaves[j].deviation * rows_[row].leaves[j].deviation;
+    nodes.push_back(rows_[row].leaves[j].node);
+    blocks.push_back(flood.asDiagonal() * fit.blocks[j]);
   }
+  encoder.encode(nodes, blocks, encoded);
+}
+
+/// What is known of a row besides its leaves.
+void DenseRows::describeRow(std::size_t row, const RowFit& fit, const Eigen::Array3f& floodVariance,
+                            MeasuredTransport& measured) const {
+  const Eigen::Array3f flood = photographs_.flood(row);
+  float variance = 0.0f;
+  for (const Leaf& leaf : rows_[row].leaves) variance += leaf.deviation * leaf.deviation;
   // A third of a leaf's light is in each projector channel.
   variance /= 9.0f * static_cast<float>(std::max<std::size_t>(1, fit.blocks.size()));
   Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * row]) = flood.square() * variance;
@@ -283,28 +286,29 @@ MeasuredTransport DenseRows::finish() {
   measured.leafVariance.assign(3 * count, 0.0f);
   measured.unknown.assign(count, 0);
   measured.floods = floodsOf(references_);
-  transport::BlockSparseWriter writer(means_.layout().count(), references_.fullScale, leaves);
+  const transport::ColumnKinds kinds = transport::nearAndFar(means_.layout(), model.nearLevels);
+  transport::SharedColourWriter writer(means_.layout().count(), count, kinds, leaves);
   constexpr std::size_t together = DensePhotographs::rowsTogether;
-  std::vector<std::vector<Code>> codes(std::min(partsWritten * together, count));
+  std::vector<transport::SharedColourRow> encoded(std::min(partsWritten * together, count));
   for (std::size_t first = 0; first < photographs_.parts(); first += partsWritten) {
     std::size_t last = std::min(first + partsWritten, photographs_.parts()), begin = first * together;
     parallelFor(first, last, 1, [&](std::size_t part) {
       const DensePhotographs::Rows shown(photographs_, part);
       RowRegression regression(means_, model);
       RowLight seen;
+      transport::SharedColourEncoder encoder(kinds);
       for (std::size_t row = shown.begin(); row < shown.end(); ++row) {
-        codes[row - begin].clear();
+        encoder.encode({}, {}, encoded[row - begin]);
         if (rows_[row].leaves.empty()) continue;
         shown.read(row, 0, seen);
         const RowFit& fit = regression.solve(rows_[row], seen);
-        finishRow(row, fit, regression.floodVariance(rows_[row]), codes[row - begin], measured);
+        encodeRow(row, fit, encoder, encoded[row - begin]);
+        describeRow(row, fit, regression.floodVariance(rows_[row]), measured);
         measured.unknown[row] = shown.hardlySeen(row) ? 1 : 0;
       }
     });
     for (std::size_t row = begin; row < std::min(last * together, count); ++row) {
-      for (std::size_t j = 0; j < rows_[row].leaves.size(); ++j)
-        writer.add(rows_[row].leaves[j].node, codes[row - begin][j]);
-      writer.endRow();
+      writer.add(encoded[row - begin]);
       rows_[row] = {};
     }
     if (last % partsReturned == 0) platform::returnFreedMemory();

@@ -91,8 +91,10 @@ class DenseRows {
   void solveRows(std::size_t heldOut, int details, const Wanted& wanted, const Use& use);
   void solveRows(std::size_t heldOut, int details);
   bool isJudged(std::size_t row) const;
-  void finishRow(std::size_t row, const multiplexing::RowFit& fit, const Eigen::Array3f& floodVariance,
-                 std::vector<transport::BlockSparseWriter::Code>& codes, MeasuredTransport& measured) const;
+  void encodeRow(std::size_t row, const multiplexing::RowFit& fit, transport::SharedColourEncoder& encoder,
+                 transport::SharedColourRow& encoded) const;
+  void describeRow(std::size_t row, const multiplexing::RowFit& fit, const Eigen::Array3f& floodVariance,
+                   MeasuredTransport& measured) const;
 
   const photography::References& references_;
   const AcquisitionSettings& settings_;

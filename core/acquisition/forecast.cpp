@@ -34,8 +34,11 @@ constexpr double leavesPerPixel = 120.0;
 constexpr double bytesPerLeaf = 22.0;
 // The level under way: some 40 active pairs a camera pixel, each with 4 children of 36 bytes.
 constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
-// Of dense patterns: rows and T of a camera pixel, the patterns' means of a projector pixel.
+// Of dense patterns: T and rows of a camera pixel, the patterns' means of a projector pixel. T has a camera
+// pixel's colours of near and far light of each projector.
 constexpr double denseLeaves = 75.0;
+constexpr double denseBytesPerLeaf = 10.0;
+constexpr double coloursBytes = 2.0 * 36.0;
 constexpr double denseRowBytes = 200.0 + 12.0 * denseLeaves;
 constexpr double meansBytes = 300.0;
 // Of a camera pixel's photograph as it is stored: half of three 16-bit codes.
@@ -179,7 +182,9 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   double bytes = times.exposures > 0 ? static_cast<double>(times.bytes) / times.exposures
                                      : compressedBytes * pixels / static_cast<double>(cameras.devices());
   const bool dense = settings.scheme == AcquisitionScheme::multiplexed;
-  double leaves = (dense ? denseLeaves : leavesPerPixel) * bytesPerLeaf * pixels;
+  double leaves = (dense ? denseLeaves * denseBytesPerLeaf + coloursBytes * projectorCount
+                         : leavesPerPixel * bytesPerLeaf) *
+                  pixels;
   double underWay =
       dense ? leaves + denseRowBytes * pixels + meansBytes * static_cast<double>(projectors.count())
             : 2.0 * leaves + childrenBytes * pixels;

@@ -24,10 +24,28 @@ void adoptVerification(VerifiedTransport& verified, const Verification& verifica
   verified.residual = verification.residual;
 }
 
-/// `first`, with the rows of `second` that are chosen.
+/// `first`, with the rows of `second`, which has own colours, that are chosen.
 transport::BlockSparse mixed(const transport::BlockSparse& first, const transport::BlockSparse& second,
                              const std::vector<std::uint8_t>& chosen,
                              const photography::References& references) {
+  if (const transport::ColumnKinds* kinds = first.sharedColours()) {
+    transport::SharedColourWriter writer(first.columns(), first.rows(), *kinds, first.blocks());
+    transport::SharedColourEncoder encoder(*kinds);
+    transport::SharedColourRow encoded;
+    std::vector<transport::ColourBlock> blocks;
+    for (std::size_t row = 0; row < first.rows(); ++row) {
+      if (!chosen[row]) {
+        writer.add(first.sharedRow(row));
+        continue;
+      }
+      blocks.clear();
+      for (std::size_t entry = second.rowBegin(row); entry < second.rowBegin(row + 1); ++entry)
+        blocks.push_back(second.block(row, entry));
+      encoder.encode(second.columnsOf(row), blocks, encoded);
+      writer.add(encoded);
+    }
+    return writer.build();
+  }
   transport::BlockSparseWriter writer(first.columns(), references.fullScale, first.blocks());
   for (std::size_t row = 0; row < first.rows(); ++row) {
     const transport::BlockSparse& from = chosen[row] ? second : first;

@@ -38,22 +38,17 @@ class NearLeaves {
     std::size_t begin = leaves_.rowBegin(row), end = leaves_.rowBegin(row + 1);
     into.density.resize(end - begin);
     into.brightest = 0.0f;
-    std::array<std::int64_t, 3> steps{};
+    Eigen::Vector3d flood = Eigen::Vector3d::Zero();
     for (std::size_t entry = begin; entry < end; ++entry) {
-      const auto& code = leaves_.code(entry);
-      std::array<int, 3> channel{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        channel[c] = code[3 * c] + code[3 * c + 1] + code[3 * c + 2];
-        steps[c] += channel[c];
-      }
-      float luminance = image::luminanceOf(static_cast<float>(channel[0]), static_cast<float>(channel[1]),
-                                           static_cast<float>(channel[2]));
-      float density = leaves_.scale(row) * luminance / nodes_.pixels[leaves_.column(entry)];
+      const Eigen::Vector3f white = leaves_.block(row, entry).rowwise().sum();
+      flood += white.cast<double>();
+      float density = image::luminanceOf(white[0], white[1], white[2]) / nodes_.pixels[leaves_.column(entry)];
       into.density[entry - begin] = density;
       into.brightest = std::max(into.brightest, density);
     }
     if (!std::isfinite(into.brightest)) into.brightest = 0.0f;
-    for (std::size_t c = 0; c < 3; ++c) into.flood[c] = leaves_.scale(row) * static_cast<float>(steps[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      into.flood[c] = static_cast<float>(flood[static_cast<Eigen::Index>(c)]);
   }
 
   /// Calls visit(entry, luminance per pixel) for what is bright enough. Nothing is in a black row.

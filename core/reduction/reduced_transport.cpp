@@ -53,10 +53,12 @@ transport::TransportMatrix reducedTransport(const transport::TransportMatrix& tr
               static_cast<float>(share));
     }
   };
-  constexpr float codes = 32767.0f;
   std::vector<float> fullScale(small.count(), 0.0f);
   forRows([&](std::size_t from, std::size_t to, float share) {
-    fullScale[to] += share * codes * leaves.scale(from);
+    float largest = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(from); entry < leaves.rowBegin(from + 1); ++entry)
+      largest = std::max(largest, leaves.sizeOf(from, entry).largest);
+    fullScale[to] += share * largest;
   });
   transport::BlockSparseBuilder builder(leaves.columns(), std::move(fullScale));
   forRows([&](std::size_t from, std::size_t to, float share) {

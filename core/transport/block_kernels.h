@@ -8,15 +8,21 @@
 #include <span>
 #include <vector>
 
+#include "relucent/transport/column_kinds.h"
+
 namespace relucent::transport {
 
-/// The arrays of a BlockSparse, without owning them.
+/// The arrays of a BlockSparse, without owning them: `code` and `scale`, or those of shared colours.
 struct BlockRows {
   const std::size_t* start = nullptr;
   const std::uint32_t* column = nullptr;
   const std::array<std::int16_t, 9>* code = nullptr;
   const float* scale = nullptr;
   std::size_t columns = 0;
+  const std::array<std::int16_t, 3>* factor = nullptr;
+  const float* mixing = nullptr;                // nine a kind, row-major
+  std::span<const ColumnKinds::Range> kinds{};  // of columns
+  std::size_t kindCount = 0;
 };
 
 /// Sums over the columns, allocated in tiles where something is added: neighbouring rows have entries in

@@ -18,6 +18,8 @@ constexpr float largestCode = 32767.0f;
 // costs the memory of the columns that it adds to; eight threads use up the bandwidth of most machines.
 constexpr std::size_t scatterParts = 8;
 constexpr std::size_t gatherRows = 256;  // worth a task
+// Blocks whose sum is less than this share of their magnitudes have no colours in common.
+constexpr float cancelled = 0.2f;
 
 using Code = std::array<std::int16_t, 9>;
 
@@ -62,18 +64,58 @@ BlockSparse BlockSparse::assembled(std::size_t columns, std::vector<std::size_t>
 
 std::size_t BlockSparse::bytes() const {
   return column_.size() * sizeof(std::uint32_t) + code_.size() * sizeof(code_[0]) +
+         factor_.size() * sizeof(factor_[0]) + mixing_.size() * sizeof(ColourBlock) +
          rowStart_.size() * sizeof(std::size_t) + scale_.size() * sizeof(float);
 }
 
+std::size_t BlockSparse::bytesOfBlock() const {
+  return sizeof(std::uint32_t) + (sharedColours() ? sizeof(factor_[0]) : sizeof(code_[0]));
+}
+
 ColourBlock BlockSparse::block(std::size_t row, std::size_t entry) const {
+  if (sharedColours()) {
+    const std::array<std::int16_t, 3>& code = factor_[entry];
+    const ColourBlock& colours = mixing(row, kinds_.kindOf(column_[entry]));
+    return colours * Eigen::Vector3f(code[0], code[1], code[2]).asDiagonal();
+  }
   ColourBlock block;
   for (int i = 0; i < 9; ++i)
     block.data()[i] = scale_[row] * static_cast<float>(code_[entry][static_cast<std::size_t>(i)]);
   return block;
 }
 
+BlockSize BlockSparse::sizeOf(std::size_t row, std::size_t entry) const {
+  if (sharedColours()) {
+    const auto magnitudes = block(row, entry).cwiseAbs();
+    return {magnitudes.maxCoeff(), magnitudes.sum()};
+  }
+  int largest = 0, sum = 0;
+  for (std::int16_t value : code_[entry]) {
+    const int magnitude = std::abs(static_cast<int>(value));
+    largest = std::max(largest, magnitude);
+    sum += magnitude;
+  }
+  return {scale_[row] * static_cast<float>(largest), scale_[row] * static_cast<float>(sum)};
+}
+
+SharedColourRow BlockSparse::sharedRow(std::size_t row) const {
+  const std::span<const std::uint32_t> columns = columnsOf(row);
+  const auto* first = factor_.data() + rowStart_[row];
+  const ColourBlock* colours = mixing_.data() + row * kinds_.count;
+  return {
+      {columns.begin(), columns.end()}, {first, first + columns.size()}, {colours, colours + kinds_.count}};
+}
+
 BlockRows BlockSparse::view() const {
-  return {rowStart_.data(), column_.data(), code_.data(), scale_.data(), columns_};
+  return {rowStart_.data(),
+          column_.data(),
+          code_.data(),
+          scale_.data(),
+          columns_,
+          factor_.data(),
+          mixing_.empty() ? nullptr : mixing_.front().data(),
+          kinds_.ranges,
+          kinds_.count};
 }
 
 Stack BlockSparse::multiply(const Stack& x) const {
@@ -117,14 +159,11 @@ std::size_t BlockSparse::rowAtShare(std::size_t part) const {
 
 BlockSparse BlockSparse::transposed() const {
   std::vector<float> fullScale(columns_, 0.0f);
-  for (std::size_t row = 0; row < rows(); ++row) {
+  for (std::size_t row = 0; row < rows(); ++row)
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-      int largest = 0;
-      for (std::int16_t code : code_[entry]) largest = std::max(largest, std::abs(static_cast<int>(code)));
       float& scale = fullScale[column_[entry]];
-      scale = std::max(scale, scale_[row] * static_cast<float>(largest));
+      scale = std::max(scale, sizeOf(row, entry).largest);
     }
-  }
   BlockSparseBuilder builder(rows(), std::move(fullScale));
   for (std::size_t row = 0; row < rows(); ++row)
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
@@ -135,6 +174,15 @@ BlockSparse BlockSparse::transposed() const {
 BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
   require(factor.size() == 3 * rows(), "{} factors for {} rows", factor.size(), rows());
   BlockSparse result = *this;
+  if (sharedColours()) {
+    parallelFor(0, rows(), 256, [&](std::size_t row) {
+      const Eigen::Map<const Eigen::Vector3f> factors(&factor[3 * row]);
+      const std::span<ColourBlock> mixing(&result.mixing_[row * kinds_.count], kinds_.count);
+      for (ColourBlock& colours : mixing) colours = factors.asDiagonal() * colours;
+      result.scale_[row] = stepOf(mixing);
+    });
+    return result;
+  }
   parallelFor(0, rows(), 256, [&](std::size_t row) {
     float largest =
         std::max({std::abs(factor[3 * row]), std::abs(factor[3 * row + 1]), std::abs(factor[3 * row + 2])});
@@ -166,6 +214,8 @@ BlockSparse BlockSparse::filtered(const std::vector<std::uint8_t>& keep) const {
   BlockSparse result;
   result.columns_ = columns_;
   result.scale_ = scale_;
+  result.kinds_ = kinds_;
+  result.mixing_ = mixing_;
   result.rowStart_.assign(rows() + 1, 0);
   parallelFor(0, rows(), 256, [&](std::size_t row) {
     for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
@@ -174,15 +224,18 @@ BlockSparse BlockSparse::filtered(const std::vector<std::uint8_t>& keep) const {
   for (std::size_t row = 0; row < rows(); ++row) result.rowStart_[row + 1] += result.rowStart_[row];
 
   result.column_.resize(result.rowStart_.back());
-  result.code_.resize(result.rowStart_.back());
-  parallelFor(0, rows(), 256, [&](std::size_t row) {
-    std::size_t next = result.rowStart_[row];
-    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
-      if (keep[entry] == 0) continue;
-      result.column_[next] = column_[entry];
-      result.code_[next++] = code_[entry];
-    }
-  });
+  auto keepOf = [&](const auto& values, auto& into) {
+    if (values.empty()) return;
+    into.resize(result.rowStart_.back());
+    parallelFor(0, rows(), 256, [&](std::size_t row) {
+      std::size_t next = result.rowStart_[row];
+      for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry)
+        if (keep[entry] != 0) into[next++] = values[entry];
+    });
+  };
+  keepOf(column_, result.column_);
+  keepOf(code_, result.code_);
+  keepOf(factor_, result.factor_);
   return result;
 }
 
@@ -280,6 +333,86 @@ void BlockSparseWriter::endRow() {
 BlockSparse BlockSparseWriter::build() {
   require(result_.rows() == result_.scale_.size(), "{} of {} rows have been written", result_.rows(),
           result_.scale_.size());
+  return std::exchange(result_, {});
+}
+
+void SharedColourEncoder::encode(std::span<const std::uint32_t> columns, std::span<const ColourBlock> blocks,
+                                 SharedColourRow& row) {
+  row.column.clear();
+  row.factor.clear();
+  row.mixing.assign(kinds_.count, ColourBlock::Zero());
+  ColourBlock all = ColourBlock::Zero();
+  std::vector<Eigen::Array3f> magnitude(kinds_.count, Eigen::Array3f::Zero());
+  kind_.resize(blocks.size());
+  std::size_t range = 0;
+  for (std::size_t j = 0; j < blocks.size(); ++j) {
+    while (columns[j] >= kinds_.ranges[range].end) ++range;
+    kind_[j] = kinds_.ranges[range].kind;
+    row.mixing[kind_[j]] += blocks[j];
+    all += blocks[j];
+    magnitude[kind_[j]] += blocks[j].colwise().norm().transpose().array();
+  }
+  for (std::size_t kind = 0; kind < kinds_.count; ++kind)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (row.mixing[kind].col(k).norm() < cancelled * magnitude[kind][k])
+        row.mixing[kind].col(k) = all.col(k);
+
+  factor_.resize(blocks.size());
+  std::vector<float> largest(kinds_.count, 0.0f);
+  for (std::size_t j = 0; j < blocks.size(); ++j) {
+    const ColourBlock& colours = row.mixing[kind_[j]];
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const float square = colours.col(k).squaredNorm();
+      factor_[j][k] = square > 0.0f ? colours.col(k).dot(blocks[j].col(k)) / square : 0.0f;
+    }
+    largest[kind_[j]] = std::max(largest[kind_[j]], factor_[j].cwiseAbs().maxCoeff());
+  }
+  std::vector<Eigen::Array3f> rest(kinds_.count, Eigen::Array3f::Zero());
+  for (std::size_t j = 0; j < blocks.size(); ++j) {
+    const std::uint32_t kind = kind_[j];
+    if (!(largest[kind] > 0.0f)) continue;
+    Eigen::Array3f wanted = factor_[j].array() * (largestCode / largest[kind]) + rest[kind];
+    Eigen::Array3f code = wanted.round().max(-largestCode).min(largestCode);
+    rest[kind] = wanted - code;
+    if ((code == 0.0f).all()) continue;
+    row.column.push_back(columns[j]);
+    row.factor.push_back({static_cast<std::int16_t>(code[0]), static_cast<std::int16_t>(code[1]),
+                          static_cast<std::int16_t>(code[2])});
+  }
+  for (std::size_t kind = 0; kind < kinds_.count; ++kind) row.mixing[kind] *= largest[kind] / largestCode;
+}
+
+float stepOf(std::span<const ColourBlock> mixing) {
+  float step = 0.0f;
+  for (const ColourBlock& colours : mixing) step += colours.cwiseAbs().sum();
+  return step;
+}
+
+SharedColourWriter::SharedColourWriter(std::size_t columns, std::size_t rows, ColumnKinds kinds,
+                                       std::size_t blocks)
+    : rows_(rows) {
+  require(!kinds.ranges.empty() && kinds.ranges.back().end == columns, "kinds of {} columns for {}",
+          kinds.ranges.empty() ? 0 : kinds.ranges.back().end, columns);
+  result_.columns_ = columns;
+  result_.kinds_ = std::move(kinds);
+  result_.rowStart_.reserve(rows + 1);
+  result_.scale_.reserve(rows);
+  result_.mixing_.reserve(rows * result_.kinds_.count);
+  result_.column_.reserve(blocks);
+  result_.factor_.reserve(blocks);
+}
+
+void SharedColourWriter::add(const SharedColourRow& row) {
+  require(result_.rows() < rows_, "all {} rows have been written", rows_);
+  result_.column_.insert(result_.column_.end(), row.column.begin(), row.column.end());
+  result_.factor_.insert(result_.factor_.end(), row.factor.begin(), row.factor.end());
+  result_.mixing_.insert(result_.mixing_.end(), row.mixing.begin(), row.mixing.end());
+  result_.scale_.push_back(stepOf(row.mixing));
+  result_.rowStart_.push_back(result_.column_.size());
+}
+
+BlockSparse SharedColourWriter::build() {
+  require(result_.rows() == rows_, "{} of {} rows have been written", result_.rows(), rows_);
   return std::exchange(result_, {});
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "relucent/base/raster.h"
+#include "relucent/transport/column_kinds.h"
 
 namespace relucent::transport {
 
@@ -17,12 +18,25 @@ struct BlockRows;
 /// A 3x3 block: rows are camera channels, columns projector channels (paper eq. 2).
 using ColourBlock = Eigen::Matrix<float, 3, 3, Eigen::RowMajor>;
 
-/// A sparse matrix of 3x3 blocks, compressed by rows, 22 bytes a block: a 32-bit column and nine 16-bit
-/// fixed-point values with one scale per row,
-///   block = scale[row] * code,  |code| <= 32767.
-/// Products are limited by memory bandwidth; compared with single precision this halves the traffic at an
-/// error of at most
-/// scale / 2 per value, 2e-5 of the row's largest.
+/// What a row's blocks are compared by.
+struct BlockSize {
+  float largest = 0.0f;  // magnitude of the nine values
+  float sum = 0.0f;      // of their magnitudes
+};
+
+/// A row whose blocks share its colours. Columns ascend.
+struct SharedColourRow {
+  std::vector<std::uint32_t> column;
+  std::vector<std::array<std::int16_t, 3>> factor;
+  std::vector<ColourBlock> mixing;  // a kind each
+};
+
+/// A sparse matrix of 3x3 blocks, compressed by rows, in one of two forms of 16-bit fixed-point values:
+///   own colours,     22 bytes a block:  block = scale[row] * code,                  nine codes a block
+///   shared colours,  10 bytes a block:  block = mixing[row, kind] * diag(code),     three codes a block,
+/// where the columns say the kind. |code| <= 32767. Products are limited by memory bandwidth; compared with
+/// single precision the first halves the traffic at an error of at most scale / 2 per value, 2e-5 of the
+/// row's largest. For the second see SharedColourEncoder.
 class BlockSparse {
  public:
   BlockSparse() = default;
@@ -37,13 +51,31 @@ class BlockSparse {
   std::size_t columns() const { return columns_; }
   std::size_t blocks() const { return column_.size(); }
   std::size_t bytes() const;
+  /// Of one block more.
+  std::size_t bytesOfBlock() const;
 
   /// Entries of a row: [rowBegin(r), rowBegin(r + 1)), columns ascending.
   std::size_t rowBegin(std::size_t row) const { return rowStart_[row]; }
   std::uint32_t column(std::size_t entry) const { return column_[entry]; }
+  std::span<const std::uint32_t> columnsOf(std::size_t row) const {
+    return {column_.data() + rowStart_[row], rowStart_[row + 1] - rowStart_[row]};
+  }
+  /// What a value of a block is rounded to at most. Finite if all of the row is.
   float scale(std::size_t row) const { return scale_[row]; }
-  const std::array<std::int16_t, 9>& code(std::size_t entry) const { return code_[entry]; }
   ColourBlock block(std::size_t row, std::size_t entry) const;
+  BlockSize sizeOf(std::size_t row, std::size_t entry) const;
+
+  /// Null where every block has colours of its own.
+  const ColumnKinds* sharedColours() const { return kinds_.count > 0 ? &kinds_ : nullptr; }
+  /// Contract: blocks have colours of their own.
+  const std::array<std::int16_t, 9>& code(std::size_t entry) const { return code_[entry]; }
+  /// Contract: colours are shared.
+  const std::array<std::int16_t, 3>& factor(std::size_t entry) const { return factor_[entry]; }
+  const ColourBlock& mixing(std::size_t row, std::size_t kind) const {
+    return mixing_[row * kinds_.count + kind];
+  }
+  SharedColourRow sharedRow(std::size_t row) const;
+
   /// The arrays themselves, for block_kernels.h; valid as long as this matrix.
   BlockRows view() const;
 
@@ -69,6 +101,7 @@ class BlockSparse {
  private:
   friend class BlockSparseBuilder;
   friend class BlockSparseWriter;
+  friend class SharedColourWriter;
   friend class TransportFile;
   /// First row of a part, when the rows are divided into parts with equal numbers of blocks.
   std::size_t rowAtShare(std::size_t part) const;
@@ -76,8 +109,11 @@ class BlockSparse {
   std::size_t columns_ = 0;
   std::vector<std::size_t> rowStart_{0};
   std::vector<std::uint32_t> column_;
-  std::vector<std::array<std::int16_t, 9>> code_;
   std::vector<float> scale_;
+  std::vector<std::array<std::int16_t, 9>> code_;  // own colours
+  ColumnKinds kinds_;                              // shared colours, and ...
+  std::vector<std::array<std::int16_t, 3>> factor_;
+  std::vector<ColourBlock> mixing_;  // [row][kind]
 };
 
 /// Collects blocks in any order and sorts them into a BlockSparse. Blocks at the same position are added.
@@ -118,6 +154,43 @@ class BlockSparseWriter {
   BlockSparse build();
 
  private:
+  BlockSparse result_;
+};
+
+/// Finds the colours that the blocks T_j of a row share. For each kind B = sum_j T_j, and for each column k
+///   t_jk = <B_k, T_jk> / |B_k|^2,      T_j ~ B diag(t_j),
+/// the least-squares fit whose blocks have the same sum: T 1 is preserved. Where the T_jk of a kind, being
+/// noise, cancel to less than a fifth, B_k is that of all kinds. What rounding leaves over is handed on to
+/// the next block. Not thread-safe; cheap to make.  Source: core/transport/README.md.
+class SharedColourEncoder {
+ public:
+  explicit SharedColourEncoder(const ColumnKinds& kinds) : kinds_(kinds) {}
+  /// Columns ascending. Blocks that round to zero are left out.
+  void encode(std::span<const std::uint32_t> columns, std::span<const ColourBlock> blocks,
+              SharedColourRow& row);
+
+ private:
+  const ColumnKinds& kinds_;
+  std::vector<std::uint32_t> kind_;
+  std::vector<Eigen::Vector3f> factor_;
+};
+
+/// BlockSparse::scale() of a row with these colours: the sum of all magnitudes.
+float stepOf(std::span<const ColourBlock> mixing);
+
+/// Writes a BlockSparse of shared colours row by row.
+class SharedColourWriter {
+ public:
+  /// `blocks`: the expected number, to reserve the memory once.
+  SharedColourWriter(std::size_t columns, std::size_t rows, ColumnKinds kinds, std::size_t blocks);
+
+  /// The next row.
+  void add(const SharedColourRow& row);
+  /// Contract: every row has been added.
+  BlockSparse build();
+
+ private:
+  std::size_t rows_;
   BlockSparse result_;
 };
 

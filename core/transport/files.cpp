@@ -17,6 +17,8 @@ namespace {
 
 constexpr float largestCode = 32767.0f;
 constexpr const char* codeType = "<i2";
+constexpr const char* ownColours = "bsr";  // as SciPy calls it
+constexpr const char* sharedColours = "relucent-shared-colours";
 constexpr std::uint64_t largestInt32 = std::numeric_limits<std::int32_t>::max();
 
 /// Writes integers in 32 bits where they all fit, else in 64.
@@ -38,8 +40,8 @@ void addSizes(NpzWriter& writer, const std::string& name, const Rasters& rasters
   writer.add(name, sizes, {rasters.devices(), 2});
 }
 
-void addFrame(NpzWriter& writer, std::size_t rows, std::size_t columns) {
-  writer.addText("format", "bsr");
+void addFrame(NpzWriter& writer, std::size_t rows, std::size_t columns, const char* format = ownColours) {
+  writer.addText("format", format);
   writer.add(
       "shape",
       std::vector<std::int64_t>{static_cast<std::int64_t>(3 * rows), static_cast<std::int64_t>(3 * columns)},
@@ -82,16 +84,23 @@ class TransportFile {
  public:
   static void add(NpzWriter& writer, const BlockSparse& blocks, StoredValues values) {
     bool wide = blocks.blocks() > largestInt32 || blocks.columns() > largestInt32;
-    addFrame(writer, blocks.rows(), blocks.columns());
+    const bool shared = values == StoredValues::codes && blocks.sharedColours();
+    addFrame(writer, blocks.rows(), blocks.columns(), shared ? sharedColours : ownColours);
     const BlockSparse* source = &blocks;
     addIndices(writer, "indptr", blocks.rows() + 1, wide,
                [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowStart_[i]); });
     addIndices(writer, "indices", blocks.blocks(), wide,
                [source](std::uint64_t i) { return static_cast<std::int64_t>(source->column_[i]); });
-    writer.add("scale", {"<f4", {blocks.rows()}},
-               [source](std::uint64_t begin, std::uint64_t count, char* out) {
-                 std::memcpy(out, source->scale_.data() + begin, count * sizeof(float));
-               });
+    if (shared) {
+      addSharedColours(writer, blocks);
+      return;
+    }
+    // Values of shared colours are not on a grid of their row's.
+    if (!blocks.sharedColours())
+      writer.add("scale", {"<f4", {blocks.rows()}},
+                 [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                   std::memcpy(out, source->scale_.data() + begin, count * sizeof(float));
+                 });
     if (values == StoredValues::codes) {
       writer.add("data", {codeType, {blocks.blocks(), 3, 3}},
                  [source](std::uint64_t begin, std::uint64_t count, char* out) {
@@ -107,18 +116,23 @@ class TransportFile {
                    std::uint64_t entry = item / 9;
                    std::size_t row =
                        cursor->rowOf(entry, [&](std::size_t r) { return source->rowStart_[r]; });
-                   float value = source->scale_[row] * static_cast<float>(source->code_[entry][item % 9]);
+                   float value = source->block(row, entry).data()[item % 9];
                    std::memcpy(out + sizeof(float) * (item - begin), &value, sizeof(float));
                  }
                });
   }
 
   static BlockSparse read(const NpzReader& reader) {
-    if (reader.text("format") != "bsr")
+    const std::string format = reader.text("format");
+    if (format != ownColours && format != sharedColours)
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.not-bsr", "holds a matrix in another form than BSR"));
     BlockSparse blocks;
     readShape(reader, blocks);
     readIndices(reader, blocks);
+    if (format == sharedColours) {
+      readSharedColours(reader, blocks);
+      return blocks;
+    }
     const bool codes = reader.header("data").type == codeType;
     if (codes && !reader.has("scale"))
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.codes-without-scale", "has codes without a scale"));
@@ -131,6 +145,66 @@ class TransportFile {
   }
 
  private:
+  static void addSharedColours(NpzWriter& writer, const BlockSparse& blocks) {
+    const BlockSparse* source = &blocks;
+    const ColumnKinds& kinds = *blocks.sharedColours();
+    std::vector<std::int64_t> ranges;
+    for (const ColumnKinds::Range& range : kinds.ranges) ranges.insert(ranges.end(), {range.end, range.kind});
+    writer.add("kinds", ranges, {kinds.ranges.size(), 2});
+    writer.add("mixing", {"<f4", {blocks.rows(), kinds.count, 3, 3}},
+               [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                 if (count > 0)
+                   std::memcpy(out, source->mixing_.front().data() + begin, count * sizeof(float));
+               });
+    writer.add("factor", {codeType, {blocks.blocks(), 3}},
+               [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                 if (count > 0)
+                   std::memcpy(out, source->factor_.front().data() + begin, count * sizeof(std::int16_t));
+               });
+  }
+
+  static void readSharedColours(const NpzReader& reader, BlockSparse& blocks) {
+    auto fail = [&] {
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shared-colours-invalid",
+                                           "has shared colours that do not fit its rows and columns"));
+    };
+    const std::vector<std::int64_t> ranges = reader.integers("kinds");
+    const std::vector<std::uint64_t> shape = reader.header("mixing").shape;
+    if (ranges.empty() || ranges.size() % 2 != 0 || shape.size() != 4 || shape[0] != blocks.rows() ||
+        shape[1] == 0 || shape[2] != 3 || shape[3] != 3)
+      fail();
+    std::int64_t end = 0;
+    for (std::size_t i = 0; i < ranges.size(); i += 2) {
+      if (ranges[i] <= end || ranges[i] > static_cast<std::int64_t>(blocks.columns_) || ranges[i + 1] < 0 ||
+          static_cast<std::uint64_t>(ranges[i + 1]) >= shape[1])
+        fail();
+      end = ranges[i];
+      blocks.kinds_.ranges.push_back(
+          {static_cast<std::uint32_t>(end), static_cast<std::uint32_t>(ranges[i + 1])});
+    }
+    if (end != static_cast<std::int64_t>(blocks.columns_)) fail();
+    blocks.kinds_.count = shape[1];
+    if (reader.header("factor").shape != std::vector<std::uint64_t>{blocks.blocks(), 3} ||
+        reader.header("factor").type != codeType || reader.header("mixing").type != "<f4")
+      fail();
+
+    blocks.mixing_.resize(blocks.rows() * shape[1]);
+    reader.read("mixing", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      if (items > 0) std::memcpy(blocks.mixing_.front().data() + begin, in, items * sizeof(float));
+    });
+    blocks.factor_.resize(blocks.blocks());
+    reader.read("factor", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      if (items > 0) std::memcpy(blocks.factor_.front().data() + begin, in, items * sizeof(std::int16_t));
+    });
+    blocks.scale_.reserve(blocks.rows());
+    for (std::size_t row = 0; row < blocks.rows(); ++row) {
+      blocks.scale_.push_back(stepOf({&blocks.mixing_[row * shape[1]], shape[1]}));
+      if (!std::isfinite(blocks.scale_.back()))
+        reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-not-finite",
+                                             "has a scale that is not a finite number"));
+    }
+  }
+
   static void readShape(const NpzReader& reader, BlockSparse& blocks) {
     std::vector<std::int64_t> shape = reader.integers("shape");
     constexpr std::int64_t largest = 3 * static_cast<std::int64_t>(std::numeric_limits<std::uint32_t>::max());

@@ -10,7 +10,6 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/image/colour.h"
-#include "relucent/transport/block_kernels.h"
 
 namespace relucent::transport {
 namespace {
@@ -28,18 +27,10 @@ std::size_t pieceAt(std::size_t length, int count, std::size_t place) {
   return piece;
 }
 
-/// Luminance of what a block lets through of white, in steps of its row's scale.
-float blockLuminance(const std::array<std::int16_t, 9>& code) {
-  int red = code[0] + code[1] + code[2];
-  int green = code[3] + code[4] + code[5];
-  int blue = code[6] + code[7] + code[8];
-  return image::luminanceOf(static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue));
-}
-
-int largestOf(const std::array<std::int16_t, 9>& code) {
-  int largest = 0;
-  for (std::int16_t value : code) largest = std::max(largest, std::abs(static_cast<int>(value)));
-  return largest;
+/// Luminance of what a block lets through of white.
+float blockLuminance(const ColourBlock& block) {
+  const Eigen::Vector3f white = block.rowwise().sum();
+  return image::luminanceOf(white[0], white[1], white[2]);
 }
 
 }  // namespace
@@ -105,29 +96,29 @@ class MatrixPictures::RowOfCells {
   void add(std::size_t row, Of of) {
     const BlockSparse& leaves = pictures_.transport_->leaves();
     std::size_t pixels = pictures_.transport_->projectors().count();
-    BlockRows view = leaves.view();
-    const std::uint32_t* begin = view.column + leaves.rowBegin(row);
-    const std::uint32_t* end = view.column + leaves.rowBegin(row + 1);
+    const std::span<const std::uint32_t> columns = leaves.columnsOf(row);
+    const std::uint32_t* begin = columns.data();
+    const std::uint32_t* end = begin + columns.size();
     const std::uint32_t* coarse = std::lower_bound(begin, end, pixels);
-    float scale = leaves.scale(row);
+    auto entryOf = [&](const std::uint32_t* at) {
+      return leaves.rowBegin(row) + static_cast<std::size_t>(at - begin);
+    };
     float limit = pictures_.limits_.empty() ? 0.0f : pictures_.limits_[row];
 
     const std::uint32_t* last = std::lower_bound(begin, coarse, part_.endColumn);
     for (const std::uint32_t* at = std::lower_bound(begin, last, part_.firstColumn); at != last; ++at) {
-      const auto& code = view.code[at - view.column];
-      if (limit > 0.0f && scale * static_cast<float>(largestOf(code)) < limit) continue;
+      if (limit > 0.0f && leaves.sizeOf(row, entryOf(at)).largest < limit) continue;
       sums_[cellOf_[*at - part_.firstColumn]] +=
-          static_cast<double>(of == Of::light ? scale * blockLuminance(code) : 1.0f);
+          static_cast<double>(of == Of::light ? blockLuminance(leaves.block(row, entryOf(at))) : 1.0f);
     }
     for (const std::uint32_t* at = coarse; at != end; ++at) {
-      const auto& code = view.code[at - view.column];
       auto node = static_cast<std::uint32_t>(*at - pixels);
       auto count = static_cast<float>(pictures_.areas_[node].block.count());
-      if (limit > 0.0f && scale * static_cast<float>(largestOf(code)) / count < limit) continue;
+      if (limit > 0.0f && leaves.sizeOf(row, entryOf(at)).largest / count < limit) continue;
       float& sum = scratch_.coarse[node];
       // One whose sum comes back to zero is listed twice; the second time there is nothing left of it.
       if (sum == 0.0f) scratch_.touched.push_back(node);
-      sum += of == Of::light ? scale * blockLuminance(code) / count : 1.0f;
+      sum += of == Of::light ? blockLuminance(leaves.block(row, entryOf(at))) / count : 1.0f;
     }
   }
 

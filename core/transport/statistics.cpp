@@ -22,22 +22,6 @@ std::size_t binOf(float strength) {
       std::clamp(std::floor(place), 0.0, static_cast<double>(StrengthHistogram::bins - 1)));
 }
 
-/// Strength and light of one leaf, in steps of its row's scale.
-struct CodeSize {
-  int largest = 0;
-  int sum = 0;
-};
-
-CodeSize sizeOf(const std::array<std::int16_t, 9>& code) {
-  CodeSize size;
-  for (std::int16_t value : code) {
-    int magnitude = std::abs(static_cast<int>(value));
-    size.largest = std::max(size.largest, magnitude);
-    size.sum += magnitude;
-  }
-  return size;
-}
-
 /// Adds what light of two leaves falls on the same pixels, for the leaf at `entry` and its ancestors.
 /// `holds` marks the row's wide leaves.
 double sharedWithAncestors(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row,
@@ -86,10 +70,10 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     Part& sum = sums[part];
     for (std::size_t row = begin; row < end; ++row) {
       for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-        CodeSize size = sizeOf(leaves.code(entry));
+        BlockSize size = leaves.sizeOf(row, entry);
         float pixels = nodes.pixels[leaves.column(entry)];
-        float strength = leaves.scale(row) * static_cast<float>(size.largest) / pixels;
-        double energy = static_cast<double>(leaves.scale(row)) * size.sum;
+        float strength = size.largest / pixels;
+        auto energy = static_cast<double>(size.sum);
         sum.all += energy;
         if (strength < limit[row]) continue;
         ++sum.kept.leaves;
@@ -116,8 +100,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     }
   }
   if (all > 0.0) result.energyKept = result.energy / all;
-  constexpr std::uint64_t bytesPerLeaf = sizeof(std::uint32_t) + sizeof(std::array<std::int16_t, 9>);
-  result.bytes = leaves.bytes() - (leaves.blocks() - result.leaves) * bytesPerLeaf;
+  result.bytes = leaves.bytes() - (leaves.blocks() - result.leaves) * leaves.bytesOfBlock();
   return result;
 }
 
@@ -133,14 +116,13 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
       std::size_t begin = leaves.rowBegin(row), end = leaves.rowBegin(row + 1);
       for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
         holds[leaves.column(entry)] = 1;
-      double steps = 0.0, shared = 0.0;
+      double own = 0.0, shared = 0.0;
       bool inside = false;
       std::uint32_t lastParent = std::numeric_limits<std::uint32_t>::max();
       for (std::size_t entry = begin; entry < end; ++entry) {
-        std::int64_t squares = 0;
-        for (std::int16_t value : leaves.code(entry)) squares += static_cast<std::int32_t>(value) * value;
         std::uint32_t node = leaves.column(entry);
-        steps += static_cast<double>(squares) / static_cast<double>(nodes.pixels[node]);
+        own +=
+            leaves.block(row, entry).cast<double>().squaredNorm() / static_cast<double>(nodes.pixels[node]);
         // Neighbours often share their parent, and with it everything above.
         if (std::uint32_t parent = nodes.parent[node]; parent != lastParent || parent == node) {
           lastParent = parent;
@@ -155,8 +137,7 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
       }
       for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
         holds[leaves.column(entry)] = 0;
-      double scale = static_cast<double>(leaves.scale(row));
-      norms[row] = steps * scale * scale + shared;
+      norms[row] = own + shared;
     }
   });
   return norms;

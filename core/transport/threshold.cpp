@@ -12,16 +12,8 @@ namespace {
 
 constexpr std::size_t parts = 64;
 
-/// Largest magnitude of a leaf's nine values, in steps of its row's scale.
-int largestOf(const std::array<std::int16_t, 9>& code) {
-  int largest = 0;
-  for (std::int16_t value : code) largest = std::max(largest, std::abs(static_cast<int>(value)));
-  return largest;
-}
-
 float strengthOf(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row, std::size_t entry) {
-  return leaves.scale(row) * static_cast<float>(largestOf(leaves.code(entry))) /
-         nodes.pixels[leaves.column(entry)];
+  return leaves.sizeOf(row, entry).largest / nodes.pixels[leaves.column(entry)];
 }
 
 /// The strength above which leaves hold `share` of all light. Strengths are told apart by their leading 16
@@ -35,10 +27,8 @@ float limitOfEnergy(const TransportMatrix& transport, const NodeTable& nodes, do
     partial[part].assign(bins, 0.0);
     for (std::size_t row = begin; row < end; ++row) {
       for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-        int sum = 0;
-        for (std::int16_t value : leaves.code(entry)) sum += std::abs(static_cast<int>(value));
         auto bits = std::bit_cast<std::uint32_t>(strengthOf(leaves, nodes, row, entry));
-        partial[part][(bits >> 16) & (bins - 1)] += static_cast<double>(leaves.scale(row)) * sum;
+        partial[part][(bits >> 16) & (bins - 1)] += static_cast<double>(leaves.sizeOf(row, entry).sum);
       }
     }
   });

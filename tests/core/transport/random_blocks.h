@@ -43,6 +43,47 @@ inline RandomBlocks randomBlocks(std::size_t rows, std::size_t columns, double d
   return result;
 }
 
+/// Three kinds in six ranges, as two projectors have them; fewer for less than six columns.
+inline transport::ColumnKinds someKinds(std::size_t columns) {
+  transport::ColumnKinds kinds;
+  kinds.count = 3;
+  for (std::size_t range = 1; range <= 6; ++range) {
+    const auto end = static_cast<std::uint32_t>(columns * range / 6);
+    if (end > (kinds.ranges.empty() ? 0 : kinds.ranges.back().end))
+      kinds.ranges.push_back({end, static_cast<std::uint32_t>(range % 3)});
+  }
+  return kinds;
+}
+
+/// Random blocks whose rows share colours within each kind, as stored.
+inline RandomBlocks randomSharedBlocks(std::size_t rows, std::size_t columns, double density,
+                                       std::uint64_t seed) {
+  Random random{seed};
+  const transport::ColumnKinds kinds = someKinds(columns);
+  transport::SharedColourWriter writer(columns, rows, kinds, 0);
+  transport::SharedColourEncoder encoder(kinds);
+  transport::SharedColourRow encoded;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::vector<transport::ColourBlock> mixing(kinds.count);
+    for (transport::ColourBlock& colours : mixing)
+      for (int i = 0; i < 9; ++i) colours.data()[i] = 0.05f + 0.95f * random.uniformFloat();
+    std::vector<std::uint32_t> places;
+    std::vector<transport::ColourBlock> blocks;
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (random.uniform() >= density) continue;
+      const auto place = static_cast<std::uint32_t>(column);
+      const Eigen::Vector3f factor(random.uniformFloat(), random.uniformFloat(), random.uniformFloat());
+      places.push_back(place);
+      blocks.push_back(mixing[kinds.kindOf(place)] * factor.asDiagonal());
+    }
+    encoder.encode(places, blocks, encoded);
+    writer.add(encoded);
+  }
+  RandomBlocks result{writer.build(), {}};
+  result.dense = denseOf(result.sparse);
+  return result;
+}
+
 inline Stack randomStack(std::size_t pixels, std::uint64_t seed) {
   Random random{seed};
   Stack stack(3 * pixels);

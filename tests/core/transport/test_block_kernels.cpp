@@ -61,13 +61,15 @@ class TestBlockKernels : public QObject {
       double density;
     };
     for (Shape shape : {Shape{1, 1, 1.0}, {5, 3, 0.0}, {97, 5, 0.5}, {3, 1101, 0.3}, {120, 200, 0.1}}) {
-      RandomBlocks blocks = randomBlocks(shape.rows, shape.columns, shape.density, 1, -1.0f);
-      Stack x = randomStack(shape.columns, 2), y = randomStack(shape.rows, 3);
-      Eigen::VectorXd forward = blocks.dense * vectorOf(x), back = blocks.dense.transpose() * vectorOf(y);
-      double forwardError = (vectorOf(gathered(kernels, blocks.sparse, x)) - forward).cwiseAbs().maxCoeff();
-      double backError = (vectorOf(scattered(kernels, blocks.sparse, y)) - back).cwiseAbs().maxCoeff();
-      QVERIFY2(forwardError <= roundingOf(3 * shape.columns), qPrintable(QString::number(forwardError)));
-      QVERIFY2(backError <= roundingOf(3 * shape.rows), qPrintable(QString::number(backError)));
+      for (const RandomBlocks& blocks : {randomBlocks(shape.rows, shape.columns, shape.density, 1, -1.0f),
+                                         randomSharedBlocks(shape.rows, shape.columns, shape.density, 1)}) {
+        Stack x = randomStack(shape.columns, 2), y = randomStack(shape.rows, 3);
+        Eigen::VectorXd forward = blocks.dense * vectorOf(x), back = blocks.dense.transpose() * vectorOf(y);
+        double forwardError = (vectorOf(gathered(kernels, blocks.sparse, x)) - forward).cwiseAbs().maxCoeff();
+        double backError = (vectorOf(scattered(kernels, blocks.sparse, y)) - back).cwiseAbs().maxCoeff();
+        QVERIFY2(forwardError <= roundingOf(3 * shape.columns), qPrintable(QString::number(forwardError)));
+        QVERIFY2(backError <= roundingOf(3 * shape.rows), qPrintable(QString::number(backError)));
+      }
     }
   }
 

@@ -174,6 +174,110 @@ class TestBlockSparse : public QObject {
     QVERIFY_EXCEPTION_THROWN(builder.add(1, 0, ColourBlock::Ones()), std::logic_error);
     QVERIFY_EXCEPTION_THROWN(builder.add(0, 4, ColourBlock::Ones()), std::logic_error);
   }
+
+  /// Every operation is that of the dense matrix, whatever the form.
+  void sharedColoursAreBlocksLikeOthers_data() { shapes_data(); }
+  void sharedColoursAreBlocksLikeOthers() {
+    QFETCH(int, rows);
+    QFETCH(int, columns);
+    QFETCH(double, density);
+    auto r = static_cast<std::size_t>(rows), c = static_cast<std::size_t>(columns);
+    const RandomBlocks blocks = randomSharedBlocks(r, c, density, 1);
+    QVERIFY(blocks.sparse.sharedColours() != nullptr);
+    const Stack x = randomStack(c, 2), y = randomStack(r, 3), factor = randomStack(r, 4);
+    QVERIFY(largestDifference(vectorOf(blocks.sparse.multiply(x)), blocks.dense * vectorOf(x)) <
+            roundingOf(3 * c));
+    QVERIFY(largestDifference(vectorOf(blocks.sparse.multiplyTransposed(y)),
+                              blocks.dense.transpose() * vectorOf(y)) < roundingOf(3 * r));
+    // Not quantised again: the error is that of single precision.
+    QVERIFY((denseOf(blocks.sparse.withRowsScaled(factor)) - vectorOf(factor).asDiagonal() * blocks.dense)
+                .cwiseAbs()
+                .maxCoeff() < 0x1.0p-22);
+    const BlockSparse odd =
+        blocks.sparse.filtered([](std::size_t row, std::size_t entry) { return (row + entry) % 2 == 1; });
+    const BlockSparse even =
+        blocks.sparse.filtered([](std::size_t row, std::size_t entry) { return (row + entry) % 2 == 0; });
+    QCOMPARE(odd.blocks() + even.blocks(), blocks.sparse.blocks());
+    QVERIFY(denseOf(odd) + denseOf(even) == blocks.dense);
+    const Eigen::MatrixXd transposed = denseOf(blocks.sparse.transposed());
+    QVERIFY((transposed - blocks.dense.transpose()).cwiseAbs().maxCoeff() <= 0.51 / 32767.0);
+    for (std::size_t row = 0; row < r; ++row)
+      for (std::size_t entry = blocks.sparse.rowBegin(row); entry < blocks.sparse.rowBegin(row + 1);
+           ++entry) {
+        const ColourBlock block = blocks.sparse.block(row, entry);
+        const BlockSize size = blocks.sparse.sizeOf(row, entry);
+        QCOMPARE(size.largest, block.cwiseAbs().maxCoeff());
+        QCOMPARE(size.sum, block.cwiseAbs().sum());
+      }
+  }
+
+  void colourFits_data() {
+    QTest::addColumn<float>("noise");  // of the blocks' colours, relative
+    QTest::newRow("shared") << 0.0f;
+    QTest::newRow("nearly shared") << 0.1f;
+    QTest::newRow("own") << 1.0f;
+  }
+  /// The sum of a kind's blocks is kept whatever their colours, to a step of rounding; blocks whose colours
+  /// are shared are kept one by one.
+  void theSumOfBlocksIsKept_data() { colourFits_data(); }
+  void theSumOfBlocksIsKept() {
+    QFETCH(float, noise);
+    constexpr std::size_t columns = 60;
+    const ColumnKinds kinds = someKinds(columns);
+    Random random{5};
+    std::vector<std::uint32_t> places;
+    std::vector<ColourBlock> blocks, sum(kinds.count, ColourBlock::Zero());
+    for (std::uint32_t column = 0; column < columns; column += 1 + column % 3) {
+      ColourBlock colours;
+      colours << 1.0f, 0.1f, 0.02f, 0.2f, 0.8f, 0.1f, 0.05f, 0.1f, 0.6f;
+      for (int i = 0; i < 9; ++i) colours.data()[i] *= 1.0f + noise * (random.uniformFloat() - 0.5f);
+      places.push_back(column);
+      blocks.push_back(random.uniformFloat() * colours);
+      sum[kinds.kindOf(column)] += blocks.back();
+    }
+    SharedColourRow encoded;
+    SharedColourEncoder(kinds).encode(places, blocks, encoded);
+    SharedColourWriter writer(columns, 1, kinds, 0);
+    writer.add(encoded);
+    const BlockSparse row = writer.build();
+    QCOMPARE(row.blocks(), blocks.size());
+    for (std::size_t entry = 0; entry < row.blocks(); ++entry) {
+      const float off = (row.block(0, entry) - blocks[entry]).cwiseAbs().maxCoeff();
+      if (noise == 0.0f) QVERIFY2(off <= 2.0f / 32767.0f, qPrintable(QString::number(off)));
+      sum[kinds.kindOf(row.column(entry))] -= row.block(0, entry);
+    }
+    for (const ColourBlock& left : sum) QVERIFY(left.cwiseAbs().maxCoeff() < 1.0f / 32767.0f);
+  }
+
+  /// Leaves of noise alone cancel: nothing is divided by their sum, and none of them grows.
+  void whatCancelsStaysSmall() {
+    const ColumnKinds kinds{{{2, 0}, {6, 1}}, 2};
+    const ColourBlock light = ColourBlock::Constant(0.3f);
+    const std::vector<ColourBlock> blocks{light,          light,         1e-3f * light,
+                                          -1e-3f * light, 2e-3f * light, -1.9999e-3f * light};
+    SharedColourRow encoded;
+    SharedColourEncoder(kinds).encode({{0, 1, 2, 3, 4, 5}}, blocks, encoded);
+    SharedColourWriter writer(6, 1, kinds, 0);
+    writer.add(encoded);
+    const BlockSparse row = writer.build();
+    for (std::size_t entry = 0; entry < row.blocks(); ++entry)
+      QVERIFY((row.block(0, entry) - blocks[row.column(entry)]).cwiseAbs().maxCoeff() < 1e-6f);
+  }
+
+  void rowsMayBeEmpty() {
+    const ColumnKinds kinds = someKinds(12);
+    SharedColourWriter writer(12, 3, kinds, 0);
+    SharedColourRow encoded;
+    SharedColourEncoder encoder(kinds);
+    for (int row = 0; row < 3; ++row) {
+      encoder.encode({}, {}, encoded);
+      writer.add(encoded);
+    }
+    const BlockSparse blocks = writer.build();
+    QCOMPARE(blocks.rows(), 3u);
+    QCOMPARE(blocks.multiply(Stack(36, 1.0f)), Stack(9, 0.0f));
+    QCOMPARE(blocks.multiplyTransposed(Stack(9, 1.0f)), Stack(36, 0.0f));
+  }
 };
 
 QTEST_APPLESS_MAIN(TestBlockSparse)

@@ -50,6 +50,12 @@ TransportMatrix someTransport() {
   return {cameras, projectors, randomBlocks(cameras.count(), NodeLayout(projectors).count(), 0.2, 9).sparse};
 }
 
+TransportMatrix someSharedTransport() {
+  const TransportMatrix own = someTransport();
+  return {own.cameras(), own.projectors(),
+          randomSharedBlocks(own.leaves().rows(), own.leaves().columns(), 0.2, 9).sparse};
+}
+
 }  // namespace
 
 class TestFiles : public QObject {
@@ -63,14 +69,21 @@ class TestFiles : public QObject {
     QTest::newRow("blocks") << 0;
     QTest::newRow("no blocks") << 1;
     QTest::newRow("no rows") << 2;
+    QTest::newRow("shared colours") << 3;
   }
   void savedAndLoadedIsIdentical() {
     QFETCH(int, kind);
     BlockSparse blocks = kind == 0   ? someBlocks()
                          : kind == 1 ? BlockSparseBuilder(7, {1.0f, 0.0f}).build()
-                                     : BlockSparseBuilder(7, {}).build();
+                         : kind == 2 ? BlockSparseBuilder(7, {}).build()
+                                     : randomSharedBlocks(20, 30, 0.3, 1).sparse;
     saveBlocks(path(), blocks);
-    QVERIFY(loadBlocks(path()) == blocks);
+    // As numbers for every reader: read back, every block has colours of its own.
+    const BlockSparse loaded = loadBlocks(path());
+    if (kind == 3)
+      QVERIFY((denseOf(loaded) - denseOf(blocks)).cwiseAbs().maxCoeff() <= 0.51 / 32767.0);
+    else
+      QVERIFY(loaded == blocks);
     // Equal matrices make equal files.
     std::string first = readFile(path());
     saveBlocks(path(), blocks);
@@ -79,17 +92,21 @@ class TestFiles : public QObject {
 
   void transportKeepsItsDevices_data() {
     QTest::addColumn<StoredValues>("values");
+    QTest::addColumn<bool>("shared");
     QTest::addColumn<double>("bytesOfBlock");
-    QTest::newRow("floats") << StoredValues::floats << 40.0;
-    QTest::newRow("codes") << StoredValues::codes << 22.0;
+    QTest::newRow("floats") << StoredValues::floats << false << 40.0;
+    QTest::newRow("codes") << StoredValues::codes << false << 22.0;
+    QTest::newRow("shared colours") << StoredValues::codes << true << 10.0;
   }
   void transportKeepsItsDevices() {
     QFETCH(StoredValues, values);
+    QFETCH(bool, shared);
     QFETCH(double, bytesOfBlock);
-    TransportMatrix transport = someTransport();
+    TransportMatrix transport = shared ? someSharedTransport() : someTransport();
     saveTransport(path(), transport, values);
-    // Beside the blocks there are a scale and an index of each row, and headers.
-    const auto others = 8.0 * static_cast<double>(transport.leaves().rows()) + 3000.0;
+    // Beside the blocks there are a scale or colours, and an index of each row, and headers.
+    const auto others =
+        (shared ? 8.0 + 3.0 * 36.0 : 8.0) * static_cast<double>(transport.leaves().rows()) + 3000.0;
     QVERIFY(static_cast<double>(fs::file_size(path())) <
             bytesOfBlock * static_cast<double>(transport.leaves().blocks()) + others);
     TransportMatrix loaded = loadTransport(path());
@@ -263,6 +280,34 @@ class TestFiles : public QObject {
                        output),
              qPrintable(output));
     expectError(ErrorKind::format, word, [&] { loadTransport(path()); });
+  }
+
+  void brokenSharedColoursAreRefused_data() {
+    QTest::addColumn<QString>("change");
+    QTest::newRow("fewer rows of colours") << "a['mixing'] = a['mixing'][1:]";
+    QTest::newRow("colours that are no blocks") << "a['mixing'] = a['mixing'][..., :2]";
+    QTest::newRow("no colours") << "del a['mixing']";
+    QTest::newRow("infinite colours") << "a['mixing'][3, 1, 2, 0] = n.inf";
+    QTest::newRow("fewer factors") << "a['factor'] = a['factor'][1:]";
+    QTest::newRow("factors of another type") << "a['factor'] = a['factor'].astype(n.float32)";
+    QTest::newRow("a kind too many") << "a['kinds'][0, 1] = 3";
+    QTest::newRow("a negative kind") << "a['kinds'][0, 1] = -1";
+    QTest::newRow("ranges that do not ascend") << "a['kinds'][1, 0] = a['kinds'][0, 0]";
+    QTest::newRow("columns without a kind") << "a['kinds'][-1, 0] -= 1";
+    QTest::newRow("ranges beyond the columns") << "a['kinds'][-1, 0] += 1";
+    QTest::newRow("no ranges") << "a['kinds'] = a['kinds'][:0]";
+  }
+  void brokenSharedColoursAreRefused() {
+    if (!scipyIsThere()) QSKIP("this machine has no SciPy");
+    QFETCH(QString, change);
+    saveTransport(path(), someSharedTransport(), StoredValues::codes);
+    QString output;
+    QVERIFY2(runPython(folder(),
+                       "import numpy as n; a = dict(n.load('matrix.npz')); " + change +
+                           "; n.savez('matrix.npz', **a)",
+                       output),
+             qPrintable(output));
+    expectError(ErrorKind::format, "", [&] { loadTransport(path()); });
   }
 
   void damagedBytesAreFound() {

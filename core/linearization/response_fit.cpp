@@ -420,6 +420,14 @@ LightProducts& LightProducts::operator+=(const LightProducts& other) {
   return *this;
 }
 
+std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& drives) {
+  std::vector<LevelLights> responses(drives.size());
+  for (std::size_t p = 0; p < drives.size(); ++p)
+    for (std::vector<double>& channel : responses[p])
+      for (double drive : drives[p]) channel.push_back(std::pow(drive, 2.2));
+  return responses;
+}
+
 std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
                                       const std::vector<MosaicShot>& shots, const LightProducts& products,
                                       const std::vector<LevelLights>& start) {

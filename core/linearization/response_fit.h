@@ -42,6 +42,9 @@ class LightProducts {
 /// Light of every drive but 0 relative to full drive, per channel; the last is 1.
 using LevelLights = std::array<std::vector<double>, 3>;
 
+/// As displays usually respond, drive^2.2: where a search begins that knows nothing better. Per projector.
+std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& drives);
+
 /// Of one projector.
 struct ResponseFit {
   LevelLights light;

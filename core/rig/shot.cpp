@@ -5,6 +5,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/fingerprint.h"
+#include "relucent/rig/shot_bytes.h"
 
 namespace relucent::rig {
 namespace {
@@ -15,17 +16,6 @@ std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::
     fingerprint.add(pattern.width()).add(pattern.height()).add(pattern.data());
   fingerprint.add(exposures);
   return fingerprint.hex();
-}
-
-/// Whole codes take a byte or two each, anything else four.
-std::uint64_t plainBytes(const Shot& shot) {
-  std::uint64_t bytes = 0;
-  for (const std::vector<RawFrame>& exposure : shot.frames)
-    for (const RawFrame& frame : exposure) {
-      const std::uint64_t each = frame.bits < 1 || frame.bits > 16 ? 4 : frame.bits <= 8 ? 1 : 2;
-      bytes += each * frame.signal.data().size();
-    }
-  return bytes;
 }
 
 }  // namespace

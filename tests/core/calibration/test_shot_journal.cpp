@@ -18,6 +18,7 @@
 #include "relucent/base/fingerprint.h"
 #include "relucent/base/random.h"
 #include "relucent/calibration/shot_journal.h"
+#include "relucent/rig/shot_bytes.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -111,6 +112,7 @@ class TestShotJournal : public QObject {
     QVERIFY(identical(*found, shot));
     // The header takes less than a kilobyte.
     auto samples = 3 * size.count() * static_cast<std::size_t>(bytesPerSample);
+    QCOMPARE(plainBytes(shot), samples);
     QVERIFY(fs::file_size(onlyFileIn(folder_)) < samples + 1024);
   }
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "relucent/linearization/additivity.h"
+#include "relucent/linearization/linearization.h"
+#include "relucent/linearization/mosaic_photographs.h"
+#include "relucent/linearization/thinning.h"
+
+namespace relucent::linearization {
+
+/// What the photographs say of a projector.
+struct MosaicResult {
+  ProjectorResponse response;
+  Additivity additivity;
+  std::vector<double> flicker;  // per camera: of the light between photographs, relative
+  double unevenness = 0.0;      // of the response over the picture: the largest deviation of a part, of white
+};
+/// Per projector.
+std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
+                                          const std::vector<hdr::CameraModel>& cameras,
+                                          const Thinning& thinning);
+
+}  // namespace relucent::linearization

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "relucent/rig/shot.h"
+
+namespace relucent::linearization {
+
+/// Part of a shot's pixels, for what needs no more of them than are enough: a row of pixels per camera.
+class Thinning {
+ public:
+  explicit Thinning(const Rasters& cameras);
+
+  rig::Shot of(const rig::Shot& shot) const;
+  const Rasters& rasters() const { return thin_; }
+  /// In which ninth of its camera's picture a pixel of rasters() was; ninths are counted over all cameras.
+  std::size_t regionOf(std::size_t pixel) const { return regions_[pixel]; }
+  std::size_t regions() const { return 9 * cameras_.devices(); }
+
+ private:
+  Rasters cameras_, thin_;
+  std::size_t stride_;
+  std::vector<std::size_t> regions_;
+};
+
+}  // namespace relucent::linearization

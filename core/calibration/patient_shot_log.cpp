@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/calibration/patient_shot_log.h"
 
-#include "relucent/rig/shot_bytes.h"
-
 namespace relucent::calibration {
 
 void PatientShotLog::keep(const rig::Shot& shot) {

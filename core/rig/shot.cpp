@@ -5,7 +5,6 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/fingerprint.h"
-#include "relucent/rig/shot_bytes.h"
 
 namespace relucent::rig {
 namespace {
@@ -19,6 +18,16 @@ std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::
 }
 
 }  // namespace
+
+std::uint64_t plainBytes(const Shot& shot) {
+  std::uint64_t bytes = 0;
+  for (const std::vector<RawFrame>& exposure : shot.frames)
+    for (const RawFrame& frame : exposure) {
+      const std::uint64_t each = frame.bits < 1 || frame.bits > 16 ? 4 : frame.bits <= 8 ? 1 : 2;
+      bytes += each * frame.signal.data().size();
+    }
+  return bytes;
+}
 
 double ShotTimes::shotSeconds() const {
   return shots > 0 ? (showing + keeping + between) / shots : 0.0;

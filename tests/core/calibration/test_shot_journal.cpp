@@ -18,8 +18,6 @@
 #include "relucent/base/fingerprint.h"
 #include "relucent/base/random.h"
 #include "relucent/calibration/shot_journal.h"
-#include "relucent/rig/shot_bytes.h"
-
 using namespace relucent;
 using namespace relucent::calibration;
 using namespace relucent::image;

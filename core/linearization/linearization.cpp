@@ -175,9 +175,8 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
   Progress checking = progress.part(
       0.05, RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up")
                 .with(rig::projectorNames(rig)));
-  checking.checkpoint();
   std::vector<double> flicker(rig.cameras.size(), 0.0);
-  std::vector<MosaicResult> measured = evaluateMosaics(photographs, result.cameras, thinning);
+  std::vector<MosaicResult> measured = evaluateMosaics(photographs, result.cameras, thinning, checking);
   for (std::size_t projector = 0; projector < measured.size(); ++projector) {
     MosaicResult& own = measured[projector];
     result.additivityError.push_back(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "relucent/hdr/isotonic.h"
 #include "relucent/linearization/mosaic_additivity.h"
@@ -60,57 +61,95 @@ bool shinesIn(const std::vector<std::vector<RegionLight>>& lights, std::size_t p
   return values >= fewestInRegion && own >= leastPart * all;
 }
 
-}  // namespace
-
-std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
-                                          const std::vector<hdr::CameraModel>& cameras,
-                                          const Thinning& thinning) {
-  const PhotographedLight lights = photographedLight(photographs, cameras, thinning.rasters());
-  std::vector<LightProducts> regions;
-  for (std::size_t region = 0; region < thinning.regions(); ++region)
-    regions.push_back(
+/// Of every region of every camera.
+std::vector<LightProducts> regionProducts(const PhotographedLight& lights, const Thinning& thinning,
+                                          Progress& progress) {
+  std::vector<LightProducts> products;
+  for (std::size_t region = 0; region < thinning.regions(); ++region) {
+    products.push_back(
         productsOf(lights, [&](std::size_t at) { return thinning.regionOf(at / 3) == region; }));
-  auto sumOf = [&](std::size_t first, std::size_t end) {
-    LightProducts sum(photographs.what.size());
-    for (std::size_t region = first; region < end; ++region) sum += regions[region];
-    return sum;
-  };
+    progress.report(static_cast<double>(products.size()) / static_cast<double>(thinning.regions()));
+  }
+  return products;
+}
 
-  const ShownLevels shown = shownLevels(photographs);
-  const std::vector<ResponseFit> fits =
-      fitResponses(shown.drives, shown.what, sumOf(0, regions.size()), usualResponses(shown.drives));
+LightProducts sumOf(std::span<const LightProducts> products) {
+  LightProducts sum(products.front().shots());
+  for (const LightProducts& each : products) sum += each;
+  return sum;
+}
+
+/// What is known of all projectors when parts of the cameras' pictures are looked at.
+struct Whole {
+  ShownLevels shown;
+  std::vector<ResponseFit> fits;
+  std::vector<std::vector<RegionLight>> white;  // [projector][region]
+};
+
+/// As each camera sees it, or all of them where one sees too little.
+void addFlicker(std::vector<MosaicResult>& results, const Whole& whole,
+                const std::vector<LightProducts>& regions, Progress& progress) {
+  const std::size_t cameras = regions.size() / Thinning::regionsOfCamera;
   std::vector<LevelLights> found;
-  std::vector<std::vector<RegionLight>> white;
-  std::vector<MosaicResult> results(fits.size());
-  const std::vector<Additivity> additivity = additivitiesOf(photographs, lights, fits);
-  for (std::size_t p = 0; p < fits.size(); ++p) {
-    found.push_back(fits[p].light);
-    white.push_back(regionLights(lights, p, thinning));
-    results[p].additivity = additivity[p];
-    for (std::size_t c = 0; c < 3; ++c)
-      results[p].response.channels[c] = curveOf(shown.drives[p], fits[p].light[c], fits[p].deviation[c]);
+  for (const ResponseFit& fit : whole.fits) found.push_back(fit.light);
+  for (std::size_t camera = 0; camera < cameras; ++camera) {
+    Progress fitting = progress.part(1.0 / static_cast<double>(cameras), progress.stage());
+    const std::size_t first = Thinning::regionsOfCamera * camera, end = first + Thinning::regionsOfCamera;
+    const LightProducts seen = sumOf(std::span(regions).subspan(first, end - first));
+    std::vector<ResponseFit> own = whole.fits;
+    if (cameras > 1 && seen.values() >= fewestInRegion)
+      own = fitResponses(whole.shown.drives, whole.shown.what, seen, found, fitting);
+    for (std::size_t p = 0; p < results.size(); ++p)
+      results[p].flicker.push_back(shinesIn(whole.white, p, first, end) ? own[p].flicker
+                                                                        : whole.fits[p].flicker);
   }
+}
 
-  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
-    const LightProducts seen = sumOf(9 * camera, 9 * camera + 9);
-    std::vector<ResponseFit> own = fits;
-    if (cameras.size() > 1 && seen.values() >= fewestInRegion)
-      own = fitResponses(shown.drives, shown.what, seen, found);
-    for (std::size_t p = 0; p < fits.size(); ++p) {
-      const bool enough = shinesIn(white, p, 9 * camera, 9 * camera + 9);
-      results[p].flicker.push_back(enough ? own[p].flicker : fits[p].flicker);
-    }
-  }
+void addUnevenness(std::vector<MosaicResult>& results, const Whole& whole,
+                   const std::vector<LightProducts>& regions, Progress& progress) {
   for (std::size_t region = 0; region < regions.size(); ++region) {
+    progress.report(static_cast<double>(region) / static_cast<double>(regions.size()));
     if (regions[region].values() < fewestInRegion) continue;
-    const std::vector<RegionDeviation> deviations = deviationsOf(fits, shown.what, regions[region]);
-    for (std::size_t p = 0; p < fits.size(); ++p) {
-      if (!shinesIn(white, p, region, region + 1)) continue;
+    const std::vector<RegionDeviation> deviations =
+        deviationsOf(whole.fits, whole.shown.what, regions[region]);
+    for (std::size_t p = 0; p < results.size(); ++p) {
+      if (!shinesIn(whole.white, p, region, region + 1)) continue;
       for (std::size_t c = 0; c < 3; ++c)
         if (std::abs(deviations[p].amplitude[c]) > certain * deviations[p].deviation[c])
           results[p].unevenness = std::max(results[p].unevenness, std::abs(deviations[p].amplitude[c]));
     }
   }
+}
+
+}  // namespace
+
+std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
+                                          const std::vector<hdr::CameraModel>& cameras,
+                                          const Thinning& thinning, Progress& progress) {
+  auto part = [&progress](double share) { return progress.part(share, progress.stage()); };
+  Progress reading = part(0.3);
+  const PhotographedLight lights = photographedLight(photographs, cameras, thinning.rasters(), reading);
+  Progress multiplying = part(0.1);
+  const std::vector<LightProducts> regions = regionProducts(lights, thinning, multiplying);
+
+  Progress fitting = part(0.3);
+  Whole whole{shownLevels(photographs), {}, {}};
+  const ShownLevels& shown = whole.shown;
+  whole.fits = fitResponses(shown.drives, shown.what, sumOf(regions), usualResponses(shown.drives), fitting);
+  const std::vector<Additivity> additivity = additivitiesOf(photographs, lights, whole.fits);
+  std::vector<MosaicResult> results(whole.fits.size());
+  for (std::size_t p = 0; p < results.size(); ++p) {
+    const ResponseFit& fit = whole.fits[p];
+    results[p].additivity = additivity[p];
+    for (std::size_t c = 0; c < 3; ++c)
+      results[p].response.channels[c] = curveOf(shown.drives[p], fit.light[c], fit.deviation[c]);
+    whole.white.push_back(regionLights(lights, p, thinning));
+  }
+
+  Progress flickering = part(0.2);
+  addFlicker(results, whole, regions, flickering);
+  Progress comparing = part(0.1);
+  addUnevenness(results, whole, regions, comparing);
   return results;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "relucent/base/progress.h"
 #include "relucent/linearization/additivity.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/linearization/mosaic_photographs.h"
@@ -17,9 +18,9 @@ struct MosaicResult {
   std::vector<double> flicker;  // per camera: of the light between photographs, relative
   double unevenness = 0.0;      // of the response over the picture: the largest deviation of a part, of white
 };
-/// Per projector.
+/// Per projector. Throws: as fitResponses().
 std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
                                           const std::vector<hdr::CameraModel>& cameras,
-                                          const Thinning& thinning);
+                                          const Thinning& thinning, Progress& progress);
 
 }  // namespace relucent::linearization

@@ -54,7 +54,7 @@ class Photographer {
       const std::string name = shots_.rig().projectors[p]->name();
       Progress own = progress.part(ownShare / all, measuringCurves(name));
       photographLights(p, own);
-      requireAllChannels(p, name);
+      requireAllChannels(p, name, own);
     }
     Progress joint = progress.part(together / all, measuringCurves(rig::projectorNames(shots_.rig())));
     photographGroups(joint);
@@ -149,8 +149,9 @@ class Photographer {
     return false;
   }
 
-  void requireAllChannels(std::size_t projector, const std::string& name) const {
-    const PhotographedLight lights = photographedLight(result_, cameras_, thinning_.rasters());
+  void requireAllChannels(std::size_t projector, const std::string& name, Progress& progress) const {
+    Progress reading = progress.part(0.0, progress.stage());
+    const PhotographedLight lights = photographedLight(result_, cameras_, thinning_.rasters(), reading);
     const std::vector<bool>& lit = lights.lit[projector];
     if (static_cast<double>(std::ranges::count(lit, true)) < 3.0 * static_cast<double>(mosaicLights))
       throw Error(
@@ -222,13 +223,14 @@ class Photographer {
     return result;
   }
 
-  void forecast() {
+  void forecast(Progress& progress) {
+    Progress fitting = progress.part(0.0, progress.stage());  // each photograph has its share already
     const MosaicPhotographs last = lastPhotographs();
-    const PhotographedLight lights = photographedLight(last, cameras_, thinning_.rasters());
+    const PhotographedLight lights = photographedLight(last, cameras_, thinning_.rasters(), fitting);
     const ShownLevels shown = shownLevels(last);
     std::vector<ResponseFit> fits =
         fitResponses(shown.drives, shown.what, productsOf(lights, [](std::size_t) { return true; }),
-                     usualResponses(shown.drives));
+                     usualResponses(shown.drives), fitting);
     for (std::size_t p = 0; p < count(); ++p)
       projectors_[p].forecast.emplace(shown, p, std::move(fits[p].light));
   }
@@ -252,7 +254,7 @@ class Photographer {
       }
       take(shot, bright ? choice_.flood : choice_.dim, progress);
       progress.report(std::min(1.0, taken / expected));
-      if (bright) forecast();
+      if (bright) forecast(progress);
     }
   }
 

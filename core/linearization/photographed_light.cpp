@@ -33,9 +33,13 @@ double PhotographedLight::whiteVariance(std::size_t value) const {
 }
 
 PhotographedLight photographedLight(const MosaicPhotographs& photographs,
-                                    const std::vector<hdr::CameraModel>& cameras, const Rasters& rasters) {
+                                    const std::vector<hdr::CameraModel>& cameras, const Rasters& rasters,
+                                    Progress& progress) {
   std::vector<hdr::HdrFrame> frames;
-  for (const rig::Shot& shot : photographs.shots) frames.push_back(hdr::mergeBracket(shot, cameras, rasters));
+  for (const rig::Shot& shot : photographs.shots) {
+    frames.push_back(hdr::mergeBracket(shot, cameras, rasters));
+    progress.report(static_cast<double>(frames.size()) / static_cast<double>(photographs.shots.size()));
+  }
   const hdr::HdrFrame before = hdr::mergeBracket(photographs.blackBefore, cameras, rasters),
                       after = photographs.blackAfter.frames.empty()
                                   ? before

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "relucent/base/progress.h"
 #include "relucent/hdr/hdr.h"
 #include "relucent/linearization/mosaic_photographs.h"
 #include "relucent/linearization/response_fit.h"
@@ -22,9 +23,10 @@ struct PhotographedLight {
 };
 
 /// Of all photographs so far; while they are being taken, some projectors' own may be missing. Black is
-/// interpolated in time.
+/// interpolated in time. Throws: Cancelled.
 PhotographedLight photographedLight(const MosaicPhotographs& photographs,
-                                    const std::vector<hdr::CameraModel>& cameras, const Rasters& rasters);
+                                    const std::vector<hdr::CameraModel>& cameras, const Rasters& rasters,
+                                    Progress& progress);
 
 /// Products of the values of the cameras' rasters that `wanted` says.
 LightProducts productsOf(const PhotographedLight& light, const std::function<bool(std::size_t)>& wanted);

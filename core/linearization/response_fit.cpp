@@ -310,13 +310,14 @@ class Fit {
   Fit(const Fit&) = delete;
   Fit& operator=(const Fit&) = delete;
 
-  std::vector<ResponseFit> run() {
+  std::vector<ResponseFit> run(Progress& progress) {
     std::vector<double> flicker(projectors_.size(), firstFlicker);
     for (int round = 0; round < flickerRounds; ++round) {
-      solve(flicker);
+      solve(flicker, progress);
       const MatrixXd known = covariance();
       for (std::size_t p = 0; p < projectors_.size(); ++p)
         flicker[p] = projectors_[p].flicker(known.block(first_[p], first_[p], count(p), count(p)));
+      progress.report((round + 1.0) / flickerRounds);
     }
     const VectorXd variances = covariance().diagonal();
     std::vector<ResponseFit> result;
@@ -378,9 +379,10 @@ class Fit {
   }
 
   /// Levenberg's and Marquardt's steps.
-  void solve(const std::vector<double>& flicker) {
+  void solve(const std::vector<double>& flicker, const Progress& progress) {
     double damping = 1e-4;
     for (int step = 0; step < mostSteps; ++step) {
+      progress.checkpoint();
       const VectorXd x = values();
       const Prior before = prior(flicker);
       const Projection here(products_, patternsOf(x));
@@ -448,7 +450,7 @@ std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& 
 
 std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
                                       const std::vector<MosaicShot>& shots, const LightProducts& products,
-                                      const std::vector<LevelLights>& start) {
+                                      const std::vector<LevelLights>& start, Progress& progress) {
   require(drives.size() == start.size(), "{} projectors' drives and {} responses", drives.size(),
           start.size());
   for (const std::vector<double>& own : drives)
@@ -458,7 +460,7 @@ std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& dr
             drives.size());
   require(products.shots() == shots.size(), "products of {} for {} photographs", products.shots(),
           shots.size());
-  return Fit(drives, shots, products, start).run();
+  return Fit(drives, shots, products, start).run(progress);
 }
 
 std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "relucent/base/progress.h"
 #include "relucent/linearization/mosaic.h"
 
 namespace relucent::linearization {
@@ -69,10 +70,10 @@ struct ResponseFit {
 /// distribution: what is smooth becomes smoother, kinks and steps remain.
 /// Per projector `drives`, which ascend and end with 1, and `start`, where the search begins.
 /// Source: core/linearization/README.md, [GOL], [KAU].
-/// Throws: Error{numerics} if the lights cannot be told apart.
+/// Throws: Error{numerics} if the lights cannot be told apart; Cancelled, which is looked for at every step.
 std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
                                       const std::vector<MosaicShot>& shots, const LightProducts& products,
-                                      const std::vector<LevelLights>& start);
+                                      const std::vector<LevelLights>& start, Progress& progress);
 
 /// How far one region's response is from a projector's fit, the whole picture's: for every channel the
 /// amplitude of

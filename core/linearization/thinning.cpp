@@ -23,7 +23,7 @@ Thinning::Thinning(const Rasters& cameras)
     sizes.push_back({static_cast<int>(quotientUp(size.count(), stride_)), 1});
     for (std::size_t i = 0; i < size.count(); i += stride_) {
       Pixel pixel = pixelAt(size, i);
-      regions_.push_back(9 * camera +
+      regions_.push_back(regionsOfCamera * camera +
                          static_cast<std::size_t>(3 * pixel.y / size.height * 3 + 3 * pixel.x / size.width));
     }
   }

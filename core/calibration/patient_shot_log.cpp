@@ -2,17 +2,6 @@
 #include "relucent/calibration/patient_shot_log.h"
 
 namespace relucent::calibration {
-namespace {
-
-/// At most: codes of every bit take half of it, compressed ones less.
-std::uint64_t bytesOf(const rig::Shot& shot) {
-  std::uint64_t bytes = 0;
-  for (const std::vector<rig::RawFrame>& exposure : shot.frames)
-    for (const rig::RawFrame& frame : exposure) bytes += sizeof(float) * frame.signal.data().size();
-  return bytes;
-}
-
-}  // namespace
 
 void PatientShotLog::keep(const rig::Shot& shot) {
   // Every shot begins by showing its patterns on all projectors: nothing has to be put back.
@@ -21,7 +10,7 @@ void PatientShotLog::keep(const rig::Shot& shot) {
   };
   const auto needed = [](std::uint64_t bytesOfShot) { return spare + shotsAhead * bytesOfShot; };
   room_.write(
-      needed(bytesOf(shot)), [&] { log_.keep(shot); }, darken);
+      needed(rig::plainBytes(shot)), [&] { log_.keep(shot); }, darken);
   const std::uint64_t next = needed(log_.bytesOfLast());
   room_.waitFor(next, 2 * next, darken);
 }

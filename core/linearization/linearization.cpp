@@ -10,8 +10,11 @@
 #include "relucent/linearization/camera_noise.h"
 #include "relucent/linearization/camera_response.h"
 #include "relucent/linearization/exposure_choice.h"
-#include "relucent/linearization/mosaic_photographs.h"
+#include "relucent/linearization/mosaic_evaluation.h"
+#include "relucent/linearization/mosaic_photography.h"
 #include "relucent/linearization/test_light.h"
+#include "relucent/linearization/thinning.h"
+#include "relucent/rig/projector_names.h"
 
 namespace relucent::linearization {
 namespace {
@@ -171,10 +174,9 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
 
   Progress checking = progress.part(
       0.05, RELUCENT_MESSAGE("stage.checking-additivity", "Checking that the colours of {} add up")
-                .with(namesOf(rig)));
-  checking.checkpoint();
+                .with(rig::projectorNames(rig)));
   std::vector<double> flicker(rig.cameras.size(), 0.0);
-  std::vector<MosaicResult> measured = evaluate(photographs, result.cameras, thinning);
+  std::vector<MosaicResult> measured = evaluateMosaics(photographs, result.cameras, thinning, checking);
   for (std::size_t projector = 0; projector < measured.size(); ++projector) {
     MosaicResult& own = measured[projector];
     result.additivityError.push_back(

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +22,9 @@ constexpr double leastFlicker = 2e-4;  // what no lamp beats
 constexpr double mostFlicker = 0.1;
 constexpr int flickerRounds = 6;
 constexpr int mostSteps = 40;
+// Of a step, to take another: of white, and of chi^2 with the a priori terms, where a standard deviation
+// is 1.
+constexpr double leastMove = 1e-7, leastGain = 1e-5;
 
 Index toIndex(std::size_t value) {
   return static_cast<Index>(value);
@@ -43,6 +47,10 @@ VectorXd scalesOf(const LightProducts& products) {
     scales[toIndex(m)] = std::sqrt(products.values() / products.noise(m));
   return scales;
 }
+
+/// Derivatives of the rows of X that some consecutive lights are, one after the other, by parameters: shots x
+/// parameters each. An element of X depends on four parameters at most.
+using Derivatives = std::vector<Eigen::SparseMatrix<double>>;
 
 /// chi^2 at X and, with U = dX / d parameters (a row for each of X's elements, light after light), its
 /// gradient and the approximation of its curvature that Kaufman gives:
@@ -68,23 +76,27 @@ class Projection {
   }
 
   double chiSquare() const { return chiSquare_; }
-  VectorXd descent(const MatrixXd& u, std::size_t first) const {
-    const Index shots = rest_.rows();
-    VectorXd result = VectorXd::Zero(u.cols());
-    for (Index q = 0; q < u.rows() / shots; ++q)
-      result += u.middleRows(q * shots, shots).transpose() * slope_.row(toIndex(first) + q).transpose();
+  VectorXd descent(const Derivatives& u, std::size_t first) const {
+    VectorXd result = VectorXd::Zero(u.front().cols());
+    for (std::size_t q = 0; q < u.size(); ++q)
+      result += u[q].transpose() * slope_.row(toIndex(first + q)).transpose();
     return result;
   }
-  /// A row for each parameter of `u`, a column for each of `other`.
-  MatrixXd curvature(const MatrixXd& u, std::size_t first, const MatrixXd& other,
+  /// Q U, light after light.
+  std::vector<MatrixXd> rest(const Derivatives& u) const {
+    std::vector<MatrixXd> result;
+    for (const Eigen::SparseMatrix<double>& light : u) result.push_back(rest_ * light);
+    return result;
+  }
+  /// A row for each parameter of `u`, a column for each of those whose rest() is `other`.
+  MatrixXd curvature(const Derivatives& u, std::size_t first, const std::vector<MatrixXd>& other,
                      std::size_t firstOther) const {
-    const Index shots = rest_.rows();
-    MatrixXd result = MatrixXd::Zero(u.cols(), other.cols());
-    for (Index q = 0; q < u.rows() / shots; ++q) {
-      MatrixXd mixed = MatrixXd::Zero(shots, other.cols());
-      for (Index p = 0; p < other.rows() / shots; ++p)
-        mixed += lights_(toIndex(first) + q, toIndex(firstOther) + p) * other.middleRows(p * shots, shots);
-      result += u.middleRows(q * shots, shots).transpose() * (rest_ * mixed);
+    MatrixXd result = MatrixXd::Zero(u.front().cols(), other.front().cols());
+    for (std::size_t q = 0; q < u.size(); ++q) {
+      MatrixXd mixed = MatrixXd::Zero(other.front().rows(), other.front().cols());
+      for (std::size_t p = 0; p < other.size(); ++p)
+        mixed += lights_(toIndex(first + q), toIndex(firstOther + p)) * other[p];
+      result += u[q].transpose() * mixed;
     }
     return result;
   }
@@ -100,11 +112,6 @@ struct Prior {
   VectorXd right;
   double of(const VectorXd& x) const { return x.dot(matrix * x) - 2.0 * right.dot(x); }
 };
-
-/// A light of a photograph as a row of X's derivatives.
-Index rowOf(std::size_t light, std::size_t shot, std::size_t shots) {
-  return toIndex(light * shots + shot);
-}
 
 /// What is unknown of one projector: the light of the levels between dark and full, channel after channel;
 /// the logarithms of the lamp's power in the photographs that it lights; the white segment.
@@ -159,23 +166,28 @@ class Unknowns {
     return patterns;
   }
 
-  /// Their derivatives, light after light.
-  MatrixXd derivatives() const {
-    MatrixXd u = MatrixXd::Zero(toIndex(mosaicLights * shots_.size()), x_.size());
+  Derivatives derivatives() const {
     const MatrixXd here = patterns(x_);
-    for (std::size_t m : litShots_)
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
-        Index row = rowOf(q, m, shots_.size());
+    Derivatives u;
+    for (std::size_t q = 0; q < mosaicLights; ++q) {
+      std::vector<Eigen::Triplet<double>> entries;
+      for (std::size_t m : litShots_) {
+        const Index row = toIndex(m);
         double power = powerOf(x_, m);
-        u(row, powerAt_[m]) = here(toIndex(q), toIndex(m));
+        entries.emplace_back(row, powerAt_[m], here(toIndex(q), row));
         auto enter = [&](std::size_t channel, double factor) {
           std::size_t level = levelsIn(m)[q / 3 * 3 + channel];
-          if (level > 0 && level <= levels_) u(row, toIndex(channel * levels_ + level - 1)) += factor * power;
+          if (level > 0 && level <= levels_)
+            entries.emplace_back(row, toIndex(channel * levels_ + level - 1), factor * power);
           return lightOf(x_, channel, level);
         };
         enter(q % 3, 1.0);
-        u(row, x_.size() - 1) = power * enter(darkest(x_, levelsIn(m), q), whiteSegment(x_));
+        const double least = enter(darkest(x_, levelsIn(m), q), whiteSegment(x_));
+        entries.emplace_back(row, x_.size() - 1, power * least);
       }
+      // Where a light is the darkest of its group, two entries add up.
+      u.emplace_back(toIndex(shots_.size()), x_.size()).setFromTriplets(entries.begin(), entries.end());
+    }
     return u;
   }
 
@@ -298,13 +310,14 @@ class Fit {
   Fit(const Fit&) = delete;
   Fit& operator=(const Fit&) = delete;
 
-  std::vector<ResponseFit> run() {
+  std::vector<ResponseFit> run(Progress& progress) {
     std::vector<double> flicker(projectors_.size(), firstFlicker);
     for (int round = 0; round < flickerRounds; ++round) {
-      solve(flicker);
+      solve(flicker, progress);
       const MatrixXd known = covariance();
       for (std::size_t p = 0; p < projectors_.size(); ++p)
         flicker[p] = projectors_[p].flicker(known.block(first_[p], first_[p], count(p), count(p)));
+      progress.report((round + 1.0) / flickerRounds);
     }
     const VectorXd variances = covariance().diagonal();
     std::vector<ResponseFit> result;
@@ -346,15 +359,19 @@ class Fit {
 
   /// Of chi^2 alone. A projector's unknowns change its own lights only.
   void linearize(const Projection& here, MatrixXd& curvature, VectorXd& descent) const {
-    std::vector<MatrixXd> derivatives;
-    for (const Unknowns& projector : projectors_) derivatives.push_back(projector.derivatives());
+    std::vector<Derivatives> derivatives;
+    std::vector<std::vector<MatrixXd>> rest;
+    for (const Unknowns& projector : projectors_) {
+      derivatives.push_back(projector.derivatives());
+      rest.push_back(here.rest(derivatives.back()));
+    }
     curvature.resize(size_, size_);
     descent.resize(size_);
     for (std::size_t p = 0; p < projectors_.size(); ++p) {
       descent.segment(first_[p], count(p)) = here.descent(derivatives[p], p * mosaicLights);
       for (std::size_t other = p; other < projectors_.size(); ++other) {
         const MatrixXd block =
-            here.curvature(derivatives[p], p * mosaicLights, derivatives[other], other * mosaicLights);
+            here.curvature(derivatives[p], p * mosaicLights, rest[other], other * mosaicLights);
         curvature.block(first_[p], first_[other], count(p), count(other)) = block;
         if (other != p) curvature.block(first_[other], first_[p], count(other), count(p)) = block.transpose();
       }
@@ -362,9 +379,10 @@ class Fit {
   }
 
   /// Levenberg's and Marquardt's steps.
-  void solve(const std::vector<double>& flicker) {
+  void solve(const std::vector<double>& flicker, const Progress& progress) {
     double damping = 1e-4;
     for (int step = 0; step < mostSteps; ++step) {
+      progress.checkpoint();
       const VectorXd x = values();
       const Prior before = prior(flicker);
       const Projection here(products_, patternsOf(x));
@@ -372,7 +390,7 @@ class Fit {
       linearize(here, curvature_, descent);
       curvature_ += before.matrix;
       descent = descent - before.matrix * x + before.right;
-      double value = here.chiSquare() + before.of(x), moved = 0.0;
+      double value = here.chiSquare() + before.of(x), moved = 0.0, gain = 0.0;
       for (bool better = false; !better; damping *= 10.0) {
         MatrixXd damped = curvature_;
         damped.diagonal() *= 1.0 + damping;
@@ -380,13 +398,15 @@ class Fit {
         double there = Projection(products_, patternsOf(next)).chiSquare() + before.of(next);
         better = there <= value + 1e-9 * std::abs(value);
         moved = change.cwiseAbs().maxCoeff();
+        gain = value - there;
         if (better)
           set(next);
         else if (damping > 1e8)
           return;
       }
       damping = std::max(1e-12, damping / 100.0);
-      if (moved < 1e-7) return;
+      // Where two channels are equally dark, steps may go back and forth between them.
+      if (moved < leastMove || gain < leastGain) return;
     }
   }
 
@@ -420,9 +440,17 @@ LightProducts& LightProducts::operator+=(const LightProducts& other) {
   return *this;
 }
 
+std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& drives) {
+  std::vector<LevelLights> responses(drives.size());
+  for (std::size_t p = 0; p < drives.size(); ++p)
+    for (std::vector<double>& channel : responses[p])
+      for (double drive : drives[p]) channel.push_back(std::pow(drive, 2.2));
+  return responses;
+}
+
 std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
                                       const std::vector<MosaicShot>& shots, const LightProducts& products,
-                                      const std::vector<LevelLights>& start) {
+                                      const std::vector<LevelLights>& start, Progress& progress) {
   require(drives.size() == start.size(), "{} projectors' drives and {} responses", drives.size(),
           start.size());
   for (const std::vector<double>& own : drives)
@@ -432,7 +460,7 @@ std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& dr
             drives.size());
   require(products.shots() == shots.size(), "products of {} for {} photographs", products.shots(),
           shots.size());
-  return Fit(drives, shots, products, start).run();
+  return Fit(drives, shots, products, start).run(progress);
 }
 
 std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,
@@ -445,7 +473,7 @@ std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,
   MatrixXd curvature;
   for (int round = 0; round < 3; ++round) {
     MatrixXd x = MatrixXd::Zero(toIndex(lights), toIndex(shots.size()));
-    MatrixXd u = MatrixXd::Zero(toIndex(lights * shots.size()), unknown);
+    Derivatives u(lights, Eigen::SparseMatrix<double>(toIndex(shots.size()), unknown));
     for (std::size_t m = 0; m < shots.size(); ++m)
       for (std::size_t row = 0; row < lights; ++row) {
         const std::size_t p = row / mosaicLights, q = row % mosaicLights, c = q % 3;
@@ -460,10 +488,10 @@ std::vector<RegionDeviation> deviationsOf(const std::vector<ResponseFit>& fits,
         double power = scales[toIndex(m)] * fit.power[m];
         const Index at = toIndex(3 * p + c);
         x(toIndex(row), toIndex(m)) = power * (light + amplitude[at] * bend + fit.whiteSegment * least);
-        u(rowOf(row, m, shots.size()), at) = power * bend;
+        u[row].insert(toIndex(m), at) = power * bend;
       }
     Projection here(products, x);
-    curvature = here.curvature(u, 0, u, 0);
+    curvature = here.curvature(u, 0, here.rest(u), 0);
     curvature.diagonal().array() += 1.0;  // where a region tells nothing of a channel it deviates by nothing
     amplitude += curvature.ldlt().solve(here.descent(u, 0) - amplitude);
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "relucent/base/progress.h"
 #include "relucent/linearization/mosaic.h"
 
 namespace relucent::linearization {
@@ -42,6 +43,9 @@ class LightProducts {
 /// Light of every drive but 0 relative to full drive, per channel; the last is 1.
 using LevelLights = std::array<std::vector<double>, 3>;
 
+/// As displays usually respond, drive^2.2: where a search begins that knows nothing better. Per projector.
+std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& drives);
+
 /// Of one projector.
 struct ResponseFit {
   LevelLights light;
@@ -66,10 +70,10 @@ struct ResponseFit {
 /// distribution: what is smooth becomes smoother, kinks and steps remain.
 /// Per projector `drives`, which ascend and end with 1, and `start`, where the search begins.
 /// Source: core/linearization/README.md, [GOL], [KAU].
-/// Throws: Error{numerics} if the lights cannot be told apart.
+/// Throws: Error{numerics} if the lights cannot be told apart; Cancelled, which is looked for at every step.
 std::vector<ResponseFit> fitResponses(const std::vector<std::vector<double>>& drives,
                                       const std::vector<MosaicShot>& shots, const LightProducts& products,
-                                      const std::vector<LevelLights>& start);
+                                      const std::vector<LevelLights>& start, Progress& progress);
 
 /// How far one region's response is from a projector's fit, the whole picture's: for every channel the
 /// amplitude of

@@ -10,8 +10,8 @@
 #include "relucent/base/parallel.h"
 #include "relucent/linearization/camera_response.h"
 #include "relucent/linearization/exposure_choice.h"
-#include "relucent/linearization/mosaic_photographs.h"
 #include "relucent/linearization/test_light.h"
+#include "relucent/linearization/thinning.h"
 #include "relucent/reduction/lit_part.h"
 #include "relucent/reduction/reduced_rig.h"
 

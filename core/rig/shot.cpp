@@ -17,7 +17,8 @@ std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::
   return fingerprint.hex();
 }
 
-/// Whole codes take a byte or two each, anything else four.
+}  // namespace
+
 std::uint64_t plainBytes(const Shot& shot) {
   std::uint64_t bytes = 0;
   for (const std::vector<RawFrame>& exposure : shot.frames)
@@ -27,8 +28,6 @@ std::uint64_t plainBytes(const Shot& shot) {
     }
   return bytes;
 }
-
-}  // namespace
 
 double ShotTimes::shotSeconds() const {
   return shots > 0 ? (showing + keeping + between) / shots : 0.0;

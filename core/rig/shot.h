@@ -21,6 +21,9 @@ struct Shot {
   std::vector<double> exposuresAsked{};       // seconds; what the cameras report is in the frames
 };
 
+/// Of a shot's samples, uncompressed: whole codes take a byte or two each, anything else four.
+std::uint64_t plainBytes(const Shot& shot);
+
 /// Stores shots as soon as they are taken. A log makes a run resumable: shots that it holds are not
 /// photographed again.
 class ShotLog {

@@ -4,8 +4,7 @@
 
 #include "relucent/base/disk_full.h"
 #include "relucent/base/random.h"
-#include "relucent/calibration/patient_shot_log.h"
-#include "support/sentences.h"
+#include "relucent/calibration/patient_shot_log.h"#include "support/sentences.h"
 #include "support/stopped.h"
 
 using namespace relucent;
@@ -165,6 +164,20 @@ class TestRoomOnDisk : public QObject {
     QVERIFY_EXCEPTION_THROWN(patient.keep(shotOf(0)), Cancelled);
     QCOMPARE(disk.pauses, 1);  // whoever waits is told that it is over
     QVERIFY(log.kept.empty());
+  }
+
+  /// Before a shot is written: room for it and the next ones, as they are at most.
+  void roomIsAskedForInShots() {
+    ScriptedDisk disk;
+    LogOnDisk log(disk);
+    disk.freedAWait = std::uint64_t{1} << 40;
+    Rig rig;
+    const Progress progress;
+    RoomOnDisk room("venue", &disk, progress);
+    PatientShotLog patient(log, room, rig);
+    const Shot shot = shotOf(0);
+    patient.keep(shot);
+    QCOMPARE(disk.waits.front().needed, spare + PatientShotLog::shotsAhead * plainBytes(shot));
   }
 
   void withNobodyToWaitItIsAFailure() {

@@ -18,7 +18,6 @@
 #include "relucent/base/fingerprint.h"
 #include "relucent/base/random.h"
 #include "relucent/calibration/shot_journal.h"
-
 using namespace relucent;
 using namespace relucent::calibration;
 using namespace relucent::image;
@@ -111,6 +110,7 @@ class TestShotJournal : public QObject {
     QVERIFY(identical(*found, shot));
     // The header takes less than a kilobyte.
     auto samples = 3 * size.count() * static_cast<std::size_t>(bytesPerSample);
+    QCOMPARE(plainBytes(shot), samples);
     QVERIFY(fs::file_size(onlyFileIn(folder_)) < samples + 1024);
   }
 

@@ -135,13 +135,32 @@ World worldOf(std::uint64_t seed, std::vector<Emitter> emitters, Where where = W
   return world;
 }
 
-std::vector<ResponseFit> fitOf(const World& world, const LightProducts& products) {
-  std::vector<LevelLights> start(world.drives.size());
-  for (std::size_t p = 0; p < start.size(); ++p)
-    for (std::vector<double>& channel : start[p])
-      for (double drive : world.drives[p]) channel.push_back(std::pow(drive, 2.2));
-  return fitResponses(world.drives, world.shots, products, start);
+std::vector<ResponseFit> fitOf(const World& world, const LightProducts& products, Progress progress = {}) {
+  return fitResponses(world.drives, world.shots, products, usualResponses(world.drives), progress);
 }
+
+/// Asks to cancel at a report, counted from 1; 0: before the first.
+class StopAt : public ProgressSink {
+ public:
+  explicit StopAt(int report) : report_(report) { askIfDue(); }
+  void progressed(double fraction, const Message&) override {
+    fraction_ = fraction;
+    ++reports_;
+    askIfDue();
+  }
+  Progress progress() { return {*this, stop_}; }
+  int reports() const { return reports_; }
+  double fraction() const { return fraction_; }
+
+ private:
+  void askIfDue() {
+    if (reports_ == report_) stop_.ask(StopRequest::Kind::cancel);
+  }
+
+  int report_, reports_ = 0;
+  double fraction_ = 0.0;
+  StopRequest stop_;
+};
 
 double worst(const LevelLights& found, const LevelLights& truth) {
   double result = 0.0;
@@ -324,6 +343,28 @@ class TestResponseFit : public QObject {
       for (double amplitude : region.amplitude)
         QVERIFY2(std::abs(amplitude - expected) < 0.15 * std::abs(expected) + 1e-4,
                  qPrintable(QString("%1 for %2").arg(amplitude).arg(expected)));
+  }
+
+  /// Whoever waits sees that it goes on, and may end it whenever it says so.
+  void theFitTellsHowFarItIs() {
+    const World world = worldOf(1, std::vector<Emitter>(3));
+    const LightProducts products = world.products(1800, Random{2});
+    StopAt whole(-1);
+    fitOf(world, products, whole.progress());
+    QVERIFY2(whole.reports() >= 4, qPrintable(QString::number(whole.reports())));
+    QCOMPARE(whole.fraction(), 1.0);
+    for (int at = 1; at <= whole.reports(); ++at) {
+      StopAt stopping(at);
+      QVERIFY_EXCEPTION_THROWN(fitOf(world, products, stopping.progress()), Cancelled);
+      QCOMPARE(stopping.reports(), at);
+    }
+  }
+  /// Within a moment: before the first report as well.
+  void theFitLooksForTheEndAtEveryStep() {
+    const World world = worldOf(1, {{}});
+    StopAt stopped(0);
+    QVERIFY_EXCEPTION_THROWN(fitOf(world, world.products(900, Random{2}), stopped.progress()), Cancelled);
+    QCOMPARE(stopped.reports(), 0);
   }
 
   void lightsThatNothingTellsApartAreRefused() {

@@ -50,7 +50,7 @@ class MainWindow : public QMainWindow {
   void bindKeys();
   void refresh();
   void moveToNextRegion();
-  void keepFocus(QWidget* before, QWidget* now);
+  void followFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
 
   Session& session_;

@@ -13,6 +13,7 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
+#include "wizard/frame/end_question.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/frame/stage_scroll.h"
 
@@ -177,8 +178,13 @@ void MainWindow::bindKeys() {
   key(QKeySequence("Alt+Left"), [this] { wizard_.back(); });
   key(QKeySequence("Ctrl+Return"), [this] { actions_->runPrimary(); });
   key(QKeySequence("Ctrl+Enter"), [this] { actions_->runPrimary(); });
-  key(QKeySequence("Ctrl+Z"), [this] { wizard_.currentPage().undoStack().undo(); });
-  key(QKeySequence("Ctrl+Shift+Z"), [this] { wizard_.currentPage().undoStack().redo(); });
+  // Taken back is only what can be changed.
+  key(QKeySequence("Ctrl+Z"), [this] {
+    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().undo();
+  });
+  key(QKeySequence("Ctrl+Shift+Z"), [this] {
+    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().redo();
+  });
   key(QKeySequence("F1"), [this] { showHelp(); });
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
@@ -247,7 +253,23 @@ void MainWindow::dropEvent(QDropEvent* event) {
   if (QString folder = calibrationIn(*event->mimeData()); !folder.isEmpty()) Q_EMIT dropped(folder);
 }
 
+void MainWindow::closeWithoutAsking() {
+  asksBeforeClosing_ = false;
+  close();
+}
+
+void MainWindow::askBeforeClosing() {
+  auto* end = new PageCommand(Icon::stop, this);
+  auto* stay = new PageCommand(Icon::play, this);
+  connect(end, &QAction::triggered, this, &MainWindow::closeWithoutAsking);
+  tell(wizard_.currentPage(), endQuestion(session_, end, stay));
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (asksBeforeClosing_ && session_.isMeasuring()) {
+    event->ignore();
+    return askBeforeClosing();
+  }
   // What is measured is in the journal: nothing is lost, and the next start offers to go on.
   for (std::size_t i = 0; i < wizard_.count(); ++i) wizard_.page(i).finish();
   QMainWindow::closeEvent(event);

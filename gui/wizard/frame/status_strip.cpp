@@ -80,13 +80,18 @@ void StatusStrip::resizeEvent(QResizeEvent* event) {
   for (QLabel* name : names_) name->setVisible(width() >= namesFrom);
 }
 
+bool StatusStrip::isScreenThere() const {
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
+  return screen == nullptr || findScreen(identityOf(screen->display)) != nullptr;
+}
+
 /// Its size, and what it is; that it is not there where nobody waits for it, either.
 QString StatusStrip::projectorText() const {
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig()) {
     kind = QString::fromStdString(screen->display.connector);
-    if (findScreen(identityOf(screen->display)) == nullptr) kind = tr("%1, unplugged").arg(kind);
+    if (!isScreenThere()) kind = tr("%1, unplugged").arg(kind);
   }
   return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
 }
@@ -111,6 +116,7 @@ void StatusStrip::refresh() {
     return;
   }
   projector_->setWhole(projectorText());
+  setRole(projector_, isScreenThere() ? "note" : "amber");
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);

@@ -24,6 +24,7 @@ class StatusStrip : public QFrame {
  private:
   void refresh();
   QString projectorText() const;
+  bool isScreenThere() const;
   void showRoomLight();
   Session& session_;
   ElidedLabel *projector_, *camera_, *disk_, *saved_;

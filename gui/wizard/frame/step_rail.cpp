@@ -41,6 +41,8 @@ QString stateText(const StepStatus& status, bool current, bool locked) {
       return StepRail::tr("done");
     case StepState::outOfDate:
       return StepRail::tr("out of date");
+    case StepState::coarse:
+      return StepRail::tr("stopped early");
     case StepState::failed:
       return StepRail::tr("failed");
     case StepState::busy:
@@ -98,9 +100,14 @@ void StepButton::keyPressEvent(QKeyEvent* event) {
 
 void StepButton::paintBadge(QPainter& painter, QRectF circle) const {
   const Colours& c = colours();
+  bool coarse = status_.state == StepState::coarse, held = status_.isHeldUp;
   bool stale = status_.state == StepState::outOfDate, failed = status_.state == StepState::failed;
   bool done = status_.state == StepState::done && !locked_;
-  QColor colour = stale ? c.amber : failed ? c.error : current_ ? c.accent : done ? c.good : c.border;
+  QColor colour = stale || coarse || held ? c.amber
+                  : failed                ? c.error
+                  : current_              ? c.accent
+                  : done                  ? c.good
+                                          : c.border;
   bool filled = current_;
   painter.setPen(QPen(colour, 1.6));
   painter.setBrush(filled ? QBrush(colour) : Qt::NoBrush);
@@ -111,6 +118,10 @@ void StepButton::paintBadge(QPainter& painter, QRectF circle) const {
     drawIcon(painter, Icon::stale, icon, inside);
   else if (failed && !locked_)
     drawIcon(painter, Icon::failed, icon, inside);
+  else if (held && !locked_)
+    drawIcon(painter, Icon::warning, icon, inside);
+  else if (coarse && !locked_)
+    drawIcon(painter, Icon::pause, icon, inside);
   else if (done && !current_)
     drawIcon(painter, Icon::tick, icon, inside);
   else {
@@ -157,9 +168,10 @@ void StepButton::paintEvent(QPaintEvent*) {
   if (two) {
     QFont small = typeOf(type::note);
     painter.setFont(small);
-    painter.setPen(status_.state == StepState::outOfDate ? c.amber
-                   : status_.state == StepState::failed  ? c.error
-                                                         : c.secondary);
+    const bool amber = status_.state == StepState::outOfDate || status_.state == StepState::coarse;
+    painter.setPen(amber || status_.isHeldUp            ? c.amber
+                   : status_.state == StepState::failed ? c.error
+                                                        : c.secondary);
     painter.drawText(
         place(QRectF(nameLeft, top + 20, textWidth, 18)), side,
         QFontMetrics(small).elidedText(status_.result, Qt::ElideRight, static_cast<int>(textWidth)));

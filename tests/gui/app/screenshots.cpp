@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
-// 1920x1080, from a finished calibration, which is changed: give it a copy. To be run on an X server of its own:
+// 1920x1080, from a finished calibration, which is changed: give it a copy. To be run on an X server of its
+// own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
 #include <QApplication>
 #include <QDialog>

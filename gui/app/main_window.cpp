@@ -13,10 +13,16 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
+#include "wizard/frame/end_question.h"
 #include "wizard/frame/failure_dialog.h"
+#include "wizard/frame/stage_scroll.h"
 
 namespace relucent::gui {
 namespace {
+
+/// Half a Full HD screen, on a desktop that scales by two, with what it puts round a window.
+constexpr QSize leastSize(800, 440);
+constexpr int narrowBelow = 1100, lowBelow = 640, narrowRail = 64, lowHeader = 48;
 
 /// The one folder or calibration's file that is dragged; empty: neither.
 QString calibrationIn(const QMimeData& data) {
@@ -61,7 +67,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
   content->addLayout(stageColumn, 1);
   content->addWidget(inspectors_ = new QStackedWidget);
   for (const PageView& view : views_) {
-    stages_->addWidget(view.stage);
+    stages_->addWidget(stageScroll(view.stage));
     inspectors_->addWidget(view.inspector);
   }
   right->addLayout(content, 1);
@@ -70,7 +76,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
   rows->addLayout(upper, 1);
   rows->addWidget(new StatusStrip(session_));
   setCentralWidget(whole);
-  setMinimumSize(1100, 700);
+  setMinimumSize(leastSize);
 
   for (std::size_t i = 0; i < wizard_.count(); ++i) {
     PageModel* page = &wizard_.page(i);
@@ -82,7 +88,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
     refresh();
     focusFirst(stages_);
   });
-  connect(qApp, &QApplication::focusChanged, this, &MainWindow::keepFocus);
+  connect(qApp, &QApplication::focusChanged, this, &MainWindow::followFocus);
   new QuietWheel(this);
   bindKeys();
   refresh();
@@ -90,7 +96,6 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
 
 void MainWindow::buildHeader() {
   header_ = new QWidget;
-  header_->setFixedHeight(space::header);
   auto* row = new QHBoxLayout(header_);
   row->setContentsMargins(space::page, 8, space::page, 8);
   auto* titles = new QVBoxLayout;
@@ -146,7 +151,7 @@ void MainWindow::fitRailFooter() {
   QMargins margins = rail_->layout()->contentsMargins();
   int spaces = static_cast<int>(footer_.size()) - 1;
   int room = rail_->width() - margins.left() - margins.right() - spaces * rail_->footer()->spacing();
-  if (needed * static_cast<int>(footer_.size()) <= room) return;
+  if (rail_->width() > narrowRail && needed * static_cast<int>(footer_.size()) <= room) return;
   for (QPushButton* button : footer_) button->setText({});
 }
 
@@ -173,17 +178,25 @@ void MainWindow::bindKeys() {
   key(QKeySequence("Alt+Left"), [this] { wizard_.back(); });
   key(QKeySequence("Ctrl+Return"), [this] { actions_->runPrimary(); });
   key(QKeySequence("Ctrl+Enter"), [this] { actions_->runPrimary(); });
-  key(QKeySequence("Ctrl+Z"), [this] { wizard_.currentPage().undoStack().undo(); });
-  key(QKeySequence("Ctrl+Shift+Z"), [this] { wizard_.currentPage().undoStack().redo(); });
+  // Taken back is only what can be changed.
+  key(QKeySequence("Ctrl+Z"), [this] {
+    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().undo();
+  });
+  key(QKeySequence("Ctrl+Shift+Z"), [this] {
+    if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().redo();
+  });
   key(QKeySequence("F1"), [this] { showHelp(); });
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
   key(QKeySequence("F11"), [this] { isFullScreen() ? showNormal() : showFullScreen(); });
 }
 
-/// A button of the action bar that is done, and goes, would leave its focus to the rail, which is next: Enter
-/// would then leave the page.
-void MainWindow::keepFocus(QWidget* before, QWidget* now) {
+void MainWindow::followFocus(QWidget* before, QWidget* now) {
+  // What is clicked is in sight and must not move under the pointer.
+  if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
+    bringIntoSight(now);
+  // A button of the action bar that is done, and goes, would leave its focus to the rail, which is next:
+  // Enter would then leave the page.
   if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before) || !rail_->isAncestorOf(now))
     return;
   if (before->isVisible() && before->isEnabled()) return;
@@ -221,10 +234,14 @@ void MainWindow::showEvent(QShowEvent* event) {
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
-  bool wide = width() >= space::wideFrom;
-  rail_->setFixedWidth(wide ? space::wideRail : space::rail);
+  const bool isWide = width() >= space::wideFrom, isNarrow = width() < narrowBelow,
+             isLow = height() < lowBelow;
+  rail_->setNarrow(isNarrow);
+  rail_->setFixedWidth(isWide ? space::wideRail : isNarrow ? narrowRail : space::rail);
   fitRailFooter();
-  inspectors_->setFixedWidth(wide ? space::wideInspector : space::inspector);
+  inspectors_->setFixedWidth(isWide ? space::wideInspector : space::inspector);
+  subtitle_->setVisible(!isLow);
+  header_->setFixedHeight(isLow ? lowHeader : space::header);
   QMainWindow::resizeEvent(event);
 }
 
@@ -236,7 +253,23 @@ void MainWindow::dropEvent(QDropEvent* event) {
   if (QString folder = calibrationIn(*event->mimeData()); !folder.isEmpty()) Q_EMIT dropped(folder);
 }
 
+void MainWindow::closeWithoutAsking() {
+  asksBeforeClosing_ = false;
+  close();
+}
+
+void MainWindow::askBeforeClosing() {
+  auto* end = new PageCommand(Icon::stop, this);
+  auto* stay = new PageCommand(Icon::play, this);
+  connect(end, &QAction::triggered, this, &MainWindow::closeWithoutAsking);
+  tell(wizard_.currentPage(), endQuestion(session_, end, stay));
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (asksBeforeClosing_ && session_.isMeasuring()) {
+    event->ignore();
+    return askBeforeClosing();
+  }
   // What is measured is in the journal: nothing is lost, and the next start offers to go on.
   for (std::size_t i = 0; i < wizard_.count(); ++i) wizard_.page(i).finish();
   QMainWindow::closeEvent(event);

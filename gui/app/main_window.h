@@ -31,6 +31,8 @@ class MainWindow : public QMainWindow {
   void showSettings();
   /// Opens the guide at the page of the current step.
   void showHelp();
+  /// Also while something is measured, which close() asks about first.
+  void closeWithoutAsking();
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -50,8 +52,9 @@ class MainWindow : public QMainWindow {
   void bindKeys();
   void refresh();
   void moveToNextRegion();
-  void keepFocus(QWidget* before, QWidget* now);
+  void followFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
+  void askBeforeClosing();
 
   Session& session_;
   Wizard& wizard_;
@@ -62,6 +65,7 @@ class MainWindow : public QMainWindow {
   BannerBar* banner_;
   ActionBar* actions_;
   QWidget* header_;
+  bool asksBeforeClosing_ = true;
   ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;
   std::vector<QPushButton*> footer_;  // of the rail

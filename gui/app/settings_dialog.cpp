@@ -5,10 +5,13 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QLocale>
+#include <QScreen>
+#include <algorithm>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
+#include "wizard/frame/stage_scroll.h"
 
 namespace relucent::gui {
 namespace {
@@ -38,10 +41,17 @@ SettingsDialog::SettingsDialog(Preferences& preferences, QStringList languages, 
   column->setContentsMargins(space::page, space::page, space::page, space::page);
   column->setSpacing(space::gap);
   column->addWidget(labelOf(tr("Settings"), "title"));
-  column->addWidget(lookPart());
-  column->addWidget(measuringPart());
-  column->addWidget(folderPart());
-  column->addStretch(1);
+  auto* parts = new QWidget;
+  auto* inside = new QVBoxLayout(parts);
+  inside->setContentsMargins(0, 0, 0, 0);
+  inside->setSpacing(space::gap);
+  inside->addWidget(lookPart());
+  inside->addWidget(measuringPart());
+  inside->addWidget(folderPart());
+  inside->addStretch(1);
+  QScrollArea* scroll = stageScroll(parts);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  column->addWidget(scroll, 1);
   auto* row = new QHBoxLayout;
   row->addStretch(1);
   QPushButton* close = buttonOf(tr("Close"), "primary");
@@ -52,8 +62,10 @@ SettingsDialog::SettingsDialog(Preferences& preferences, QStringList languages, 
   column->addLayout(row);
   // Wrapped lines make it higher, which a window does not ask its layout by itself.
   ensurePolished();
-  resize(minimumWidth(), column->totalHeightForWidth(minimumWidth()));
-  setMinimumHeight(height());
+  const int around = column->sizeHint().height() - scroll->sizeHint().height();
+  const int whole = around + inside->heightForWidth(minimumWidth() - 2 * space::page);
+  constexpr int titleBar = 40;
+  resize(minimumWidth(), std::min(whole, screen()->availableSize().height() - titleBar));
 }
 
 QWidget* SettingsDialog::lookPart() {

@@ -57,7 +57,8 @@ int runWizardCommand(int argc, char** argv) {
     wizard.window().show();
   if (argc == 2) wizard.open(QDir().absoluteFilePath(QApplication::arguments().at(1)));
   Termination termination;
-  QObject::connect(&termination, &Termination::requested, qApp, [&wizard] { wizard.window().close(); });
+  QObject::connect(&termination, &Termination::requested, qApp,
+                   [&wizard] { wizard.window().closeWithoutAsking(); });
   int status = QApplication::exec();
   settings.setValue("window/size", wizard.window().normalGeometry().size());
   settings.setValue("window/maximized", wizard.window().isMaximized());

@@ -124,6 +124,8 @@ class WindowProjector::Stage : public QObject {
  private:
   void build() {
     window_ = std::make_unique<ProjectorWindow>(display_);
+    // Whoever measures goes on working in another window.
+    window_->setFlag(Qt::WindowDoesNotAcceptFocus);
     connect(window_.get(), &ProjectorWindow::frameSwapped, this, [this] { swapped(); });
     connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
       broken();

@@ -14,6 +14,7 @@
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/full_disk.h"
 #include "wizard/devices/missing_screen.h"
+#include "wizard/devices/stopped_early.h"
 
 namespace relucent::gui {
 namespace {
@@ -35,7 +36,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     trace_.clear();
     forecast_.reset();
     left_ = {};
-    kept_ = session_.isOpen() ? session_.photographsKept(calibration::Stage::acquisition) : 0;
+    countKept();
     connect(&session_.live(), &LiveRig::seen, this, [this] {
       if (isMeasuring()) tellProgress();
     });
@@ -46,7 +47,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   });
   connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::resultChanged);
   connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
-  connect(&session_, &Session::devicesChanged, this, &AcquirePage::tellStatus);
+  connect(&session_, &Session::devicesChanged, this, &AcquirePage::tellSettings);
   connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
   connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
     forecast_ = left;
@@ -69,7 +70,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
 }
 
 void AcquirePage::makeCommands() {
-  auto begins = [this] { start(); };
+  auto begins = [this] { start(false); };
   start_ = addCommand(Icon::play, begins);
   startNow_ = addCommand(Icon::play, [this] { begin(); });
   stay_ = addCommand(Icon::stop, [this] { stay(); });
@@ -80,8 +81,7 @@ void AcquirePage::makeCommands() {
       Icon::play, [this] { resume(); }, QKeySequence("Ctrl+P"));
   keep_ = addCommand(
       Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
-  again_ = addCommand(Icon::retry, begins);
-  goOn_ = addCommand(Icon::play, begins);
+  measureAnew_ = addCommand(Icon::retry, [this] { start(true); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
   goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
@@ -99,14 +99,19 @@ AcquirePage::~AcquirePage() {
 }
 
 StepStatus AcquirePage::status() const {
+  const bool hasResult = session_.result(calibration::Stage::acquisition).has_value();
+  if (isMeasuring() && session_.isScreenMissing())
+    return {StepState::busy, tr("Screen unplugged"), hasResult, true};
   if (isPaused() || isDiskFull())
-    return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction()))};
-  if (isCountingDown()) return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_)};
-  if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
+    return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction())), hasResult, isDiskFull()};
+  if (isCountingDown())
+    return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
+  if (isMeasuring())
+    return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), hasResult};
   switch (session_.progress(calibration::Stage::acquisition)) {
     case calibration::StageProgress::done:
       if (const int blocks = stoppedAt(); blocks > 0)
-        return {StepState::outOfDate, tr("Stopped at %1 px").arg(blocks)};
+        return {StepState::coarse, tr("Stopped at %1 px").arg(blocks)};
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
@@ -123,14 +128,20 @@ StepStatus AcquirePage::status() const {
 }
 
 QString AcquirePage::hint() const {
+  if (isMeasuring() && session_.isScreenMissing()) return tr("Waiting for the projector's screen.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
-  if (isMeasuring()) return tr("Every photograph is saved. Threshold opens when the last is taken.");
+  if (isMeasuring())
+    return status().hasResult
+               ? tr("Every photograph is saved. The earlier measurement is used until the new one is ready.")
+               : tr("Every photograph is saved. Threshold opens when the last is taken.");
   if (isCountingDown())
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
+  if (isDone() && stoppedAt() > 0 && !session_.mayMeasure())
+    return tr("To go on measuring, confirm that the room is clear.");
   if (isDone())
     return tr("Measured in %1").arg(text(roundedDuration(cost().value_or(calibration::StageCost()).seconds)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
@@ -145,17 +156,21 @@ QString AcquirePage::hint() const {
 
 void AcquirePage::updateCommands() {
   const bool mayStart = session_.areDevicesFree() && session_.mayMeasure();
-  start_->show(kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
+  const bool isNew = isStale() && again_ == 0;
+  start_->setGlyph(isNew ? Icon::retry : Icon::play);
+  start_->show(isNew ? tr("Measure again") : kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
+  measureAnew_->show(tr("Measure again"), mayStart);
+  measureAnew_->setToolTip(mayStart ? tr("Takes every photograph again. What is measured stays until then.")
+                                    : tr("Confirm that the room is clear."));
   startNow_->show(tr("Start now"));
   stay_->show(tr("Not now"));
   next_->show(tr("Show threshold"), !isMeasuring());
   pause_->show(tr("Pause"), !isStopping());
   resume_->show(tr("Resume"));
   keep_->show(tr("Stop and keep"), !isStopping());
-  again_->show(tr("Measure again"), session_.areDevicesFree());
-  goOn_->show(tr("Resume"), mayStart);
   goOnWithDisk_->show(tr("Go on now"));
-  goOnMeasuring_->show(tr("Go on measuring"), mayStart);
+  goOnMeasuring_->show(goOnMeasuringText(), mayStart);
+  goOnMeasuring_->setToolTip(mayStart ? QString() : hint());
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
@@ -169,6 +184,7 @@ PageCommand* AcquirePage::primary() const {
 
 std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
+  if (isDone()) return {measureAnew_};
   if (!isMeasuring()) return {};
   return {isPaused() ? resume_ : pause_, keep_};
 }
@@ -182,16 +198,40 @@ std::optional<Banner> AcquirePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
-  if (progress == calibration::StageProgress::stale)
-    return Banner{Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
-                  tr("It still works and stays until the new one is ready."), again_};
+  if (progress == calibration::StageProgress::stale) return staleBanner();
   if (progress == calibration::StageProgress::done && stoppedAt() > 0) return stoppedBanner();
   if (progress == calibration::StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
-                     nullptr, kept_),
-                  goOn_};
+                     nullptr, kept_)};
   return std::nullopt;
+}
+
+Banner AcquirePage::staleBanner() const {
+  if (again_ == 0)
+    return {Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
+            tr("It still works and stays until the new one is ready.")};
+  return {Banner::Kind::amber, tr("Measuring again has not ended"),
+          tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
+             nullptr, again_)};
+}
+
+bool AcquirePage::isStale() const {
+  return session_.progress(calibration::Stage::acquisition) == calibration::StageProgress::stale;
+}
+
+bool AcquirePage::needsConsentNow() const {
+  return !session_.mayMeasure() && (!isDone() || stoppedAt() > 0);
+}
+
+QString AcquirePage::whyLocked() const {
+  if (isMeasuring() || isCountingDown()) return tr("Measuring with these settings.");
+  return session_.whyLocked(step());
+}
+
+void AcquirePage::countKept() {
+  kept_ = session_.isOpen() ? session_.photographsKept(calibration::Stage::acquisition) : 0;
+  again_ = kept_ > 0 ? session_.photographsSince(calibration::Stage::acquisition) : 0;
 }
 
 Banner AcquirePage::stoppedBanner() const {
@@ -231,7 +271,7 @@ void AcquirePage::change(const QString& what, const acquisition::AcquisitionSett
 }
 
 void AcquirePage::keep(const acquisition::AcquisitionSettings& acquisition) {
-  if (isMeasuring()) return;
+  if (!whyLocked().isEmpty()) return tellSettings();
   pipeline::CalibrateSettings settings = session_.settings();
   settings.acquisition = acquisition;
   settings.acquisition.seed = session_.settings().acquisition.seed;
@@ -255,7 +295,7 @@ acquisition::AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) cons
 }
 
 void AcquirePage::setFineness(Fineness fineness) {
-  if (isMeasuring() || fineness == this->fineness()) return;
+  if (!whyLocked().isEmpty() || fineness == this->fineness()) return tellSettings();
   change(tr("Fineness"), settingsOf(fineness));
 }
 
@@ -280,11 +320,6 @@ std::optional<double> AcquirePage::verificationError() const {
 std::optional<transport::ExpectedQuality> AcquirePage::expectedQuality() const {
   const auto& measured = session_.figures<calibration::Stage::acquisition>();
   return measured ? measured->expected : std::nullopt;
-}
-
-int AcquirePage::stoppedAt() const {
-  const auto& measured = session_.figures<calibration::Stage::acquisition>();
-  return measured ? measured->stoppedAt : 0;
 }
 
 QStringList AcquirePage::findings() const {
@@ -327,9 +362,10 @@ void AcquirePage::stopAndKeep() {
   resume();
 }
 
-void AcquirePage::start() {
+void AcquirePage::start(bool anew) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
-  lease_ = session_.leaseDevices(stepName);
+  anew_ = anew;
+  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
   if (secondsToLeave_ == 0 || !session_.hasLight()) return begin();
   secondsLeftToLeave_ = secondsToLeave_;
   leaving_.start();
@@ -359,11 +395,19 @@ void AcquirePage::begin() {
     return question->wait();
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
-  job_.start([work = workOf(session_), handler, retrying, expects, room = &room_](Progress& progress) {
+  job_.start([work = workOf(session_), anew = std::exchange(anew_, false), handler, retrying, expects,
+              room = &room_](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
+    if (anew) {
+      // Other patterns of the same kind: what was measured stays beside them.
+      pipeline::CalibrateSettings settings = pipeline::settingsOf(folder);
+      ++settings.acquisition.seed;
+      pipeline::setShotsAside(folder, calibration::Stage::acquisition);
+      changeSettings(folder, settings);
+    }
     Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
     linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, room, reading);
     Progress measuring = progress.part(
@@ -406,7 +450,7 @@ void AcquirePage::ended() {
   trace_.end();
   if (session_.isOpen()) {
     session_.reload();
-    kept_ = session_.photographsKept(calibration::Stage::acquisition);
+    countKept();
   }
   lease_.release();
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();

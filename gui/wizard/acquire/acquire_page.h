@@ -43,11 +43,12 @@ class AcquirePage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  bool hasRemedy() const override { return !session_.mayMeasure(); }
+  bool hasRemedy() const override { return !isMeasuring() && needsConsentNow(); }
   PageCommand* primary() const override;
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
+  QString whyLocked() const override;
   void finish() override;
 
   void enter() override;
@@ -84,7 +85,9 @@ class AcquirePage : public DevicePage {
   /// How well pictures are expected to be shown with what was measured; none if nobody worked it out.
   std::optional<transport::ExpectedQuality> expectedQuality() const;
   /// Side of the finest blocks if it was stopped and kept, projector pixels; 0: nothing is missing.
-  int stoppedAt() const;
+  int stoppedAt() const { return session_.stoppedAt(); }
+  /// It was begun again since, and has not ended: photographs that are in the journal; 0: it was not.
+  int photographsOfNew() const { return again_; }
   /// What is worth knowing of the measurement, in sentences.
   QStringList findings() const;
   /// What measuring with these settings will about take, by what the response took; none before that.
@@ -129,7 +132,11 @@ class AcquirePage : public DevicePage {
 
  private:
   void makeCommands();
-  void start();
+  bool isStale() const;
+  bool needsConsentNow() const;
+  Banner staleBanner() const;
+  void countKept();
+  void start(bool anew);
   void begin();
   void stay();
   Banner stoppedBanner() const;
@@ -144,9 +151,9 @@ class AcquirePage : public DevicePage {
   void tick();
   void lookAtResponse();
 
-  PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_;
+  PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_;
   PageCommand* goOnWithDisk_;                                     // of the banner too
-  PageCommand *again_, *goOn_, *goOnMeasuring_;                   // of the banner
+  PageCommand* goOnMeasuring_;                                    // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
@@ -155,7 +162,8 @@ class AcquirePage : public DevicePage {
   std::optional<WorkLeft> forecast_;
   std::optional<linearization::Linearization> response_;
   std::string responseStored_;  // when that was
-  int kept_ = 0;
+  int kept_ = 0, again_ = 0;    // photographs: in the journal; of them, newer than the result
+  bool anew_ = false;           // nothing of the last measurement is used again
   QTimer second_;
   double rate_ = 0.0;
   int lastCount_ = 0;

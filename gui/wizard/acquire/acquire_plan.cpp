@@ -46,10 +46,10 @@ std::uint64_t AcquirePage::freeBytes() const {
 }
 
 void AcquirePage::setKeptPhotographs(pipeline::KeptPhotographs kept) {
-  if (isMeasuring() || kept == keptPhotographs()) return;
+  if (!whyLocked().isEmpty() || kept == keptPhotographs()) return tellSettings();
   changeUndoably(tr("Photographs to keep"), keptPhotographs(), kept,
                  [this](pipeline::KeptPhotographs wanted) {
-                   if (isMeasuring()) return;
+                   if (!whyLocked().isEmpty()) return tellSettings();
                    try {
                      session_.keepPhotographs(wanted);
                    } catch (...) {

@@ -122,6 +122,7 @@ QWidget* storagePart(AcquirePage& model) {
   auto refresh = [&model, part, box, meaning, removed] {
     removed->setVisible(model.session().werePhotographsRemoved());
     part->setVisible(!model.isMeasuring() && !model.isDone());
+    box->setEnabled(model.whyLocked().isEmpty());
     box->setCurrentIndex(box->findData(static_cast<int>(model.keptPhotographs())));
     switch (model.keptPhotographs()) {
       case Kept::everything:
@@ -217,14 +218,21 @@ QWidget* planOf(AcquirePage& model) {
   }
   QObject::connect(group, &QButtonGroup::idClicked, &model,
                    [&model](int id) { model.setFineness(static_cast<Fineness>(id)); });
+  QLabel* locked = labelOf({}, "note");
+  locked->setObjectName("why-locked");
+  column->addWidget(locked);
   column->addSpacing(8);
   QWidget* start = startPart(model);
   column->addWidget(start);
   column->addWidget(readyPart(model));
   column->addWidget(storagePart(model));
   column->addWidget(resultPart(model));
-  auto refresh = [&model, group, choices, sentences, start] {
+  auto refresh = [&model, group, choices, sentences, start, locked] {
     if (model.isMeasuring()) return;
+    const QString why = model.whyLocked();
+    locked->setText(why);
+    locked->setVisible(!why.isEmpty());
+    for (Choice* choice : choices) choice->setEnabled(why.isEmpty());
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     for (Fineness fineness : {Fineness::fast, Fineness::usual, Fineness::fine}) {
       const std::optional<WorkLeft> work = model.expected(fineness);

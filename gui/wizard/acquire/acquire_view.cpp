@@ -112,9 +112,10 @@ QWidget* inspectorOf(AcquirePage& model) {
   QWidget* card = inspectorCard(column);
   QWidget* plan = planOf(model);
   QWidget* run = runOf(model);
+  // Above the fold: nothing is measured without it.
+  column->addWidget(consentWidget(model));
   column->addWidget(plan);
   column->addWidget(run);
-  column->addWidget(consentWidget(model));
   column->addStretch(1);
   auto refresh = [&model, plan, run] {
     plan->setVisible(!model.isMeasuring());

@@ -9,6 +9,7 @@
 #include "relucent/pipeline/pictures.h"
 #include "views/number_text.h"
 #include "wizard/cluster/cluster_picture.h"
+#include "wizard/devices/stopped_early.h"
 
 namespace relucent::gui {
 namespace {
@@ -77,6 +78,7 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
                    Q_EMIT failed({failure, tr("What is measured is safe.")});
                  }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
+  goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     settings_ = session_.settings().clustering;
     computing_.drop();
@@ -85,6 +87,7 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
     preparedFor_.clear();
     looked_ = false;
   });
+  connect(&session_, &Session::devicesChanged, this, &ClusterPage::tellStatus);
   for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
     connect(&session_, signal, this, [this] {
       if (looked_) prepare();
@@ -172,7 +175,7 @@ StepStatus ClusterPage::status() const {
   switch (session_.progress(calibration::Stage::clustering)) {
     case calibration::StageProgress::done:
       clusters = static_cast<int>(session_.figures<calibration::Stage::clustering>()->clusters);
-      return {StepState::done, groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
+      return {doneOn(session_), groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
     case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
     case calibration::StageProgress::open:
@@ -184,6 +187,7 @@ StepStatus ClusterPage::status() const {
 QString ClusterPage::hint() const {
   if (isComputing()) return result_ ? tr("Grouping again") : tr("Grouping");
   if (!result_) return tr("Reading the light transport");
+  if (const QString why = whyLocked(); !why.isEmpty()) return why;
   return sizesText();
 }
 
@@ -194,12 +198,13 @@ QString ClusterPage::sizesText() const {
 }
 
 void ClusterPage::updateCommands() {
-  accept_->show(tr("Preview content"), result_ && result_->exact && !isComputing());
+  goOnMeasuring_->show(goOnMeasuringText());
+  accept_->show(tr("Preview content"), result_ && result_->exact && !isComputing() && whyLocked().isEmpty());
 }
 
 std::optional<Banner> ClusterPage::banner() const {
   if (session_.progress(calibration::Stage::clustering) != calibration::StageProgress::stale)
-    return std::nullopt;
+    return stoppedEarly(session_, goOnMeasuring_);
   return Banner{Banner::Kind::amber, tr("The clusters that are kept belong to an earlier threshold"),
                 tr("What you see here has been grouped again. Going on keeps it.")};
 }

@@ -41,6 +41,7 @@ class ClusterPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override;
@@ -68,7 +69,7 @@ class ClusterPage : public DevicePage {
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
-  PageCommand* accept_;
+  PageCommand *accept_, *goOnMeasuring_;
   clustering::ClusteringSettings settings_;
   std::string preparedFor_;  // fingerprint of the threshold
   std::shared_ptr<const transport::Acquisition> source_;

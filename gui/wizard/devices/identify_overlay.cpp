@@ -107,7 +107,9 @@ void IdentifyOverlay::show() {
   hide();
   for (QScreen* screen : projectorScreens()) {
     windows_.push_back(std::make_unique<ScreenCard>(screen));
-    windows_.back()->showFullScreen();
+    // showFullScreen() would ask for the keys.
+    windows_.back()->setWindowStates(Qt::WindowFullScreen);
+    windows_.back()->setVisible(true);
   }
   leaving_.start();
 }

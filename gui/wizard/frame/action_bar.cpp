@@ -6,10 +6,15 @@
 #include "theme/theme.h"
 
 namespace relucent::gui {
+namespace {
+
+constexpr int rowHeight = space::actionBar + 4, spacing = 12;
+
+}  // namespace
 
 ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(wizard) {
   setRole(this, "bar");
-  setFixedHeight(space::actionBar + 4);
+  setFixedHeight(rowHeight);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->setSpacing(0);
@@ -18,25 +23,33 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   progress_->setTextVisible(false);
   progress_->setAccessibleName(tr("Progress of the measurement"));
   all->addWidget(progress_);
-  auto* row = new QHBoxLayout;
-  row->setContentsMargins(space::page, 0, space::page, 0);
-  row->setSpacing(12);
+  grid_ = new QGridLayout;
+  grid_->setContentsMargins(space::page, 0, space::page, 0);
+  grid_->setHorizontalSpacing(spacing);
+  grid_->setVerticalSpacing(0);
+  grid_->setColumnStretch(1, 1);
   back_ = buttonOf(tr("Back"), "flat");
   back_->setObjectName("back");
-  hint_ = labelOf({}, "secondary");
+  reason_ = new QWidget;
+  auto* sentence = new QHBoxLayout(reason_);
+  sentence->setContentsMargins(0, 0, 0, 0);
+  sentence->setSpacing(spacing);
+  sentence->addWidget(new IconLabel(Icon::information, secondaryColour, 18));
+  sentence->addWidget(hint_ = labelOf({}, "secondary"), 1);
   hint_->setObjectName("hint");
   hint_->installEventFilter(this);
-  secondary_ = new QHBoxLayout;
-  secondary_->setSpacing(12);
+  secondary_ = new QWidget;
+  auto* others = new QHBoxLayout(secondary_);
+  others->setContentsMargins(0, 0, 0, 0);
+  others->setSpacing(spacing);
   primary_ = buttonOf({}, "primary");
   primary_->setObjectName("primary");
   primary_->setMinimumWidth(160);
-  row->addWidget(back_);
-  row->addWidget(new IconLabel(Icon::information, secondaryColour, 18));
-  row->addWidget(hint_, 1);
-  row->addLayout(secondary_);
-  row->addWidget(primary_);
-  all->addLayout(row, 1);
+  grid_->addWidget(back_, 1, 0);
+  grid_->addWidget(reason_, 1, 1);
+  grid_->addWidget(secondary_, 1, 2);
+  grid_->addWidget(primary_, 1, 3);
+  all->addLayout(grid_, 1);
   connect(back_, &QPushButton::clicked, &wizard_, &Wizard::back);
   connect(primary_, &QPushButton::clicked, this, &ActionBar::runPrimary);
   connect(&wizard_, &Wizard::statusChanged, this, &ActionBar::refresh);
@@ -86,6 +99,30 @@ void ActionBar::refresh() {
   // The bar keeps its place, so that nothing moves when a measurement begins.
   progress_->setStyleSheet(fraction ? QString() : QString("QProgressBar { background: transparent; }"));
   refreshSecondary(page.secondary());
+  arrange();
+}
+
+void ActionBar::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  arrange();
+}
+
+/// In one row where the hint has room beside the buttons.
+void ActionBar::arrange() {
+  int buttons = 0;
+  for (QWidget* widget : {static_cast<QWidget*>(back_), secondary_, static_cast<QWidget*>(primary_)})
+    if (!widget->isHidden()) buttons += spacing + widget->sizeHint().width();
+  const int icon = 18 + spacing;
+  const int whole = width() - 2 * space::page - icon;
+  const int beside = whole - buttons;
+  const bool isOneRow =
+      beside >= hint_->minimumSizeHint().width() && hint_->heightForWidth(beside) <= rowHeight - space::small;
+  grid_->removeWidget(reason_);
+  if (isOneRow)
+    grid_->addWidget(reason_, 1, 1);
+  else
+    grid_->addWidget(reason_, 0, 0, 1, 4);
+  setFixedHeight(isOneRow ? rowHeight : rowHeight + space::small + hint_->heightForWidth(std::max(1, whole)));
 }
 
 void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
@@ -97,9 +134,10 @@ void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
     connect(button, &QPushButton::clicked, this, [this, index] {
       if (index < commands_.size() && commands_[index]) commands_[index]->trigger();
     });
-    secondary_->addWidget(button);
+    secondary_->layout()->addWidget(button);
     buttons_.push_back(button);
   }
+  secondary_->setVisible(!commands.empty());
   for (std::size_t i = 0; i < buttons_.size(); ++i) {
     buttons_[i]->setVisible(i < commands.size());
     if (i >= commands.size()) continue;

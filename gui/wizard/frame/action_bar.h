@@ -2,7 +2,7 @@
 #pragma once
 
 #include <QFrame>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QPointer>
 #include <QProgressBar>
 #include <QPushButton>
@@ -12,7 +12,8 @@
 
 namespace relucent::gui {
 
-/// Back; the time or a reason; secondary actions; the one primary action, named by its verb.
+/// Back; the time or a reason; secondary actions; the one primary action, named by its verb. Where the window
+/// is narrow, time or reason stand in a row of their own above.
 class ActionBar : public QFrame {
   Q_OBJECT
 
@@ -24,15 +25,19 @@ class ActionBar : public QFrame {
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void refresh();
   void refreshSecondary(const std::vector<PageCommand*>& commands);
+  void arrange();
   Wizard& wizard_;
   QProgressBar* progress_;
   QPushButton *back_, *primary_;
+  QWidget* reason_;
   QLabel* hint_;
-  QHBoxLayout* secondary_;
+  QGridLayout* grid_;
+  QWidget* secondary_;
   std::vector<QPushButton*> buttons_;
   std::vector<QPointer<PageCommand>> commands_;
 };

@@ -19,11 +19,12 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
   texts->addWidget(sentence_ = labelOf({}, "strong"));
   texts->addWidget(more_ = labelOf({}, "note"));
   row->addLayout(texts, 1);
-  row->addWidget(primary_ = buttonOf({}, "primary"));
-  primary_->setObjectName("banner-primary");
-  connect(primary_, &QPushButton::clicked, this, [this] {
-    if (auto banner = wizard_.currentPage().banner(); banner && banner->primary != nullptr)
-      banner->primary->trigger();
+  // The page has one primary command, in the action bar.
+  row->addWidget(button_ = buttonOf({}));
+  button_->setObjectName("banner-primary");
+  connect(button_, &QPushButton::clicked, this, [this] {
+    if (auto banner = wizard_.currentPage().banner(); banner && banner->command != nullptr)
+      banner->command->trigger();
   });
   connect(&wizard_, &Wizard::statusChanged, this, &BannerBar::refresh);
   connect(&wizard_, &Wizard::moved, this, &BannerBar::refresh);
@@ -41,10 +42,13 @@ void BannerBar::refresh() {
   icon_->setIcon(amber ? Icon::stale : Icon::information, amber ? amberColour : informationColour);
   sentence_->setText(banner->sentence);
   more_->setText(banner->more);
-  primary_->setVisible(banner->primary != nullptr);
-  if (banner->primary == nullptr) return;
-  primary_->setText(banner->primary->text());
-  primary_->setIcon(iconOf(banner->primary->glyph(), colours().onAccent));
+  button_->setVisible(banner->command != nullptr);
+  if (banner->command == nullptr) return;
+  button_->setText(banner->command->text());
+  button_->setIcon(
+      iconOf(banner->command->glyph(), banner->command->isEnabled() ? colours().text : colours().disabled));
+  button_->setEnabled(banner->command->isEnabled());
+  button_->setToolTip(banner->command->toolTip());
 }
 
 }  // namespace relucent::gui

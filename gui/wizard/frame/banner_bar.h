@@ -22,7 +22,7 @@ class BannerBar : public QWidget {
   QFrame* frame_;
   IconLabel* icon_;
   QLabel *sentence_, *more_;
-  QPushButton* primary_;
+  QPushButton* button_;
 };
 
 }  // namespace relucent::gui

@@ -41,7 +41,9 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   column->setContentsMargins(28, 28, 28, 24);
   column->setSpacing(8);
   auto* top = new QHBoxLayout;
-  top->addWidget(new IconLabel(Icon::failed, errorColour, 32), 0, Qt::AlignTop);
+  top->addWidget(report.isQuestion ? new IconLabel(Icon::warning, amberColour, 32)
+                                   : new IconLabel(Icon::failed, errorColour, 32),
+                 0, Qt::AlignTop);
   auto* titles = new QVBoxLayout;
   titles->addWidget(labelOf(heading, "title"));
   titles->addWidget(labelOf(page, "note"));
@@ -53,12 +55,13 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
     column->addWidget(labelOf(title, "strong"));
     column->addWidget(labelOf(text));
   };
-  part(tr("What happened"), report.failure.what);
+  part(report.isQuestion ? tr("What it ends") : tr("What happened"), report.failure.what);
   part(tr("What is safe"), report.safe);
   part(tr("What to do"), report.failure.advice);
   column->addSpacing(16);
   auto* row = new QHBoxLayout;
   QPushButton* copy = buttonOf(tr("Copy details"), "flat");
+  copy->setVisible(!report.failure.details.isEmpty());
   connect(copy, &QPushButton::clicked, this,
           [details = report.failure.details] { QGuiApplication::clipboard()->setText(details); });
   row->addWidget(copy);

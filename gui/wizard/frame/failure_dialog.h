@@ -7,7 +7,8 @@
 
 namespace relucent::gui {
 
-/// What happened, what is safe, what to do. Esc and Close leave everything as it is.
+/// What happened, what is safe, what to do; or a question, with what it would end. Esc and Close leave
+/// everything as it is.
 class FailureDialog : public QDialog {
   Q_OBJECT
 

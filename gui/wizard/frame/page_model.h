@@ -15,26 +15,41 @@
 namespace relucent::gui {
 
 /// Where a step stands, as the rail shows it. Whether it can be opened at all follows from the steps before.
-enum class StepState { open, busy, outOfDate, done, failed };
+enum class StepState {
+  open,
+  busy,
+  outOfDate,
+  coarse,  // done, on a measurement that was stopped early
+  done,
+  failed
+};
 
 struct StepStatus {
   StepState state = StepState::open;
-  QString result;  // one short line
+  QString result;          // one short line
+  bool hasResult = false;  // while it is busy: an earlier result is used until the new one is ready
+  bool isHeldUp = false;   // while it is busy: something is missing that it waits for
 };
+/// Later steps can use what this one came to.
+inline bool isUsable(const StepStatus& status) {
+  return status.state == StepState::done || status.state == StepState::coarse ||
+         status.state == StepState::outOfDate || (status.state == StepState::busy && status.hasResult);
+}
 
 /// What stands above the stage. At most one.
 struct Banner {
   enum class Kind { information, amber };
   Kind kind = Kind::information;
   QString sentence, more;
-  PageCommand* primary = nullptr;  // the page's; nullptr: there is nothing to do about it
+  PageCommand* command = nullptr;  // the page's, never its primary; nullptr: there is nothing to do here
 };
 
-/// A failure as the user is told of it: what happened, what is safe, what to do.
+/// A failure as the user is told of it: what happened, what is safe, what to do. Or what an answer would end.
 struct FailureReport {
   Failure failure;
   QString safe;
   PageCommand *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
+  bool isQuestion = false;                                          // nothing has happened yet
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the
@@ -55,6 +70,8 @@ class PageModel : public QObject {
   virtual QString hint() const { return {}; }
   /// What the hint says can be changed on this page: remedyWanted() asks where.
   virtual bool hasRemedy() const { return false; }
+  /// Why nothing can be decided here now; empty: it can.
+  virtual QString whyLocked() const { return {}; }
   /// The command that leads on; nullptr: there is none now.
   virtual PageCommand* primary() const = 0;
   virtual std::vector<PageCommand*> secondary() const { return {}; }
@@ -89,6 +106,8 @@ class PageModel : public QObject {
   void remedyWanted();
   /// The step is done: the next one, please.
   void nextWanted();
+  /// That step, please: by its id.
+  void stepWanted(const QString& id);
   void failed(const gui::FailureReport& report);
 
  protected:

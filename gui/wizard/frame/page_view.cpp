@@ -19,14 +19,18 @@ bool focusFirst(QWidget* region) {
   return false;
 }
 
+void bringIntoSight(QWidget* widget) {
+  for (QWidget* around = widget->parentWidget(); around != nullptr; around = around->parentWidget())
+    if (auto* scroll = qobject_cast<QScrollArea*>(around)) scroll->ensureWidgetVisible(widget);
+}
+
 void pointOut(QWidget* widget) {
   if (!widget->isVisible()) return;
   if (widget->focusPolicy() == Qt::NoFocus)
     focusFirst(widget);
   else
     widget->setFocus(Qt::TabFocusReason);
-  for (QWidget* around = widget->parentWidget(); around != nullptr; around = around->parentWidget())
-    if (auto* scroll = qobject_cast<QScrollArea*>(around)) scroll->ensureWidgetVisible(widget);
+  bringIntoSight(widget);
 }
 
 QWidget* inspectorCard(QVBoxLayout*& contents) {

@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QGuiApplication>
 #include <QLocale>
+#include <algorithm>
 
 #include "jobs/free_space.h"
 #include "output/window_projector.h"
@@ -12,6 +13,26 @@
 #include "views/number_text.h"
 
 namespace relucent::gui {
+namespace {
+
+constexpr int namesFrom = 1100;  // logical pixels of width
+
+/// As wide as its text, and narrower where there is no room.
+class Fact : public ElidedLabel {
+ public:
+  Fact() { setRole(this, "note"); }
+  QSize sizeHint() const override {
+    return {fontMetrics().horizontalAdvance(toolTip()) + 2, ElidedLabel::sizeHint().height()};
+  }
+  QSize minimumSizeHint() const override {
+    return {std::min(least, sizeHint().width()), ElidedLabel::minimumSizeHint().height()};
+  }
+
+ private:
+  static constexpr int least = 40;
+};
+
+}  // namespace
 
 StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), session_(session) {
   setRole(this, "strip");
@@ -27,9 +48,9 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
     within->addWidget(new IconLabel(icon, secondaryColour, 16));
     QLabel* title = labelOf(name, "strong");
     title->setWordWrap(false);
+    names_.push_back(title);
     within->addWidget(title);
-    QLabel* value = labelOf({}, "note");
-    value->setWordWrap(false);
+    auto* value = new Fact;
     within->addWidget(value);
     row->addWidget(group);
     return value;
@@ -42,8 +63,7 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   projector_->setObjectName("strip-projector");
   room_ = roomLight_->parentWidget();
   row->addStretch(1);
-  row->addWidget(saved_ = labelOf({}, "note"));
-  saved_->setWordWrap(false);
+  row->addWidget(saved_ = new Fact);
   often_.setInterval(5000);
   connect(&often_, &QTimer::timeout, this, &StatusStrip::refresh);
   for (auto signal :
@@ -55,13 +75,23 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   refresh();
 }
 
+void StatusStrip::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  for (QLabel* name : names_) name->setVisible(width() >= namesFrom);
+}
+
+bool StatusStrip::isScreenThere() const {
+  const pipeline::ScreenRigSettings* screen = session_.screenRig();
+  return screen == nullptr || findScreen(identityOf(screen->display)) != nullptr;
+}
+
 /// Its size, and what it is; that it is not there where nobody waits for it, either.
 QString StatusStrip::projectorText() const {
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig()) {
     kind = QString::fromStdString(screen->display.connector);
-    if (findScreen(identityOf(screen->display)) == nullptr) kind = tr("%1, unplugged").arg(kind);
+    if (!isScreenThere()) kind = tr("%1, unplugged").arg(kind);
   }
   return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
 }
@@ -71,33 +101,34 @@ void StatusStrip::showRoomLight() {
   room_->setVisible(session_.isOpen() && light.has_value());
   if (!light) return;
   QString share = percentText(light->share);
-  roomLight_->setText(light->isSteady ? tr("%1 of full light, steady").arg(share)
-                                      : tr("%1 of full light, changed").arg(share));
+  roomLight_->setWhole(light->isSteady ? tr("%1 of full light, steady").arg(share)
+                                       : tr("%1 of full light, changed").arg(share));
   setRole(roomLight_, light->isSteady ? "note" : "amber");
 }
 
 void StatusStrip::refresh() {
   showRoomLight();
   if (!session_.isOpen()) {
-    projector_->setText(tr("none chosen"));
-    camera_->setText(tr("none chosen"));
-    disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(QDir::homePath()))));
-    saved_->clear();
+    projector_->setWhole(tr("none chosen"));
+    camera_->setWhole(tr("none chosen"));
+    disk_->setWhole(tr("%1 free").arg(bytesText(freeBytesAt(QDir::homePath()))));
+    saved_->setWhole({});
     return;
   }
-  projector_->setText(projectorText());
+  projector_->setWhole(projectorText());
+  setRole(projector_, isScreenThere() ? "note" : "amber");
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
-  camera_->setText(session_.areDevicesFree() ? kind : tr("%1, in use").arg(kind));
+  camera_->setWhole(session_.areDevicesFree() ? kind : tr("%1, in use").arg(kind));
   const QString folder = QString::fromStdString(session_.path().string());
-  disk_->setText(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
+  disk_->setWhole(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;
   for (calibration::Stage stage : allValues<calibration::Stage>())
     if (const auto& result = session_.result(stage))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
-  saved_->setText(
+  saved_->setWhole(
       when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
                      : QString());
 }

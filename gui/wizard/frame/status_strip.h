@@ -3,27 +3,34 @@
 
 #include <QFrame>
 #include <QTimer>
+#include <vector>
 
 #include "theme/controls.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
 
-/// Projector, camera, disk, the room's light once it is known, and the last saved state.
+/// Projector, camera, disk, the room's light once it is known, and the last saved state. Where the window is
+/// narrow, icons stand for names.
 class StatusStrip : public QFrame {
   Q_OBJECT
 
  public:
   explicit StatusStrip(Session& session, QWidget* parent = nullptr);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void refresh();
   QString projectorText() const;
+  bool isScreenThere() const;
   void showRoomLight();
   Session& session_;
-  QLabel *projector_, *camera_, *disk_, *saved_;
+  ElidedLabel *projector_, *camera_, *disk_, *saved_;
   QWidget* room_;
-  QLabel* roomLight_;
+  ElidedLabel* roomLight_;
+  std::vector<QLabel*> names_;
   QTimer often_;
 };
 

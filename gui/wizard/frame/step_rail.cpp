@@ -13,6 +13,8 @@ namespace relucent::gui {
 namespace {
 
 constexpr double nameLeft = 52.0, nameRight = 12.0, lockRoom = 34.0;
+constexpr double badge = 24.0, badgeLeft = 15.0;
+constexpr QSize usualStep(208, 50), narrowStep(48, 40);
 
 /// The program's mark: a lens and its light.
 class Mark : public QWidget {
@@ -39,6 +41,8 @@ QString stateText(const StepStatus& status, bool current, bool locked) {
       return StepRail::tr("done");
     case StepState::outOfDate:
       return StepRail::tr("out of date");
+    case StepState::coarse:
+      return StepRail::tr("stopped early");
     case StepState::failed:
       return StepRail::tr("failed");
     case StepState::busy:
@@ -66,11 +70,24 @@ void StepButton::show(const QString& name, const StepStatus& status, bool curren
   QString state = stateText(status, current, locked);
   setAccessibleName(StepRail::tr("Step %1, %2, %3").arg(number_).arg(name, state));
   setAccessibleDescription(status.result);
-  setToolTip(status.result);
+  setToolTip(!narrow_                  ? status.result
+             : status.result.isEmpty() ? name
+                                       : QString("%1: %2").arg(name, status.result));
   update();
 }
 
+void StepButton::setNarrow(bool narrow) {
+  narrow_ = narrow;
+  updateGeometry();
+  update();
+}
+
+QSize StepButton::sizeHint() const {
+  return narrow_ ? narrowStep : usualStep;
+}
+
 QSize StepButton::minimumSizeHint() const {
+  if (narrow_) return narrowStep;
   double name = QFontMetricsF(typeOf(type::section, QFont::DemiBold)).horizontalAdvance(text());
   return {static_cast<int>(std::ceil(nameLeft + name + (locked_ ? lockRoom : nameRight))),
           sizeHint().height()};
@@ -83,9 +100,14 @@ void StepButton::keyPressEvent(QKeyEvent* event) {
 
 void StepButton::paintBadge(QPainter& painter, QRectF circle) const {
   const Colours& c = colours();
+  bool coarse = status_.state == StepState::coarse, held = status_.isHeldUp;
   bool stale = status_.state == StepState::outOfDate, failed = status_.state == StepState::failed;
   bool done = status_.state == StepState::done && !locked_;
-  QColor colour = stale ? c.amber : failed ? c.error : current_ ? c.accent : done ? c.good : c.border;
+  QColor colour = stale || coarse || held ? c.amber
+                  : failed                ? c.error
+                  : current_              ? c.accent
+                  : done                  ? c.good
+                                          : c.border;
   bool filled = current_;
   painter.setPen(QPen(colour, 1.6));
   painter.setBrush(filled ? QBrush(colour) : Qt::NoBrush);
@@ -96,6 +118,10 @@ void StepButton::paintBadge(QPainter& painter, QRectF circle) const {
     drawIcon(painter, Icon::stale, icon, inside);
   else if (failed && !locked_)
     drawIcon(painter, Icon::failed, icon, inside);
+  else if (held && !locked_)
+    drawIcon(painter, Icon::warning, icon, inside);
+  else if (coarse && !locked_)
+    drawIcon(painter, Icon::pause, icon, inside);
   else if (done && !current_)
     drawIcon(painter, Icon::tick, icon, inside);
   else {
@@ -128,7 +154,9 @@ void StepButton::paintEvent(QPaintEvent*) {
   }
   // Mirrored with the rail.
   constexpr int side = Qt::AlignLeft | Qt::AlignVCenter;
-  paintBadge(painter, place(QRectF(15, height() / 2.0 - 12.0, 24, 24)));
+  const double left = narrow_ ? (width() - badge) / 2.0 : badgeLeft;
+  paintBadge(painter, place(QRectF(left, (height() - badge) / 2.0, badge, badge)));
+  if (narrow_) return;
   bool two = !locked_ && !status_.result.isEmpty();
   double textWidth = width() - nameLeft - (locked_ ? lockRoom : nameRight);
   QFont nameFont = typeOf(type::section, QFont::DemiBold);
@@ -140,9 +168,10 @@ void StepButton::paintEvent(QPaintEvent*) {
   if (two) {
     QFont small = typeOf(type::note);
     painter.setFont(small);
-    painter.setPen(status_.state == StepState::outOfDate ? c.amber
-                   : status_.state == StepState::failed  ? c.error
-                                                         : c.secondary);
+    const bool amber = status_.state == StepState::outOfDate || status_.state == StepState::coarse;
+    painter.setPen(amber || status_.isHeldUp            ? c.amber
+                   : status_.state == StepState::failed ? c.error
+                                                        : c.secondary);
     painter.drawText(
         place(QRectF(nameLeft, top + 20, textWidth, 18)), side,
         QFontMetrics(small).elidedText(status_.result, Qt::ElideRight, static_cast<int>(textWidth)));
@@ -158,31 +187,52 @@ StepRail::StepRail(Wizard& wizard, Session& session, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 14, 8, 8);
   column->setSpacing(4);
-  auto* top = new QHBoxLayout;
-  top->setContentsMargins(18, 0, 8, 12);
-  top->setSpacing(10);
-  top->addWidget(new Mark);
-  auto* names = new QVBoxLayout;
+  top_ = new QHBoxLayout;
+  top_->setSpacing(10);
+  top_->addWidget(new Mark);
+  names_ = new QWidget;
+  auto* names = new QVBoxLayout(names_);
+  names->setContentsMargins(0, 0, 0, 0);
   names->setSpacing(0);
   names->addWidget(labelOf("Relucent", "heading"));
   names->addWidget(venue_ = elidedLabel("note"));
-  top->addLayout(names, 1);
-  column->addLayout(top);
+  top_->addWidget(names_, 1);
+  column->addLayout(top_);
+  scroll_ = new QScrollArea;
+  scroll_->setWidgetResizable(true);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->setFocusPolicy(Qt::NoFocus);
+  scroll_->setFrameShape(QFrame::NoFrame);
+  auto* inside = new QWidget;
+  auto* rows = new QVBoxLayout(inside);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(4);
+  scroll_->setWidget(inside);
+  column->addWidget(scroll_, 1);
   for (std::size_t i = 0; i < wizard_.count(); ++i) {
     auto* step = new StepButton(static_cast<int>(i) + 1);
     step->setObjectName(QString("step-%1").arg(i + 1));
     connect(step, &StepButton::clicked, this, [this, i] { wizard_.go(i); });
     steps_.push_back(step);
-    column->addWidget(step);
+    rows->addWidget(step);
   }
-  column->addStretch(1);
-  auto* footer = new QHBoxLayout;
-  footer_ = footer;
-  column->addLayout(footer);
+  rows->addStretch(1);
+  column->addLayout(footer_ = new QHBoxLayout);
+  setNarrow(false);
   connect(&wizard_, &Wizard::statusChanged, this, &StepRail::refresh);
   connect(&wizard_, &Wizard::progressChanged, this, &StepRail::refresh);
-  connect(&wizard_, &Wizard::moved, this, &StepRail::refresh);
+  connect(&wizard_, &Wizard::moved, this, [this] {
+    refresh();
+    scroll_->ensureWidgetVisible(steps_[wizard_.current()]);
+  });
   refresh();
+}
+
+void StepRail::setNarrow(bool narrow) {
+  names_->setVisible(!narrow);
+  top_->setContentsMargins(narrow ? 11 : 18, 0, narrow ? 0 : 8, 12);
+  footer_->setDirection(narrow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+  for (StepButton* step : steps_) step->setNarrow(narrow);
 }
 
 QWidget* StepRail::firstFocus() const {

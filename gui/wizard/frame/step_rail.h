@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QBoxLayout>
+#include <QScrollArea>
 #include <vector>
 
 #include "theme/controls.h"
@@ -16,7 +18,9 @@ class StepButton : public QAbstractButton {
  public:
   StepButton(int number, QWidget* parent = nullptr);
   void show(const QString& name, const StepStatus& status, bool current, bool locked);
-  QSize sizeHint() const override { return {208, 50}; }
+  /// Number or shape alone; name and result are in the tool tip.
+  void setNarrow(bool narrow);
+  QSize sizeHint() const override;
   /// Its name is shown in full; the result below may end in an ellipsis.
   QSize minimumSizeHint() const override;
 
@@ -28,25 +32,31 @@ class StepButton : public QAbstractButton {
   void paintBadge(QPainter& painter, QRectF circle) const;
   int number_;
   StepStatus status_;
-  bool current_ = false, locked_ = false;
+  bool current_ = false, locked_ = false, narrow_ = false;
 };
 
-/// The steps, their states and results; the name of the program and of the venue above.
+/// The steps, their states and results; the name of the program and of the venue above. The steps scroll
+/// where the window is low.
 class StepRail : public QWidget {
   Q_OBJECT
 
  public:
   StepRail(Wizard& wizard, Session& session, QWidget* parent = nullptr);
   QWidget* firstFocus() const;
-  QLayout* footer() const { return footer_; }
+  QBoxLayout* footer() const { return footer_; }
+  /// Badges without words.
+  void setNarrow(bool narrow);
 
  private:
   void refresh();
   Wizard& wizard_;
   Session& session_;
+  QWidget* names_;
   ElidedLabel* venue_;
+  QHBoxLayout* top_;
+  QScrollArea* scroll_;
   std::vector<StepButton*> steps_;
-  QLayout* footer_;
+  QBoxLayout* footer_;
 };
 
 }  // namespace relucent::gui

@@ -15,13 +15,15 @@ void Wizard::add(PageModel& page) {
   connect(&page, &PageModel::statusChanged, this, &Wizard::statusChanged);
   connect(&page, &PageModel::progressChanged, this, &Wizard::progressChanged);
   connect(&page, &PageModel::nextWanted, this, &Wizard::next);
+  connect(&page, &PageModel::stepWanted, this, [this](const QString& id) {
+    for (std::size_t i = 0; i < pages_.size(); ++i)
+      if (pages_[i]->step().id == id) go(i);
+  });
 }
 
 bool Wizard::isLocked(std::size_t index) const {
-  for (std::size_t before = 0; before < index; ++before) {
-    StepState state = pages_[before]->status().state;
-    if (state != StepState::done && state != StepState::outOfDate) return true;
-  }
+  for (std::size_t before = 0; before < index; ++before)
+    if (!isUsable(pages_[before]->status())) return true;
   return false;
 }
 

@@ -23,7 +23,6 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
       Icon::stop, [this] { finish(); }, QKeySequence("Ctrl+K"));
   again_ = addCommand(
       Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
-  renew_ = addCommand(Icon::retry, [this] { measure(false); });
   retry_ = addCommand(Icon::retry, [this] { measure(false); });
   goOn_ = addCommand(Icon::play, [this] { room_.goOn(); });
   connect(&session_, &Session::opened, this, [this] {
@@ -39,7 +38,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     look();
     tellAll();
   });
-  connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellStatus);
+  connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellSettings);
   connect(&job_, &Job::progressed, this, &LinearizePage::tellProgress);
   connect(&job_, &Job::ended, this, &LinearizePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &LinearizePage::tellStatus);
@@ -61,7 +60,10 @@ void LinearizePage::look() {
 }
 
 StepStatus LinearizePage::status() const {
-  if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction()))};
+  if (isMeasuring() && session_.isScreenMissing())
+    return {StepState::busy, tr("Screen unplugged"), result_.has_value(), true};
+  if (isMeasuring())
+    return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), result_.has_value()};
   switch (session_.progress(calibration::Stage::linearization)) {
     case calibration::StageProgress::done:
       if (result_ && !result_->additivityError.empty())
@@ -93,10 +95,10 @@ QString LinearizePage::hint() const {
 void LinearizePage::updateCommands() {
   const bool free = session_.areDevicesFree() && session_.mayMeasure();
   next_->show(addsUp() ? tr("Plan acquisition") : tr("Continue anyway"));
-  measure_->show(tr("Measure response"), !isMeasuring() && free);
+  measure_->setGlyph(isStale() ? Icon::retry : Icon::play);
+  measure_->show(isStale() ? tr("Measure again") : tr("Measure response"), !isMeasuring() && free);
   stop_->show(tr("Stop"), !job_.isStopping());
   again_->show(tr("Measure again"), free);
-  renew_->show(tr("Measure again"), session_.mayMeasure());
   retry_->show(tr("Try again"));
   goOn_->show(tr("Go on now"));
 }
@@ -119,11 +121,18 @@ std::optional<double> LinearizePage::progress() const {
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
-  if (isMeasuring() ||
-      session_.progress(calibration::Stage::linearization) != calibration::StageProgress::stale)
-    return std::nullopt;
+  if (isMeasuring() || !isStale()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),
-                tr("They still work and stay until the new ones are measured."), renew_};
+                tr("They still work and stay until the new ones are measured.")};
+}
+
+bool LinearizePage::isStale() const {
+  return session_.progress(calibration::Stage::linearization) == calibration::StageProgress::stale;
+}
+
+QString LinearizePage::whyLocked() const {
+  if (isMeasuring()) return tr("Measuring with these settings. Stop to change them.");
+  return session_.whyLocked(step());
 }
 
 std::optional<double> LinearizePage::seconds() const {
@@ -144,12 +153,12 @@ bool LinearizePage::addsUp() const {
 }
 
 void LinearizePage::setLevels(int levels) {
-  if (levels == this->levels()) return;
+  if (levels == this->levels() || !whyLocked().isEmpty()) return tellSettings();
   changeUndoably(tr("Levels"), this->levels(), levels, [this](int wanted) { keepLevels(wanted); });
 }
 
 void LinearizePage::keepLevels(int levels) {
-  if (isMeasuring()) return;
+  if (!whyLocked().isEmpty()) return tellSettings();
   pipeline::CalibrateSettings settings = session_.settings();
   settings.linearization.levels = levels;
   try {
@@ -161,7 +170,7 @@ void LinearizePage::keepLevels(int levels) {
 
 void LinearizePage::measure(bool again) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
-  lease_ = session_.leaseDevices(stepName);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));

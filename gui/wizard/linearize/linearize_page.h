@@ -30,6 +30,7 @@ class LinearizePage : public DevicePage {
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
+  QString whyLocked() const override;
   void finish() override;
 
   bool isMeasuring() const { return job_.isRunning(); }
@@ -57,7 +58,9 @@ class LinearizePage : public DevicePage {
   void look();
   void ended();
 
-  PageCommand *next_, *measure_, *stop_, *again_, *renew_, *retry_, *goOn_;
+  bool isStale() const;
+
+  PageCommand *next_, *measure_, *stop_, *again_, *retry_, *goOn_;
   DeviceLease lease_;
   RoomQuestion room_;
   Job job_;  // ends before what its work uses

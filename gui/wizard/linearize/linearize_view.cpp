@@ -124,6 +124,7 @@ QWidget* stageOf(LinearizePage& model) {
 QWidget* inspectorOf(LinearizePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
+  column->addWidget(consentWidget(model));
   column->addWidget(labelOf(LinearizePage::tr("Result"), "section"));
   auto* adds = new Remark;
   auto* linear = new Remark;
@@ -140,19 +141,25 @@ QWidget* inspectorOf(LinearizePage& model) {
   auto* row = new QHBoxLayout;
   row->addWidget(labelOf(LinearizePage::tr("Levels a colour"), "secondary"), 1);
   auto* levels = new QComboBox;
+  levels->setObjectName("levels");
   levels->setAccessibleName(LinearizePage::tr("Levels a colour"));
   for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
   row->addWidget(levels);
   column->addLayout(row);
-  column->addWidget(consentWidget(model));
+  QLabel* locked = labelOf({}, "note");
+  locked->setObjectName("why-locked");
+  column->addWidget(locked);
   column->addStretch(1);
   QObject::connect(levels, &QComboBox::activated, &model,
                    [&model, levels] { model.setLevels(levels->currentData().toInt()); });
 
-  auto refresh = [&model, adds, linear, rises, findings, exposures, levels] {
+  auto refresh = [&model, adds, linear, rises, findings, exposures, levels, locked] {
     using Kind = Remark::Kind;
     levels->setCurrentIndex(levels->findData(model.levels()));
-    levels->setEnabled(!model.isMeasuring());
+    const QString why = model.whyLocked();
+    levels->setEnabled(why.isEmpty());
+    locked->setText(why);
+    locked->setVisible(!why.isEmpty());
     bool known = model.result() && !model.isMeasuring();
     linear->setVisible(known);
     rises->setVisible(known);

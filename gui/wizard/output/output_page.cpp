@@ -11,6 +11,7 @@
 #include "output/default_picture.h"
 #include "output/installation.h"
 #include "relucent/base/error.h"
+#include "wizard/devices/stopped_early.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent::gui {
@@ -26,6 +27,11 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   black_ = addCommand(
       Icon::black, [this] { setBlack(!isBlack()); }, QKeySequence("Ctrl+B"));
   close_ = addCommand(Icon::stop, [this] { close(); });
+  prove_ = addCommand(Icon::camera, [this] { verify(); });
+  checkDrift_ = addCommand(Icon::drift, [this] { checkDrift(); });
+  measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
+  aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
+  goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     close();
     projection_.mirrorProjector(projector());
@@ -85,6 +91,7 @@ void OutputPage::enter() {
 }
 
 StepStatus OutputPage::status() const {
+  if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
@@ -95,11 +102,24 @@ QString OutputPage::hint() const {
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
-  if (isOpen() && isInstalled())
-    return tr("Installed: the show starts at the next log-in. Hold A to compare.");
-  if (isOpen())
-    return proof_.proof() ? tr("Playing. Hold A to compare.")
-                          : tr("Take a verification photograph, or install without proof.");
+  if (isOpen()) {
+    switch (proof_.next()) {
+      case OutputProof::Next::photograph:
+        return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
+                             : tr("Take a verification photograph, or install without proof.");
+      case OutputProof::Next::checkDrift:
+        return needsConsent()
+                   ? tr("Confirm that the room is clear.")
+                   : tr("The surface does not look as predicted. Find out whether something moved.");
+      case OutputProof::Next::measureAgain:
+        return tr("Something has changed since it was measured. Measure again, then install.");
+      case OutputProof::Next::aimAgain:
+        return tr("Camera or projector stand elsewhere. Aim again, then measure again.");
+      case OutputProof::Next::install:
+        return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
+                             : tr("Playing. Hold A to compare.");
+    }
+  }
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
 }
@@ -107,19 +127,55 @@ QString OutputPage::hint() const {
 void OutputPage::updateCommands() {
   open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
                                      !projection_.isOpening() && session_.areDevicesFree());
-  install_->show(isInstalled()    ? tr("Install again")
-                 : proof_.proof() ? tr("Install show")
-                                  : tr("Install without proof"),
+  const bool isProved = proof_.next() == OutputProof::Next::install;
+  install_->show(isInstalled()                      ? tr("Install again")
+                 : isProved                         ? tr("Install show")
+                 : proof_.proof() || proof_.drift() ? tr("Install anyway")
+                                                    : tr("Install without proof"),
                  !playlist_.isEmpty());
+  prove_->show(tr("Take verification photograph"), proof_.isPossible());
+  checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
+  measureAgain_->show(tr("Measure again"));
+  aimAgain_->show(tr("Aim again"));
+  goOnMeasuring_->show(goOnMeasuringText());
   freeze_->setGlyph(isFrozen() ? Icon::play : Icon::pause);
   freeze_->show(isFrozen() ? tr("Play") : tr("Freeze"));
   black_->show(isBlack() ? tr("Show again") : tr("Black"));
   close_->show(tr("Close output"));
 }
 
+PageCommand* OutputPage::primary() const {
+  if (!isOpen()) return open_;
+  switch (proof_.next()) {
+    case OutputProof::Next::photograph:
+      return prove_;
+    case OutputProof::Next::checkDrift:
+      return checkDrift_;
+    case OutputProof::Next::measureAgain:
+      return measureAgain_;
+    case OutputProof::Next::aimAgain:
+      return aimAgain_;
+    case OutputProof::Next::install:
+      break;
+  }
+  return install_;
+}
+
 std::vector<PageCommand*> OutputPage::secondary() const {
   if (!isOpen()) return {};
-  return {freeze_, black_, close_};
+  if (primary() == install_) return {freeze_, black_, close_};
+  return {freeze_, black_, close_, install_};
+}
+
+bool OutputPage::needsConsent() const {
+  return isOpen() && proof_.next() == OutputProof::Next::checkDrift && !proof_.mayFlash();
+}
+
+std::optional<Banner> OutputPage::banner() const {
+  if (isScreenLost())
+    return Banner{Banner::Kind::amber, tr("The projector's screen is unplugged"),
+                  tr("Nothing is lost. Plug it in again: the show comes back by itself.")};
+  return stoppedEarly(session_, goOnMeasuring_);
 }
 
 std::optional<double> OutputPage::progress() const {

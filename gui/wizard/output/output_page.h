@@ -31,8 +31,9 @@ class OutputPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
-  bool hasRemedy() const override { return projectorWithoutScreen().has_value(); }
-  PageCommand* primary() const override { return isOpen() ? install_ : open_; }
+  bool hasRemedy() const override { return projectorWithoutScreen().has_value() || needsConsent(); }
+  PageCommand* primary() const override;
+  std::optional<Banner> banner() const override;
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
@@ -100,6 +101,8 @@ class OutputPage : public DevicePage {
   void updateCommands() override;
 
  private:
+  bool needsConsent() const;
+  bool isScreenLost() const { return isOpen() && projectorWithoutScreen().has_value(); }
   void listScreens();
   void detectInstalledShow();
   std::optional<std::size_t> projectorWithoutScreen() const;
@@ -118,6 +121,8 @@ class OutputPage : public DevicePage {
   void tell(const Failure& failure);
 
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
+  PageCommand *prove_, *checkDrift_, *measureAgain_, *aimAgain_;  // what comes before installing
+  PageCommand* goOnMeasuring_;                                    // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;
   OutputProjection projection_;

@@ -70,7 +70,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     drift_.reset();
     Q_EMIT changed();
   });
-  connect(&session_, &Session::stepsChanged, this, &OutputProof::dropOutdatedProof);
+  connect(&session_, &Session::stepsChanged, this, &OutputProof::dropOutdated);
   connect(&job_, &Job::progressed, this, &OutputProof::progressed);
   connect(&job_, &Job::ended, this, &OutputProof::finished);
 }
@@ -85,11 +85,23 @@ bool OutputProof::holds(const Proof& proof) const {
   return proof.content == session_.settings().content && proof.measured == measurementOf(session_);
 }
 
-void OutputProof::dropOutdatedProof() {
-  if (!proof_ || !session_.isOpen()) return;
-  if (holds(*proof_)) return;
-  proof_ = nullptr;
-  Q_EMIT changed();
+void OutputProof::dropOutdated() {
+  if (!session_.isOpen()) return;
+  const bool isProofOld = proof_ && !holds(*proof_),
+             isDriftOld = drift_ && driftOf_ != measurementOf(session_);
+  if (isProofOld) proof_ = nullptr;
+  if (isDriftOld) drift_.reset();
+  if (isProofOld || isDriftOld) Q_EMIT changed();
+}
+
+OutputProof::Next OutputProof::next() const {
+  using acquisition::Verdict;
+  if (drift_ && drift_->judgement.verdict == Verdict::startAgain) return Next::aimAgain;
+  if (drift_ && drift_->judgement.verdict == Verdict::remeasure) return Next::measureAgain;
+  if (!proof_) return Next::photograph;
+  if (proof_->isAsPredicted()) return Next::install;
+  // What was measured holds: something was in the way of that photograph.
+  return drift_ ? Next::photograph : Next::checkDrift;
 }
 
 void OutputProof::start(Work work, Job::Work job) {
@@ -158,7 +170,10 @@ void OutputProof::finished() {
   lease_.release();
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
-  if (done && found->drift) drift_ = std::move(found->drift);
+  if (done && found->drift) {
+    drift_ = std::move(found->drift);
+    driftOf_ = measurementOf(session_);
+  }
   Q_EMIT changed();
   Q_EMIT ended(work_);
   if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);

@@ -3,6 +3,7 @@
 
 #include <QDateTime>
 #include <QImage>
+#include <algorithm>
 #include <functional>
 
 #include "jobs/job.h"
@@ -22,8 +23,11 @@ struct Proof {
   pipeline::ContentSettings content;
   std::string measured;
 
-  /// Within twice of what was predicted: nothing has moved.
-  bool isAsPredicted() const { return figures.after.measured.deltaE <= 2.0 * figures.after.predicted.deltaE; }
+  /// Within twice of what was predicted, or too close to the wanted picture for anybody to see a difference
+  /// (Delta E 00 of 1): nothing has moved.
+  bool isAsPredicted() const {
+    return figures.after.measured.deltaE <= std::max(2.0 * figures.after.predicted.deltaE, 1.0);
+  }
 };
 
 /// What can be proved of a venue: by a photograph of the content, by photographs of the test patterns, and on
@@ -48,6 +52,9 @@ class OutputProof : public QObject {
 
   const std::shared_ptr<const Proof>& proof() const { return proof_; }
   const std::optional<pipeline::VerifyResult>& drift() const { return drift_; }
+  /// What is to be done next to prove the venue, or about what was found.
+  enum class Next { photograph, install, checkDrift, measureAgain, aimAgain };
+  Next next() const;
 
   /// `picture`: a file or resource.
   void photograph(const QString& picture);
@@ -71,7 +78,7 @@ class OutputProof : public QObject {
   void finished();
   void recall();
   bool holds(const Proof& proof) const;
-  void dropOutdatedProof();
+  void dropOutdated();
 
   Session& session_;
   StepName step_;
@@ -80,6 +87,7 @@ class OutputProof : public QObject {
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
   std::optional<pipeline::VerifyResult> drift_;
+  std::string driftOf_;  // the measurement
   struct Found;
   std::shared_ptr<Found> found_;  // by the job
 };

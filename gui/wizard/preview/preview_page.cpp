@@ -51,6 +51,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, tr("The picture of before stays.")});
           }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
+  goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     settings_ = session_.settings().content;
@@ -186,7 +187,9 @@ std::optional<compensation::Corners> PreviewPage::corners() const {
 /// A place where nothing can be shown is no failure: the sentence stands beside the picture.
 void PreviewPage::refuse(const Failure& failure) {
   if (failure.kind == ErrorKind::input)
-    problem_ = failure.what + ' ' + failure.advice;
+    problem_ = session_.stoppedAt() > 0
+                   ? tr("What was measured is too coarse to place content. Go on measuring.")
+                   : failure.what + ' ' + failure.advice;
   else
     Q_EMIT failed({failure, tr("What is measured is safe.")});
   tellSettings();
@@ -217,7 +220,7 @@ StepStatus PreviewPage::status() const {
             tr("Preparing")};
   switch (session_.progress(calibration::Stage::content)) {
     case calibration::StageProgress::done:
-      return {StepState::done,
+      return {doneOn(session_),
               tr("%1 in reach").arg(percentText(session_.figures<calibration::Stage::content>()->reachable))};
     case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
@@ -232,6 +235,7 @@ QString PreviewPage::hint() const {
   if (!engine_)
     return session_.areDevicesFree() ? tr("The preview is not prepared.")
                                      : tr("The devices are in use at %1.").arg(session_.devicesUserName());
+  if (const QString why = whyLocked(); !why.isEmpty()) return why;
   if (!problem_.isEmpty()) return problem_;
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
@@ -239,7 +243,8 @@ QString PreviewPage::hint() const {
 }
 
 void PreviewPage::updateCommands() {
-  accept_->show(tr("Go to output"), preview_ != nullptr);
+  goOnMeasuring_->show(goOnMeasuringText());
+  accept_->show(tr("Go to output"), preview_ != nullptr && whyLocked().isEmpty());
 }
 
 std::optional<double> PreviewPage::progress() const {

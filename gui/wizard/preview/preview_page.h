@@ -3,6 +3,7 @@
 
 #include "jobs/job.h"
 #include "jobs/latest.h"
+#include "wizard/devices/stopped_early.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/preview/content_preview.h"
 #include "wizard/session/session.h"
@@ -27,6 +28,8 @@ class PreviewPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
+  std::optional<Banner> banner() const override { return stoppedEarly(session_, goOnMeasuring_); }
+  QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<double> progress() const override;
   void enter() override;
@@ -69,7 +72,7 @@ class PreviewPage : public PageModel {
   void accept();
 
   Session& session_;
-  PageCommand* accept_;
+  PageCommand *accept_, *goOnMeasuring_;
   DeviceLease lease_;
   Job job_;
   pipeline::ContentSettings settings_;

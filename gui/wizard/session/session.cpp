@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/session/session.h"
 
+#include <QDateTime>
+#include <QDir>
 #include <QPointer>
+#include <algorithm>
 #include <utility>
 
 #include "output/window_projector.h"
@@ -320,6 +323,24 @@ int Session::photographsKept(calibration::Stage stage) const {
   return count;
 }
 
+int Session::photographsSince(calibration::Stage stage) const {
+  const auto& stored = result(stage);
+  if (!stored) return 0;
+  // Stored to the second, in which the last photographs of before may have been taken.
+  const QDateTime when =
+      QDateTime::fromString(QString::fromStdString(stored->stored), Qt::ISODate).addSecs(1);
+  const QString begin = QString::fromUtf8(nameOf(stage)) + '-';
+  const QDir shots(QString::fromStdString((path_ / "shots").string()));
+  const QFileInfoList files = shots.entryInfoList({begin + '*'}, QDir::Files);
+  return static_cast<int>(std::count_if(
+      files.begin(), files.end(), [&when](const QFileInfo& file) { return file.lastModified() > when; }));
+}
+
+int Session::stoppedAt() const {
+  const auto& measured = figures<calibration::Stage::acquisition>();
+  return measured ? measured->stoppedAt : 0;
+}
+
 void Session::change(const std::function<void(calibration::CalibrationFolder&)>& write) {
   {
     calibration::CalibrationFolder folder =
@@ -377,11 +398,17 @@ void Session::setRoomLight(const RoomLight& light) {
   if (std::exchange(roomLight_, light) != light) Q_EMIT roomLightChanged();
 }
 
-DeviceLease Session::leaseDevices(const StepName& step) {
+DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
+  deviceWork_ = work;
   Q_EMIT devicesChanged();
   return DeviceLease(*this);
+}
+
+QString Session::whyLocked(const StepName& step) const {
+  if (!devicesUser_ || *devicesUser_ == step) return {};
+  return tr("%1 is at work. What is chosen here can be kept when that has ended.").arg(devicesUserName());
 }
 
 void Session::takeBackDevices() {

@@ -82,6 +82,12 @@ struct RoomLight {
   bool operator==(const RoomLight&) const = default;
 };
 
+/// What a step uses the devices for.
+enum class DeviceWork {
+  brief,       // begun again in no time
+  measurement  // minutes to hours
+};
+
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
 /// locked only while something is read or written, so that a show can read it beside the wizard.
 class Session : public QObject {
@@ -131,6 +137,10 @@ class Session : public QObject {
   Rasters projectorRasters() const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
   int photographsKept(calibration::Stage stage) const;
+  /// Those taken since its result was stored: of a measurement that was begun again and has not ended.
+  int photographsSince(calibration::Stage stage) const;
+  /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
+  int stoppedAt() const;
 
   /// Throws: Error{disk}.
   void changeSettings(const pipeline::CalibrateSettings& settings);
@@ -193,7 +203,12 @@ class Session : public QObject {
   /// In the language of the moment; empty: nobody uses them.
   QString devicesUserName() const { return devicesUser_ ? devicesUser_->text() : QString(); }
   /// For `step`, until the lease ends. Contract: areDevicesFree().
-  DeviceLease leaseDevices(const StepName& step);
+  DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief);
+  /// Work under way that takes long and is not to be ended by the way.
+  bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
+  /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
+  /// can.
+  QString whyLocked(const StepName& step) const;
 
  Q_SIGNALS:
   /// Another calibration, or none.
@@ -236,6 +251,7 @@ class Session : public QObject {
   std::string acquired_;  // when the result was stored that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
+  DeviceWork deviceWork_ = DeviceWork::brief;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false;

@@ -6,6 +6,7 @@
 
 #include "relucent/transport/cut_estimate.h"
 #include "views/number_text.h"
+#include "wizard/devices/stopped_early.h"
 
 namespace relucent::gui {
 namespace {
@@ -73,12 +74,14 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, {}});
           }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
+  goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     cut_ = session_.settings().threshold;
     shareOfRow_ = cut_.shareOfRowMax > 0.0f;
     absoluteBefore_ = shareBefore_ = 0.0f;
     forget();
   });
+  connect(&session_, &Session::devicesChanged, this, &ThresholdPage::tellStatus);
   for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
     connect(&session_, signal, this, [this] {
       adopt();
@@ -121,7 +124,7 @@ void ThresholdPage::compute() {
 StepStatus ThresholdPage::status() const {
   switch (session_.progress(calibration::Stage::threshold)) {
     case calibration::StageProgress::done:
-      return {StepState::done,
+      return {doneOn(session_),
               tr("%1 of light kept")
                   .arg(percentText(session_.figures<calibration::Stage::threshold>()->energyKept))};
     case calibration::StageProgress::stale:
@@ -135,17 +138,19 @@ StepStatus ThresholdPage::status() const {
 QString ThresholdPage::hint() const {
   if (session_.acquisitionFailure()) return session_.acquisitionFailure()->what;
   if (!whole_ || !kept_) return tr("Reading the light transport");
+  if (const QString why = whyLocked(); !why.isEmpty()) return why;
   if (kept_->energyKept < leastKept) return tr("Below 95 % of the light, bounces are lost.");
   return tr("Next: groups of pixels that can be solved on their own");
 }
 
 void ThresholdPage::updateCommands() {
-  accept_->show(tr("Group into clusters"), kept_.has_value());
+  goOnMeasuring_->show(goOnMeasuringText());
+  accept_->show(tr("Group into clusters"), kept_.has_value() && whyLocked().isEmpty());
 }
 
 std::optional<Banner> ThresholdPage::banner() const {
   if (session_.progress(calibration::Stage::threshold) != calibration::StageProgress::stale)
-    return std::nullopt;
+    return stoppedEarly(session_, goOnMeasuring_);
   return Banner{Banner::Kind::amber, tr("The threshold was chosen for an earlier measurement"),
                 tr("Look at it again, then go on.")};
 }

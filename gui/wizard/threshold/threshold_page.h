@@ -25,6 +25,7 @@ class ThresholdPage : public DevicePage {
   }
   StepStatus status() const override;
   QString hint() const override;
+  QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override { session_.wantAcquisition(); }
@@ -78,7 +79,7 @@ class ThresholdPage : public DevicePage {
   void compute();
   void accept();
 
-  PageCommand* accept_;
+  PageCommand *accept_, *goOnMeasuring_;
   std::shared_ptr<const transport::Acquisition> adopted_;
   transport::ThresholdSettings cut_;
   bool shareOfRow_ = false;

@@ -7,6 +7,7 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
+#include "wizard/frame/end_question.h"
 
 namespace relucent::gui {
 namespace {
@@ -25,6 +26,10 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
+  end_ = addCommand(Icon::stop, [this] {
+    if (auto work = std::exchange(afterwards_, {})) work();
+  });
+  stay_ = addCommand(Icon::play, [this] { afterwards_ = {}; });
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = {
       {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
@@ -160,15 +165,25 @@ bool VenuePage::isOpenNow(const RecentVenue& venue) const {
 }
 
 void VenuePage::open(const QString& path) {
+  QFileInfo file(path);
+  bool within = file.isFile() && file.fileName() == manifestName;
+  QDir folder(within ? file.path() : path);
+  if (folder.exists() && !folder.exists(manifestName)) return reportNoVenue(folder);
+  whenNothingEnds([this, venue = folder.path()] { openNow(venue); });
+}
+
+void VenuePage::openNow(const QString& folder) {
   try {
-    QFileInfo file(path);
-    bool within = file.isFile() && file.fileName() == manifestName;
-    QDir folder(within ? file.path() : path);
-    if (folder.exists() && !folder.exists(manifestName)) return reportNoVenue(folder);
-    session_.open(folder.path().toStdString());
+    session_.open(folder.toStdString());
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder.")});
   }
+}
+
+void VenuePage::whenNothingEnds(std::function<void()> work) {
+  if (!session_.isMeasuring()) return work();
+  afterwards_ = std::move(work);
+  Q_EMIT failed(endQuestion(session_, end_, stay_));
 }
 
 void VenuePage::reportNoVenue(const QDir& folder) {
@@ -255,6 +270,10 @@ void VenuePage::useScreen() {
 
 void VenuePage::begin() {
   if (mode_ == Mode::screen || !problem().isEmpty()) return;
+  whenNothingEnds([this] { beginNow(); });
+}
+
+void VenuePage::beginNow() {
   try {
     QDir().mkpath(parent_);
     bool clear = roomClear_;  // begun, the page starts over

@@ -55,7 +55,8 @@ class VenuePage : public PageModel {
   void setMode(Mode mode);
   QList<RecentVenue> recent() const { return recent_.list(); }
   bool isOpenNow(const RecentVenue& venue) const;
-  /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened.
+  /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened. Where a measurement
+  /// would end by it, asks first.
   void open(const QString& path);
 
   const std::vector<RehearsalVenue>& venues() const { return venues_; }
@@ -120,6 +121,10 @@ class VenuePage : public PageModel {
   Problem firstProblem() const;
   pipeline::CalibrateSettings wanted() const;
   void begin();
+  void openNow(const QString& folder);
+  void beginNow();
+  /// At once, or once somebody has agreed to the end of the measurement that is under way.
+  void whenNothingEnds(std::function<void()> work);
   void useScreen();
   void reportNoVenue(const QDir& folder);
   void suggestName();
@@ -138,8 +143,10 @@ class VenuePage : public PageModel {
   QString venueName_, parent_;
   QString usualFolder_;
   bool roomClear_ = false;
-  bool named_ = false;  // by the user
+  bool named_ = false;                // by the user
+  std::function<void()> afterwards_;  // what the end of the measurement is asked for
   PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
+  PageCommand *end_, *stay_;  // of that question
 };
 
 }  // namespace relucent::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 1366x768 and 1920x1080,
-// from a finished calibration, which is changed: give it a copy. To be run on an X server of its own:
+// screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
+// 1920x1080, from a finished calibration, which is changed: give it a copy. To be run on an X server of its
+// own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
 #include <QApplication>
 #include <QDialog>
@@ -60,7 +61,7 @@ class Photographs {
  private:
   void take(const QString& page, QWidget& window) {
     for (auto [look, name] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")})
-      for (QSize size : {QSize(1366, 768), QSize(1920, 1080)}) {
+      for (QSize size : {QSize(960, 540), QSize(1366, 768), QSize(1920, 1080)}) {
         Theme::instance().apply(look);
         window.resize(size);
         QCoreApplication::processEvents();

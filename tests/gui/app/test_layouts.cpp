@@ -31,6 +31,7 @@ namespace {
 
 constexpr int patience = 120000;  // milliseconds; what is waited for takes seconds
 constexpr QSize screen(1366, 768);
+constexpr QSize halfOfFullHd(960, 540);  // on a desktop that scales by two
 constexpr int titleBar = 40;
 
 void settle() {
@@ -41,6 +42,21 @@ void settle() {
 }
 
 }  // namespace
+
+/// What is missing of a widget in the window, or of as much of it as its scroll areas have room for.
+QString hiddenOf(const QWidget& widget) {
+  QSize room = widget.size();
+  for (const QWidget* around = widget.parentWidget(); around != nullptr; around = around->parentWidget())
+    if (const auto* scroll = qobject_cast<const QScrollArea*>(around))
+      room = room.boundedTo(scroll->viewport()->size());
+  const QSize seen = widget.visibleRegion().boundingRect().size();
+  if (seen == room) return {};
+  return QString("%1x%2 of %3x%4 in sight")
+      .arg(seen.width())
+      .arg(seen.height())
+      .arg(room.width())
+      .arg(room.height());
+}
 
 class TestLayouts : public QObject {
   Q_OBJECT
@@ -80,6 +96,9 @@ class TestLayouts : public QObject {
     const MainWindow& window = wizard_->window();
     QStringList faults = faultsOf(window, language, where);
     if (window.size() != screen) faults << language + ", " + where + ": the window does not fit the screen";
+    for (const auto* scroll : window.findChildren<QScrollArea*>("stage"))
+      if (scroll->isVisible() && (scroll->widget()->size() != scroll->viewport()->size()))
+        faults << language + ", " + where + ": the stage does not fit the screen";
     return faults;
   }
   QStringList seen(QDialog& dialog, const QString& language, const QString& where) {
@@ -101,6 +120,54 @@ class TestLayouts : public QObject {
     });
   }
   void page(const QString& state) { pages({steps().current()}, state); }
+  /// The page as it is now, by Tab from one end to the other: whatever has the focus is in sight.
+  QStringList notReached(const QString& where) {
+    MainWindow& window = wizard_->window();
+    QStringList faults;
+    if (window.size() != halfOfFullHd) faults << where + ": the window does not fit";
+    for (const char* name : {"primary", "back", "hint"}) {
+      const auto* part = window.findChild<QWidget*>(name);
+      if (part->isVisibleTo(&window) && !hiddenOf(*part).isEmpty())
+        faults << QString("%1: %2, %3").arg(where, name, hiddenOf(*part));
+    }
+    for (const auto* scroll : window.findChildren<QScrollArea*>())
+      if (scroll->isVisible() && scroll->horizontalScrollBarPolicy() == Qt::ScrollBarAlwaysOff &&
+          scroll->widget()->width() > scroll->viewport()->width())
+        faults << where + ": what never scrolls across is too wide";
+    constexpr int mostStops = 300;
+    QSet<QWidget*> reached;
+    for (int i = 0; i < mostStops; ++i) {
+      QTest::keyClick(&window, Qt::Key_Tab);
+      QCoreApplication::processEvents();
+      QWidget* focus = window.focusWidget();
+      reached.insert(focus);
+      if (!hiddenOf(*focus).isEmpty())
+        faults << QString("%1: %2 %3, %4")
+                      .arg(where, focus->metaObject()->className(), focus->objectName(), hiddenOf(*focus));
+    }
+    for (QWidget* widget : window.findChildren<QWidget*>())
+      if (widget->isVisible() && widget->isEnabled() && (widget->focusPolicy() & Qt::TabFocus) != 0 &&
+          widget->focusProxy() == nullptr && !reached.contains(widget) &&
+          qobject_cast<QAbstractButton*>(widget) == nullptr)
+        faults << QString("%1: %2 %3 is not reached")
+                      .arg(where, widget->metaObject()->className(), widget->objectName());
+    faults.removeDuplicates();
+    return faults;
+  }
+  /// Half of Full HD is enough.
+  void reachesAll(std::initializer_list<std::size_t> wanted) {
+    wizard_->window().resize(halfOfFullHd);
+    wizard_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+    QStringList faults;
+    for (std::size_t step : wanted) {
+      steps().go(step);
+      settle();
+      faults << notReached(QString("step %1").arg(step + 1));
+    }
+    wizard_->window().resize(screen);
+    QVERIFY2(faults.isEmpty(), qPrintable(faults.join('\n')));
+  }
 
  private slots:
   void initTestCase() {
@@ -241,6 +308,7 @@ class TestLayouts : public QObject {
     wizard_->page<PreviewPage>().primary()->trigger();
     QTRY_COMPARE(steps().current(), std::size_t{7});
     pages({0, 1, 2, 3, 4, 5, 6, 7}, "done");
+    reachesAll({0, 1, 2, 3, 4, 5, 6, 7});
     threshold.setShareOfRow(true);
     Corners corners = *wizard_->page<PreviewPage>().corners();
     std::swap(corners[0], corners[1]);

@@ -24,9 +24,11 @@
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
+#include "wizard/frame/failure_dialog.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
+#include "wizard/output/proof_file.h"
 #include "wizard/preview/corner_view.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
@@ -267,6 +269,14 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<AcquirePage>().photographs() > 5, patience);
     press(QKeySequence("Ctrl+P"));
     QTRY_VERIFY(wizard_->page<AcquirePage>().isPaused());
+    // It is not ended by the way.
+    QVERIFY(!wizard_->window().close());
+    auto* question = find<FailureDialog>("");
+    QVERIFY(question != nullptr && question->isVisible());
+    QVERIFY(question->windowTitle().contains("under way"));
+    QTest::keyClick(question, Qt::Key_Escape);
+    QTRY_VERIFY(wizard_->window().findChild<FailureDialog*>() == nullptr);
+    QVERIFY(wizard_->window().isVisible() && wizard_->page<AcquirePage>().isPaused());
     press(QKeySequence("Ctrl+P"));
     QTRY_VERIFY(!wizard_->page<AcquirePage>().isPaused());
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().progress(Stage::acquisition) == StageProgress::done,
@@ -449,7 +459,9 @@ class TestWizardWindow : public QObject {
 
   void aPhotographProvesIt() {
     OutputPage& output = wizard_->page<OutputPage>();
-    QVERIFY(output.primary()->text() == OutputPage::tr("Install without proof"));
+    // The proof comes first.
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
+    QCOMPARE(output.secondary().back()->text(), OutputPage::tr("Install without proof"));
     press(QKeySequence("Ctrl+Shift+V"));
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
     const Proof& proof = *output.proof().proof();
@@ -460,7 +472,8 @@ class TestWizardWindow : public QObject {
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
     QVERIFY(output.isOpen());  // a simulated camera is in nobody's way
-    QVERIFY(output.primary()->text() == OutputPage::tr("Install show"));
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Install show"));
+    QCOMPARE(output.secondary().size(), std::size_t{3});
     click("check-drift");
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
     QVERIFY(output.proof().drift()->judgement.verdict == Verdict::stillGood);
@@ -578,6 +591,37 @@ class TestWizardWindow : public QObject {
     settings.content = other;
     wizard_->session().changeSettings(settings);
     QVERIFY(wizard_->page<OutputPage>().proof().proof() == nullptr);
+  }
+
+  /// Law: what is not as predicted is looked into before it is installed.
+  void aFailedProofLeadsToItsCause() {
+    OutputPage& output = wizard_->page<OutputPage>();
+    const std::filesystem::path folder = proofFolder(wizard_->session().path());
+    QVERIFY(loadProof(folder) != nullptr);
+    Proof proof = *loadProof(folder);
+    proof.content = wizard_->session().settings().content;
+    proof.figures.after.measured.deltaE = 1.0 + 2.0 * proof.figures.after.predicted.deltaE;
+    saveProof(proof, folder);
+    wizard_->session().open(wizard_->session().path());
+    QVERIFY(output.proof().proof() && !output.proof().proof()->isAsPredicted());
+    output.open();
+    QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Check for drift"));
+    QCOMPARE(output.secondary().back()->text(), OutputPage::tr("Install anyway"));
+    QVERIFY2(output.hint().contains("not look as predicted"), qPrintable(output.hint()));
+    QTRY_VERIFY_WITH_TIMEOUT(output.primary()->isEnabled(), patience);
+    output.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
+    // Nothing has moved: that photograph was spoilt.
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
+    // A lost screen is said wherever the show is.
+    unplug();
+    QTRY_VERIFY(output.status().isHeldUp);
+    QVERIFY(output.banner().has_value() && output.status().result != OutputPage::tr("Playing"));
+    plug();
+    QTRY_VERIFY(!output.status().isHeldUp);
+    QVERIFY(!output.banner() && output.isOpen());
+    output.close();
   }
 
   void cleanupTestCase() { wizard_.reset(); }

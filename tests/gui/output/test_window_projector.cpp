@@ -2,6 +2,7 @@
 // Runs on two screens that can be unplugged, see tests/support/with-two-screens.
 #include "output/window_projector.h"
 
+#include <QRasterWindow>
 #include <QThread>
 #include <QtTest>
 #include <atomic>
@@ -99,6 +100,29 @@ class TestWindowProjector : public QObject {
     });
     QCOMPARE(thrown, std::string());
     QCOMPARE(right, 20);
+  }
+
+  /// The wizard keeps them while it measures, also when the projector's window comes back.
+  void itNeverTakesTheKeys() {
+    QRasterWindow wizard;
+    wizard.setGeometry(screenOn("DUMMY0")->geometry());
+    wizard.show();
+    wizard.requestActivate();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard));
+    QSignalSpy taken(qGuiApp, &QGuiApplication::focusWindowChanged);
+    WindowProjector projector = made();
+    bool keeps = true;
+    QCOMPARE(onWorker([&] {
+               for (quint32 seed = 1; seed <= 3; ++seed) {
+                 projector.show(noiseOf(seed));
+                 keeps = keeps && projector.stayedVisible();
+                 projector.rest();
+               }
+             }),
+             std::string());
+    QVERIFY(keeps);
+    QCOMPARE(taken.size(), 0);
+    QCOMPARE(QGuiApplication::focusWindow(), &wizard);
   }
 
   void anUnpluggedScreenIsWaitedForAndNothingIsLost() {

@@ -117,7 +117,7 @@ class TestVenueScreen : public QObject {
     unplug();
     QVERIFY(page.banner().has_value());
     QVERIFY2(page.banner()->sentence.contains("DUMMY1"), qPrintable(page.banner()->sentence));
-    page.banner()->primary->trigger();
+    page.banner()->command->trigger();
     QVERIFY(page.mode() == VenuePage::Mode::screen);
     QVERIFY(!page.primary()->isEnabled() && !page.hint().isEmpty());
     page.openScreen().choose(choiceOf(page.openScreen().choices(), "DUMMY2"));

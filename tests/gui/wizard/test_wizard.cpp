@@ -23,12 +23,13 @@ class ScriptedPage : public PageModel {
  public:
   ScriptedPage() : PageModel({"page", "", "page"}) {}
   QString subtitle() const override { return {}; }
-  StepStatus status() const override { return {state, {}}; }
+  StepStatus status() const override { return {state, {}, hasResult}; }
   PageCommand* primary() const override { return nullptr; }
   void enter() override { ++entered; }
   void leave() override { ++left; }
   void updateCommands() override { ++updated; }
   StepState state = StepState::open;
+  bool hasResult = false;
   int entered = 0, left = 0, updated = 0;
 };
 
@@ -63,6 +64,13 @@ class TestWizard : public QObject {
     QCOMPARE(pages[2].entered, 1);
     QVERIFY(pages[2].updated > 0);  // what no signal told meanwhile
     QCOMPARE(pages[1].updated, 0);
+    // While it is measured again, what it came to before is used.
+    pages[1].state = StepState::busy;
+    QVERIFY(wizard.isLocked(2));
+    pages[1].hasResult = true;
+    QVERIFY(!wizard.isLocked(2));
+    pages[1].state = StepState::coarse;
+    QVERIFY(!wizard.isLocked(2));
     pages[1].state = StepState::failed;
     QVERIFY(wizard.isLocked(2));
     wizard.back();

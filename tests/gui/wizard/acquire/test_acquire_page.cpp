@@ -161,25 +161,68 @@ class TestAcquirePage : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QVERIFY(page.isDone());
     QVERIFY2(page.stoppedAt() > 1, qPrintable(QString::number(page.stoppedAt())));
-    QCOMPARE(page.status().state, StepState::outOfDate);
+    QCOMPARE(page.status().state, StepState::coarse);
     QVERIFY(page.status().result.contains(QString::number(page.stoppedAt())));
     QVERIFY(!page.findings().isEmpty());
     const std::optional<transport::ExpectedQuality> quality = page.expectedQuality();
     QVERIFY(quality && quality->whole >= quality->now && quality->photographs > 0 && quality->seconds > 0.0);
     const std::optional<Banner> banner = page.banner();
-    QVERIFY(banner && banner->primary && banner->primary->isEnabled());
+    QVERIFY(banner && banner->command && banner->command->isEnabled());
+    QVERIFY(banner->command != page.primary());
     for (const QString& figure : {decimalText(quality->now, 0), decimalText(quality->whole, 0),
                                   QString::number(quality->photographs)})
       QVERIFY2(banner->more.contains(figure), qPrintable(banner->more));
     const int before = page.cost().value().patterns;
     disconnect(stopping);
-    banner->primary->trigger();
+    banner->command->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QCOMPARE(page.stoppedAt(), 0);
     QCOMPARE(page.status().state, StepState::done);
     QVERIFY(!page.banner());
     QVERIFY(page.cost().value().patterns > before);
+  }
+
+  /// Law: an earlier measurement is used until the new one is ready, and how far that has come is said. There
+  /// is one way on, in the action bar.
+  void measuredAgainTheEarlierIsUsedMeanwhile() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.isDone(), patience);
+    const std::string stored = session_->result(Stage::acquisition)->stored;
+    QCOMPARE(page.secondary().size(), std::size_t{1});
+    QTest::qWait(1100);  // results are dated to the second
+    page.secondary().front()->trigger();
+    QVERIFY(page.isMeasuring() && page.status().hasResult);
+    QTRY_VERIFY_WITH_TIMEOUT(session_->photographsSince(Stage::acquisition) > 3, patience);
+    page.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QCOMPARE(session_->result(Stage::acquisition)->stored, stored);
+    QVERIFY(page.status().state == StepState::outOfDate && page.photographsOfNew() > 3);
+    const Banner banner = page.banner().value();
+    QVERIFY2(banner.more.contains(QString::number(page.photographsOfNew())), qPrintable(banner.more));
+    QVERIFY(banner.command == nullptr && page.primary()->isEnabled());
+    QCOMPARE(page.primary()->text(), AcquirePage::tr("Resume"));
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(page.isDone() && !page.banner() && page.photographsOfNew() == 0);
+    // Other settings: nothing of theirs is there yet.
+    page.setFineness(Fineness::fast);
+    QCOMPARE(page.primary()->text(), AcquirePage::tr("Measure again"));
+    QVERIFY(page.banner() && page.banner()->command == nullptr);
+  }
+
+  /// Law: who may not start is told why beside the button, and led there.
+  void whatStandsAgainstMeasuringIsSaid() {
+    session_->begin(folder_->filePath("venue").toStdString(), scripted());
+    AcquirePage page(*session_);
+    page.refresh();
+    QVERIFY(!page.primary()->isEnabled() && page.hasRemedy());
+    QCOMPARE(page.primary()->toolTip(), page.hint());
+    QCOMPARE(page.hint(), AcquirePage::tr("Confirm that the room is clear."));
+    session_->setRoomClear(true);
+    QVERIFY(page.primary()->isEnabled() && !page.hasRemedy());
   }
 
   /// Law: whoever waits for room is told of above the page, with what is needed, until it goes on.
@@ -197,8 +240,8 @@ class TestAcquirePage : public QObject {
     const Banner banner = page.banner().value();
     for (std::uint64_t bytes : {12'000'000ULL, 96'000'000ULL})
       QVERIFY2(banner.more.contains(bytesText(bytes)), qPrintable(banner.more));
-    QVERIFY(banner.primary->isEnabled());
-    banner.primary->trigger();
+    QVERIFY(banner.command->isEnabled());
+    banner.command->trigger();
     QCOMPARE(room->wait({session_->path(), 12'000'000, 96'000'000}), RoomWaiter::Answer::goOn);
     QCOMPARE(asks.size(), 1);
     room->over();

@@ -15,6 +15,7 @@ namespace {
 /// Below this share of the row's brightest projector pixel a leaf cannot matter beside the ridge: pairs of
 /// such leaves contribute at most its square to G, the ridge is tenths of G's diagonal.
 constexpr float nearShare = 0.01f;
+constexpr float largestCode = 32767.0f;
 
 float mean(const NearField::Value& value) {
   return (value[0] + value[1] + value[2]) / 3.0f;
@@ -48,6 +49,7 @@ NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraM
            nodes.pixels[leaves.column(entry)];
   };
   near.start.assign(leaves.rows() + 1, 0);
+  near.step.assign(leaves.rows(), 0.0f);
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
     if (!usable[row]) return;
     near.unmix[row] = regularisedUnmixing(mixing[row]);
@@ -58,20 +60,29 @@ NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraM
       brightest = std::max(brightest, brightness(row, entry));
     threshold[row] = nearShare * brightest;
     if (!(brightest > 0.0f)) return;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-      near.start[row + 1] += brightness(row, entry) >= threshold[row];
+    float largest = 0.0f;
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      if (brightness(row, entry) < threshold[row]) continue;
+      ++near.start[row + 1];
+      for (float value : unmixed(near.unmix[row], leaves.block(row, entry)))
+        largest = std::max(largest, std::abs(value));
+    }
+    near.step[row] = largest / largestCode;
   });
   for (std::size_t row = 0; row < leaves.rows(); ++row) near.start[row + 1] += near.start[row];
 
   near.node.resize(near.start.back());
-  near.value.resize(near.start.back());
+  near.code.resize(near.start.back());
   parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
     std::size_t next = near.start[row];
     if (next == near.start[row + 1]) return;
     for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
       if (brightness(row, entry) < threshold[row]) continue;
+      const NearField::Value value = unmixed(near.unmix[row], leaves.block(row, entry));
       near.node[next] = leaves.column(entry);
-      near.value[next++] = unmixed(near.unmix[row], leaves.block(row, entry));
+      for (std::size_t c = 0; c < 3; ++c)
+        near.code[next][c] = static_cast<std::int16_t>(std::lround(value[c] / near.step[row]));
+      ++next;
     }
   });
   return near;

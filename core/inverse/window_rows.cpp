@@ -33,7 +33,7 @@ Reach reachOf(std::size_t row, const NearField& near, const transport::NodeLayou
   Reach reach;
   for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
     transport::Node node = layout.node(near.node[leaf]);
-    const NearField::Value& value = near.value[leaf];
+    const NearField::Value value = near.value(row, leaf);
     float light = value[0] + value[1] + value[2];
     auto projector = static_cast<std::size_t>(node.projector);
     Size grid = tiles.size(projector);

@@ -43,7 +43,7 @@ void WindowSystem::gatherLeaves(std::span<const std::uint32_t> rows) {
   leaves_.clear();
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (std::size_t leaf = near_.start[rows[k]]; leaf < near_.start[rows[k] + 1]; ++leaf)
-      leaves_.push_back({near_.node[leaf], static_cast<std::uint32_t>(k), near_.value[leaf]});
+      leaves_.push_back({near_.node[leaf], static_cast<std::uint32_t>(k), near_.value(rows[k], leaf)});
   std::sort(leaves_.begin(), leaves_.end(), [](const Leaf& a, const Leaf& b) {
     return a.node != b.node ? a.node < b.node : a.local < b.local;
   });

@@ -195,6 +195,29 @@ class TestWindows : public QObject {
                    QString("%1 instead of %2").arg(p[3 * static_cast<std::size_t>(j) + 1]).arg(expected[j])));
   }
 
+  /// Law: every value of the near field is that of its leaf, unmixed, to half a step of the row's largest.
+  void theNearFieldIsThatOfTheLeaves() {
+    const Scene scene = makeScene({});
+    const BlockSparse& leaves = scene.transport.leaves();
+    const NearField near = nearFieldOf(scene.transport, scene.usable);
+    QVERIFY(near.node.size() > leaves.rows());
+    for (std::size_t row = 0; row < leaves.rows(); ++row) {
+      float largest = 0.0f;
+      for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
+        const std::span<const std::uint32_t> columns = leaves.columnsOf(row);
+        const auto place = std::ranges::lower_bound(columns, near.node[leaf]) - columns.begin();
+        const ColourBlock block = leaves.block(row, leaves.rowBegin(row) + static_cast<std::size_t>(place));
+        for (int c = 0; c < 3; ++c) {
+          const float expected = near.unmix[row].row(c).dot(block.col(c));
+          largest = std::max(largest, std::abs(expected));
+          QVERIFY(std::abs(near.value(row, leaf)[static_cast<std::size_t>(c)] - expected) <=
+                  0.51f * near.step[row]);
+        }
+      }
+      QVERIFY(std::abs(near.step[row] * 32767.0f - largest) <= 1e-6f * largest);
+    }
+  }
+
   void unusablePixelsHaveNoSay() {
     Scene scene = makeScene({});
     for (std::size_t i = 0; i < scene.usable.size(); i += 7) scene.usable[i] = 0;

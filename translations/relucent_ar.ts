@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>هناك قياس جارٍ</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>⁨%1⁩ في الموقع «⁨%2⁩».</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>كل اللقطات على القرص. عند فتح الموقع من جديد يُتابَع العمل من هناك.</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>إنهاؤه الآن</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>متابعة القياس</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>الأفضل الممكن، صور ثابتة</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>الكاميرا لا تستجيب</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>كل ما سبق آمن. ثبّت الكابل من طرفيه ولا تحرّك الحامل: يُتابَع العمل تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>الكاميرا صامتة</translation>
     </message>
 </context>
 <context>
@@ -182,6 +220,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>قيس على %1 ويُستخدم على %2. إن كان جهاز العرض نفسه في المكان نفسه فكل ما قيس باقٍ؛ ولقطة التحقق تبيّن ذلك.</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>أُوقف القياس عند كتل من %1 px</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>كل ما يلي خشن بالقدر نفسه. تابع القياس في أي وقت.</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>متابعة القياس</translation>
     </message>
 </context>
 <context>
@@ -2545,10 +2598,6 @@
         <translation>أُوقف عند %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>متابعة القياس</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>أُوقف القياس عند كتل من %1 px</translation>
     </message>
@@ -2685,6 +2734,45 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>حُذفت لقطات القياس الأخير: ستُلتقط كلها من جديد.</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>الشاشة مفصولة</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>في انتظار شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>كل اللقطات محفوظة. يُستخدم القياس السابق حتى يجهز الجديد.</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>لمتابعة القياس أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>يعيد التقاط كل اللقطات. ويبقى ما قيس حتى ذلك الحين.</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>لم تنتهِ إعادة القياس</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>لا لقطات جديدة بعد: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>لقطة جديدة واحدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>لقطتان جديدتان آمنتان: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>%n لقطات جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>%n لقطة جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+            <numerusform>%n لقطة جديدة آمنة: استأنف في أي وقت. حتى ذلك الحين يُستخدم القياس السابق.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>يجري القياس بهذه الإعدادات.</translation>
     </message>
 </context>
 <context>
@@ -3409,6 +3497,10 @@
         <source>Close</source>
         <translation>إغلاق</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>ما الذي ينتهي</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3737,6 +3829,14 @@
     <message>
         <source>Go on now</source>
         <translation>تابع الآن</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>الشاشة مفصولة</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>يجري القياس بهذه الإعدادات. أوقفه لتغييرها.</translation>
     </message>
 </context>
 <context>
@@ -4222,6 +4322,46 @@ projector %2</source>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps، ‏%2 ms، ‏%3 من البكسلات عند حدها</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>الشاشة مفصولة</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>أكّد أن القاعة خالية.</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>لا يبدو السطح كما كان متوقعًا. تحقّق هل تحرّك شيء.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>تغيّر شيء منذ القياس. أعد القياس ثم ثبّت.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>الكاميرا أو جهاز العرض في مكان آخر. صوّب من جديد ثم أعد القياس.</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>التثبيت رغم ذلك</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>إعادة القياس</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>إعادة التصويب</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>شاشة جهاز العرض غير موصولة</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>لم يُفقد شيء. أعد توصيلها، فيعود العرض تلقائيًا.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4538,6 +4678,17 @@ projector %2</source>
         <source>Uncorrected, too</source>
         <translation>غير مصحَّح أيضًا</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>ما قيس أخشن من أن يُوضع عليه محتوى. تابع القياس.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4686,6 +4837,10 @@ projector %2</source>
         <source>%1 of full light, changed</source>
         <translation>%1 من الضوء الكامل، تغيّر</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>⁨%1⁩، صامتة</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4724,6 +4879,10 @@ projector %2</source>
     <message>
         <source>No venue open</source>
         <translation>لا يوجد موقع مفتوح</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>أُوقف مبكرًا</translation>
     </message>
 </context>
 <context>

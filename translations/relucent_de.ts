@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>Eine Messung läuft</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>%1 am Spielort „%2“.</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>Jedes Foto ist auf der Festplatte. Wird der Spielort wieder geöffnet, geht es dort weiter.</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>Vorerst beenden</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Weiter messen</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Bestmöglich, Standbilder</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>Die Kamera antwortet nicht</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Alles Bisherige ist sicher. Drücken Sie das Kabel an beiden Enden fest und bewegen Sie das Stativ nicht: Es geht von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Kamera stumm</translation>
     </message>
 </context>
 <context>
@@ -178,6 +216,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>Gemessen an %1, verwendet an %2. Ist es derselbe Projektor am selben Ort, gilt alles Gemessene weiter; ein Prüffoto zeigt es.</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>Die Messung wurde bei Blöcken von %1 px gestoppt</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>Alles Folgende ist ebenso grob. Messen Sie jederzeit weiter.</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Weiter messen</translation>
     </message>
 </context>
 <context>
@@ -2489,10 +2542,6 @@
         <translation>Gestoppt bei %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Weiter messen</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>Die Messung wurde bei Blöcken von %1 px gestoppt</translation>
     </message>
@@ -2621,6 +2670,41 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>Die Fotos der letzten Messung wurden entfernt: Alle werden neu aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Bildschirm getrennt</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>Wartet auf den Bildschirm des Projektors.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>Jedes Foto wird gespeichert. Die frühere Messung gilt, bis die neue fertig ist.</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>Um weiter zu messen, bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>Nimmt jedes Foto neu auf. Bis dahin bleibt das Gemessene.</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>Die neue Messung ist nicht zu Ende</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n neues Foto ist sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
+            <numerusform>%n neue Fotos sind sicher: Setzen Sie jederzeit fort. Bis dahin gilt die frühere Messung.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>Mit diesen Einstellungen wird gemessen.</translation>
     </message>
 </context>
 <context>
@@ -3321,6 +3405,10 @@
         <source>Close</source>
         <translation>Schließen</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>Was endet</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3637,6 +3725,14 @@
     <message>
         <source>Go on now</source>
         <translation>Jetzt weiter</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Bildschirm getrennt</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>Mit diesen Einstellungen wird gemessen. Stoppen Sie, um sie zu ändern.</translation>
     </message>
 </context>
 <context>
@@ -4118,6 +4214,46 @@ Projektor %2</translation>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps, %2 ms, %3 der Pixel am Anschlag</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Bildschirm getrennt</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>Die Fläche sieht nicht aus wie vorhergesagt. Prüfen Sie, ob sich etwas bewegt hat.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>Seit der Messung hat sich etwas verändert. Messen Sie neu, installieren Sie dann.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>Kamera oder Projektor stehen anders. Richten Sie neu aus, messen Sie dann neu.</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>Trotzdem installieren</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Neu messen</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>Neu ausrichten</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Der Bildschirm des Projektors ist getrennt</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>Nichts ist verloren. Schließen Sie ihn wieder an: Die Show kommt von selbst zurück.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4434,6 +4570,17 @@ Projektor %2</translation>
         <source>Uncorrected, too</source>
         <translation>Ebenfalls unkorrigiert</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Was gemessen wurde, ist zu grob, um Inhalte zu platzieren. Messen Sie weiter.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4578,6 +4725,10 @@ Projektor %2</translation>
         <source>%1 of full light, changed</source>
         <translation>%1 des vollen Lichts, verändert</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1, stumm</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4616,6 +4767,10 @@ Projektor %2</translation>
     <message>
         <source>No venue open</source>
         <translation>Kein Spielort offen</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>vorzeitig gestoppt</translation>
     </message>
 </context>
 <context>

@@ -130,6 +130,13 @@
             <numerusform>%1 dB expected, about %2 dB with %n more photographs, %3. Go on any time, if nothing has moved.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n new photograph is safe: resume any time. Until then the earlier measurement is used.</numerusform>
+            <numerusform>%n new photographs are safe: resume any time. Until then the earlier measurement is used.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraPage</name>

@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>Hay una medición en curso</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>%1 en el lugar «%2».</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>Todas las fotografías están en el disco. Al abrir de nuevo el lugar, se sigue desde ahí.</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>Terminarla por ahora</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Seguir midiendo</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Lo mejor posible, imágenes fijas</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La cámara no responde</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Todo lo hecho está a salvo. Apriete el cable en ambos extremos y no mueva el trípode: sigue por sí solo.</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Cámara sin respuesta</translation>
     </message>
 </context>
 <context>
@@ -178,6 +216,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>Medido en %1, usado en %2. Si es el mismo proyector en el mismo sitio, todo lo medido sigue valiendo; una fotografía de verificación lo muestra.</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La medición se detuvo en bloques de %1 px</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>Todo lo que sigue es igual de basto. Siga midiendo en cualquier momento.</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Seguir midiendo</translation>
     </message>
 </context>
 <context>
@@ -2489,10 +2542,6 @@
         <translation>Detenido en %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Seguir midiendo</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>La medición se detuvo en bloques de %1 px</translation>
     </message>
@@ -2621,6 +2670,41 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>Las de la última medición se eliminaron: se toman todas de nuevo.</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Pantalla desconectada</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>Esperando la pantalla del proyector.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>Cada fotografía se guarda. La medición anterior se usa hasta que esté la nueva.</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>Para seguir midiendo, confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>Toma de nuevo todas las fotografías. Hasta entonces se conserva lo medido.</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nueva medición no ha terminado</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n fotografía nueva está a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
+            <numerusform>%n fotografías nuevas están a salvo: reanude en cualquier momento. Hasta entonces se usa la medición anterior.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>Se está midiendo con estos ajustes.</translation>
     </message>
 </context>
 <context>
@@ -3321,6 +3405,10 @@
         <source>Close</source>
         <translation>Cerrar</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>Qué termina</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3637,6 +3725,14 @@
     <message>
         <source>Go on now</source>
         <translation>Seguir ahora</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Pantalla desconectada</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>Se está midiendo con estos ajustes. Deténgalo para cambiarlos.</translation>
     </message>
 </context>
 <context>
@@ -4118,6 +4214,46 @@ proyector %2</translation>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps, %2 ms, %3 de los píxeles en su límite</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Pantalla desconectada</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirme que la sala está despejada.</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>La superficie no se ve como se predijo. Averigüe si algo se movió.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>Algo ha cambiado desde la medición. Mida de nuevo y luego instale.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>La cámara o el proyector están en otro sitio. Oriente de nuevo y luego mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>Instalar de todos modos</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Medir de nuevo</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>Orientar de nuevo</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>La pantalla del proyector está desconectada</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>No se ha perdido nada. Vuelva a conectarla: el show vuelve por sí solo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4434,6 +4570,17 @@ proyector %2</translation>
         <source>Uncorrected, too</source>
         <translation>También sin corregir</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Lo medido es demasiado basto para colocar contenido. Siga midiendo.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4578,6 +4725,10 @@ proyector %2</translation>
         <source>%1 of full light, changed</source>
         <translation>%1 de la luz plena, cambió</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1, sin respuesta</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4616,6 +4767,10 @@ proyector %2</translation>
     <message>
         <source>No venue open</source>
         <translation>Ningún lugar abierto</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>detenido antes de tiempo</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>Une mesure est en cours</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>%1 dans le lieu « %2 ».</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>Toutes les photos sont sur le disque. À la réouverture, le lieu reprend là où il en était.</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>L’arrêter pour l’instant</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Continuer la mesure</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Optimum, images fixes</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La caméra ne répond pas</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Tout ce qui est fait est en sécurité. Enfoncez le câble aux deux bouts sans déplacer le trépied : la suite reprend d’elle-même.</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Caméra muette</translation>
     </message>
 </context>
 <context>
@@ -178,6 +216,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>Mesuré sur %1, utilisé sur %2. Si c’est le même projecteur au même endroit, toute la mesure reste valable&#x202f;; une photo de contrôle le montre.</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La mesure a été arrêtée à des blocs de %1 px</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>Tout ce qui suit est aussi grossier. Continuez la mesure à tout moment.</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Continuer la mesure</translation>
     </message>
 </context>
 <context>
@@ -2489,10 +2542,6 @@
         <translation>Arrêté à %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Continuer la mesure</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>La mesure a été arrêtée à des blocs de %1 px</translation>
     </message>
@@ -2621,6 +2670,41 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>Celles de la dernière mesure ont été supprimées&#x202f;: toutes seront reprises.</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Écran débranché</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>En attente de l’écran du projecteur.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>Chaque photo est enregistrée. L’ancienne mesure sert jusqu’à ce que la nouvelle soit prête.</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>Pour continuer la mesure, confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>Reprend toutes les photos. Ce qui est mesuré reste jusque-là.</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nouvelle mesure n’est pas terminée</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n nouvelle photo est en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
+            <numerusform>%n nouvelles photos sont en sécurité : reprenez à tout moment. D’ici là, l’ancienne mesure sert.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>Mesure en cours avec ces réglages.</translation>
     </message>
 </context>
 <context>
@@ -3321,6 +3405,10 @@
         <source>Close</source>
         <translation>Fermer</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>Ce que cela arrête</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3637,6 +3725,14 @@
     <message>
         <source>Go on now</source>
         <translation>Continuer maintenant</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Écran débranché</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>Mesure en cours avec ces réglages. Arrêtez-la pour les changer.</translation>
     </message>
 </context>
 <context>
@@ -4118,6 +4214,46 @@ projecteur %2</translation>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps, %2 ms, %3 des pixels à leur limite</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Écran débranché</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirmez que la salle est évacuée.</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>La surface n’a pas l’aspect prévu. Vérifiez si quelque chose a bougé.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>Quelque chose a changé depuis la mesure. Remesurez, puis installez.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>La caméra ou le projecteur ne sont plus en place. Réalignez-les, puis remesurez.</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>Installer quand même</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Remesurer</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>Réaligner</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>L’écran du projecteur est débranché</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>Rien n’est perdu. Rebranchez-le : la diffusion revient d’elle-même.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4434,6 +4570,17 @@ projecteur %2</translation>
         <source>Uncorrected, too</source>
         <translation>Non corrigé aussi</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>La mesure est trop grossière pour placer un contenu. Continuez la mesure.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4578,6 +4725,10 @@ projecteur %2</translation>
         <source>%1 of full light, changed</source>
         <translation>%1 de la pleine lumière, a changé</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1, muette</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4616,6 +4767,10 @@ projecteur %2</translation>
     <message>
         <source>No venue open</source>
         <translation>Aucun lieu ouvert</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>arrêté avant la fin</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>È in corso una misura</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>%1 nel luogo «%2».</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>Ogni foto è sul disco. Riaprendo il luogo si prosegue da lì.</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>Terminala per ora</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Prosegui la misura</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Ottimale, immagini fisse</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La fotocamera non risponde</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Tutto ciò che è fatto è al sicuro. Premere il cavo a entrambi i capi senza spostare il treppiede: prosegue da sola.</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Fotocamera muta</translation>
     </message>
 </context>
 <context>
@@ -178,6 +216,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>Misurato su %1, usato su %2. Se è lo stesso proiettore nello stesso posto, tutto ciò che è stato misurato resta valido; una foto di verifica lo mostra.</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>La misura è stata fermata a blocchi di %1 px</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>Tutto ciò che segue è altrettanto grossolano. Si può continuare la misura in ogni momento.</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Prosegui la misura</translation>
     </message>
 </context>
 <context>
@@ -2489,10 +2542,6 @@
         <translation>Fermato a %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Prosegui la misura</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>La misura è stata fermata a blocchi di %1 px</translation>
     </message>
@@ -2621,6 +2670,41 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>Quelle dell’ultima misura sono state rimosse: vengono scattate tutte di nuovo.</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Schermo scollegato</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>In attesa dello schermo del proiettore.</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>Ogni foto è salvata. La misura precedente vale finché la nuova non è pronta.</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>Per continuare la misura, confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>Scatta di nuovo ogni foto. Fino ad allora resta ciò che è misurato.</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>La nuova misura non è finita</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n nuova foto è al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
+            <numerusform>%n nuove foto sono al sicuro: si può riprendere in ogni momento. Fino ad allora vale la misura precedente.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>Misura in corso con queste impostazioni.</translation>
     </message>
 </context>
 <context>
@@ -3321,6 +3405,10 @@
         <source>Close</source>
         <translation>Chiudi</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>Che cosa termina</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3637,6 +3725,14 @@
     <message>
         <source>Go on now</source>
         <translation>Prosegui ora</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Schermo scollegato</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>Misura in corso con queste impostazioni. Fermarla per cambiarle.</translation>
     </message>
 </context>
 <context>
@@ -4118,6 +4214,46 @@ proiettore %2</translation>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps, %2 ms, %3 dei pixel al limite</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Schermo scollegato</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confermare che la sala è sgombra.</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>La superficie non appare come previsto. Verificare se qualcosa si è mosso.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>Qualcosa è cambiato dalla misura. Misurare di nuovo, poi installare.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>Fotocamera o proiettore sono altrove. Puntare di nuovo, poi misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>Installa comunque</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>Misura di nuovo</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>Punta di nuovo</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Lo schermo del proiettore è scollegato</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>Nulla è perduto. Ricollegarlo: lo show torna da solo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4434,6 +4570,17 @@ proiettore %2</translation>
         <source>Uncorrected, too</source>
         <translation>Anche questo non corretto</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>Ciò che è misurato è troppo grossolano per collocare contenuti. Continuare la misura.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4578,6 +4725,10 @@ proiettore %2</translation>
         <source>%1 of full light, changed</source>
         <translation>%1 della luce piena, cambiata</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1, muta</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4616,6 +4767,10 @@ proiettore %2</translation>
     <message>
         <source>No venue open</source>
         <translation>Nessun luogo aperto</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>fermato in anticipo</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>測定中です</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>会場「%2」の%1。</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>写真はすべてディスクにあります。会場を開き直すと、続きから再開できます。</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>ひとまず終了</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>測定を続ける</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>最高画質、静止画</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>カメラが応答しません</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>これまでのものはすべて無事です。ケーブルを両端で押し込み、三脚は動かさないでください。自動的に再開します。</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>カメラ応答なし</translation>
     </message>
 </context>
 <context>
@@ -177,6 +215,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>%1 で測定し、%2 で使用します。同じ場所の同じプロジェクターなら測定結果はすべて有効です。検証写真で確かめられます。</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>測定は %1 px のブロックで終了しました</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>以降の結果も同じだけ粗くなります。測定はいつでも続けられます。</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>測定を続ける</translation>
     </message>
 </context>
 <context>
@@ -2475,10 +2528,6 @@
         <translation>%1 px で終了</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>測定を続ける</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>測定は %1 px のブロックで終了しました</translation>
     </message>
@@ -2605,6 +2654,40 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>前回の測定の写真は削除されているため、すべて撮り直します。</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>画面が未接続</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>プロジェクターの画面を待っています。</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>写真はすべて保存されます。新しい測定ができるまで前の測定を使います。</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>測定を続けるには、退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>すべての写真を撮り直します。それまで測定結果は残ります。</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>再測定が終わっていません</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>新しい写真 %n 枚は無事です。いつでも再開できます。それまでは前の測定を使います。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>この設定で測定中です。</translation>
     </message>
 </context>
 <context>
@@ -3299,6 +3382,10 @@
         <source>Close</source>
         <translation>閉じる</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>終了するもの</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3612,6 +3699,14 @@
     <message>
         <source>Go on now</source>
         <translation>今すぐ続ける</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>画面が未接続</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>この設定で測定中です。変更するには停止してください。</translation>
     </message>
 </context>
 <context>
@@ -4092,6 +4187,46 @@ projector %2</source>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps、%2 ms、限界に達した画素 %3</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>画面が未接続</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>退避が完了したことを確認してください。</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>表面が予測どおりに見えません。何かが動いていないか確認してください。</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>測定後に何かが変化しています。測定し直してから登録してください。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>カメラかプロジェクターの位置が変わっています。向きを合わせ直し、測定し直してください。</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>それでも登録</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>再測定</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>合わせ直す</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>プロジェクターの画面が外れています</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>何も失われていません。接続し直すと、ショーは自動的に戻ります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4408,6 +4543,17 @@ projector %2</source>
         <source>Uncorrected, too</source>
         <translation>こちらも補正なし</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>測定が粗すぎて、コンテンツを配置できません。測定を続けてください。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4551,6 +4697,10 @@ projector %2</source>
         <source>%1 of full light, changed</source>
         <translation>全光量の %1、変化あり</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1、応答なし</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4589,6 +4739,10 @@ projector %2</source>
     <message>
         <source>No venue open</source>
         <translation>開いている会場なし</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>途中で停止</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,29 @@
     </message>
 </context>
 <context>
+    <name>EndQuestion</name>
+    <message>
+        <source>A measurement is under way</source>
+        <translation>正在测量</translation>
+    </message>
+    <message>
+        <source>%1 in the venue “%2”.</source>
+        <translation>场地“%2”中的%1。</translation>
+    </message>
+    <message>
+        <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
+        <translation>所有照片都在磁盘上。重新打开该场地后，会从中断处继续。</translation>
+    </message>
+    <message>
+        <source>End it for now</source>
+        <translation>暂且结束</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>继续测量</translation>
+    </message>
+</context>
+<context>
     <name>Failure</name>
     <message>
         <source>The computer has no memory left.</source>
@@ -83,6 +106,21 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>最佳效果，静态图片</translation>
+    </message>
+</context>
+<context>
+    <name>MissingCamera</name>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>相机没有响应</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>目前的一切都已保存。请插紧线缆两端，不要移动三脚架：随后会自动继续。</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>相机无响应</translation>
     </message>
 </context>
 <context>
@@ -177,6 +215,21 @@
     <message>
         <source>Measured at %1, used at %2. If it is the same projector in the same place, everything that was measured holds; a verification photograph tells.</source>
         <translation>在 %1 测量，在 %2 使用。如果是同一位置的同一台投影机，所有测量仍然有效；验证照片可以说明。</translation>
+    </message>
+</context>
+<context>
+    <name>StoppedEarly</name>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px</source>
+        <translation>测量在 %1 px 的块处停止</translation>
+    </message>
+    <message>
+        <source>All that follows is as coarse. Go on measuring any time.</source>
+        <translation>后续结果同样粗略。可随时继续测量。</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>继续测量</translation>
     </message>
 </context>
 <context>
@@ -2475,10 +2528,6 @@
         <translation>停于 %1 px</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>继续测量</translation>
-    </message>
-    <message>
         <source>Measuring was stopped at blocks of %1 px</source>
         <translation>测量在 %1 px 的块处停止</translation>
     </message>
@@ -2605,6 +2654,40 @@
     <message>
         <source>Those of the last measurement were removed: all are taken again.</source>
         <translation>上次测量的照片已删除：全部照片将重新拍摄。</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen.</source>
+        <translation>正在等待投影机屏幕。</translation>
+    </message>
+    <message>
+        <source>Every photograph is saved. The earlier measurement is used until the new one is ready.</source>
+        <translation>每张照片都会保存。新测量完成前使用之前的测量。</translation>
+    </message>
+    <message>
+        <source>To go on measuring, confirm that the room is clear.</source>
+        <translation>要继续测量，请确认已清场。</translation>
+    </message>
+    <message>
+        <source>Takes every photograph again. What is measured stays until then.</source>
+        <translation>重新拍摄所有照片。在此之前保留已测结果。</translation>
+    </message>
+    <message>
+        <source>Measuring again has not ended</source>
+        <translation>重新测量尚未结束</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.</source>
+        <translation>
+            <numerusform>%n 张新照片已保存：可随时恢复。在此之前使用之前的测量。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Measuring with these settings.</source>
+        <translation>正在用这些设置测量。</translation>
     </message>
 </context>
 <context>
@@ -3299,6 +3382,10 @@
         <source>Close</source>
         <translation>关闭</translation>
     </message>
+    <message>
+        <source>What it ends</source>
+        <translation>将会结束</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
@@ -3612,6 +3699,14 @@
     <message>
         <source>Go on now</source>
         <translation>立即继续</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Measuring with these settings. Stop to change them.</source>
+        <translation>正在用这些设置测量。要更改请先停止。</translation>
     </message>
 </context>
 <context>
@@ -4092,6 +4187,46 @@ projector %2</source>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
         <translation>%1 fps，%2 ms，%3 的像素达到极限</translation>
     </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>请确认已清场。</translation>
+    </message>
+    <message>
+        <source>The surface does not look as predicted. Find out whether something moved.</source>
+        <translation>表面与预测不符。请检查是否有东西移动过。</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Measure again, then install.</source>
+        <translation>测量后有变化。请重新测量，然后安装。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
+        <translation>相机或投影机已移位。请重新对准，然后重新测量。</translation>
+    </message>
+    <message>
+        <source>Install anyway</source>
+        <translation>仍然安装</translation>
+    </message>
+    <message>
+        <source>Measure again</source>
+        <translation>重新测量</translation>
+    </message>
+    <message>
+        <source>Aim again</source>
+        <translation>重新对准</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>投影机的屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
+        <translation>没有丢失任何内容。重新接上后，节目会自动恢复。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -4408,6 +4543,17 @@ projector %2</source>
         <source>Uncorrected, too</source>
         <translation>同样未校正</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to place content. Go on measuring.</source>
+        <translation>测量过于粗略，无法放置内容。请继续测量。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1正在进行。结束后才能保留此处的选择。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>
@@ -4551,6 +4697,10 @@ projector %2</source>
         <source>%1 of full light, changed</source>
         <translation>全光的 %1，已变化</translation>
     </message>
+    <message>
+        <source>%1, silent</source>
+        <translation>%1，无响应</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -4589,6 +4739,10 @@ projector %2</source>
     <message>
         <source>No venue open</source>
         <translation>未打开场地</translation>
+    </message>
+    <message>
+        <source>stopped early</source>
+        <translation>提前停止</translation>
     </message>
 </context>
 <context>

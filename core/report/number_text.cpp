@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/report/number_text.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ctime>
+#include <iomanip>
+#include <sstream>
 
 namespace relucent::report {
 
 std::string percent(double share) {
-  return fmt::format("{:.1f} %", 100.0 * share);
+  const std::string text = fmt::format("{:.1f} %", 100.0 * share);
+  return text == "-0.0 %" ? "0.0 %" : text;
 }
 
 std::string grouped(std::uint64_t number) {
@@ -20,6 +25,15 @@ std::string grouped(std::uint64_t number) {
 std::string duration(double seconds) {
   if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
   return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
+}
+
+std::string localTime(const std::string& iso) {
+  std::istringstream stream(iso);
+  std::tm utc{};
+  stream >> std::get_time(&utc, "%Y-%m-%dT%H:%M:%SZ");
+  if (stream.fail()) return iso;
+  const std::tm local = fmt::localtime(timegm(&utc));
+  return fmt::format("{} {:%B %Y, %H:%M}", local.tm_mday, local);
 }
 
 std::string decibels(double value) {

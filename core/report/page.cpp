@@ -22,7 +22,8 @@ namespace {
 
 using Data = kainjow::mustache::data;
 
-constexpr double deltaEScale = 20.0;  // right end of the error maps: far beyond what nobody could miss
+constexpr double deltaEScale = 20.0;     // right end of the error maps: far beyond what nobody could miss
+constexpr double leastReachable = 0.95;  // of a picture: the wizard places content so that more is in reach
 constexpr charts::Drawing chartDrawing{{470.0, 300.0}};
 
 Data named(const std::string& name, const std::string& value) {
@@ -74,6 +75,10 @@ Data cards(const ReportData& data) {
 Data findings(const ReportData& data) {
   Data list(Data::type::list);
   for (const Message& finding : data.result.findings) list << Data(englishSentence(finding));
+  for (const ReportComparison& shown : data.comparisons)
+    if (shown.reachable < leastReachable)
+      list << Data(fmt::format("{} of “{}” cannot be reached and stays darker than it should.",
+                               percent(1.0 - shown.reachable), shown.name));
   return list;
 }
 
@@ -85,7 +90,7 @@ Data verification(const ReportVerification& shown) {
           << figure(shown.after, "Photograph, compensated",
                     fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEAfter));
   Data section;
-  section.set("taken", shown.taken);
+  section.set("taken", localTime(shown.taken));
   section.set("figures", figures);
   return section;
 }
@@ -264,9 +269,11 @@ void setSettingsAndTimes(Data& page, const ReportData& data) {
         << named("Acquisition", duration(result.seconds.acquisition))
         << named("Inverse", duration(result.seconds.inverse))
         << named("Patterns", std::to_string(result.patterns))
-        << named("Photographs", std::to_string(result.exposures))
-        << named("Most memory used",
-                 fmt::format("{:.0f} MB", static_cast<double>(result.peakMemoryBytes) / 1e6));
+        << named("Photographs", std::to_string(result.exposures));
+  // The wizard does not record it.
+  if (result.peakMemoryBytes > 0)
+    costs << named("Most memory used",
+                   fmt::format("{:.0f} MB", static_cast<double>(result.peakMemoryBytes) / 1e6));
   page.set("costs", costs);
   Data rows(Data::type::list);
   for (const pipeline::StoredSetting& setting : data.settings) rows << named(setting.name, setting.value);
@@ -296,7 +303,7 @@ Data pageOf(const ReportData& data) {
   page.set("venue", data.venue);
   page.set("projector", sizeText(data.projector));
   page.set("camera", sizeText(data.camera));
-  page.set("measured", data.measured);
+  page.set("measured", localTime(data.measured));
   page.set("software", data.software);
   page.set("cards", cards(data));
   page.set("findings", findings(data));

@@ -76,12 +76,22 @@ class WatchedCamera : public Camera {
   Size size() const override { return camera_->size(); }
   ExposureRange exposures() const override { return camera_->exposures(); }
   RawFrame capture(const CaptureRequest& request) override {
-    RawFrame frame = camera_->capture(request);
+    RawFrame frame = taken(request);
     watcher_->photographed(index_, request, frame);
     return frame;
   }
 
  private:
+  RawFrame taken(const CaptureRequest& request) {
+    struct Told {
+      WatchedCamera& camera;
+      ~Told() { camera.watcher_->afterPhotographing(camera.index_); }
+    };
+    watcher_->beforePhotographing(index_, request);
+    Told told{*this};
+    return camera_->capture(request);
+  }
+
   std::unique_ptr<Camera> camera_;
   std::size_t index_;
   std::shared_ptr<RigWatcher> watcher_;

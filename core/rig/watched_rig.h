@@ -25,6 +25,9 @@ class RigWatcher {
   /// A pattern is about to be shown. May block to pause a measurement, using `light` to show black meanwhile.
   virtual void beforeShowing(std::size_t /*index*/, RigLight& /*light*/) {}
   virtual void shown(std::size_t /*index*/, const image::Image& /*encodedDrive*/) {}
+  /// A photograph is asked for; afterPhotographing() follows in any case, also where it fails.
+  virtual void beforePhotographing(std::size_t /*index*/, const CaptureRequest&) {}
+  virtual void afterPhotographing(std::size_t /*index*/) noexcept {}
   virtual void photographed(std::size_t /*index*/, const CaptureRequest&, const RawFrame&) {}
 };
 

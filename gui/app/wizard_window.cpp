@@ -47,6 +47,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
 /// Pages know no widgets and go on with what they do; the window round them is made again in its place.
 void WizardWindow::rebuildForLanguage() {
   language_.choose(languageCode_);
+  Theme::instance().apply(Theme::instance().look());  // its style sheet knows where one begins to read
   for (const std::unique_ptr<PageModel>& page : pages_) page->refresh();
   std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
   window_->setGeometry(before->geometry());

@@ -12,6 +12,9 @@ Device& at(std::vector<Device>& devices, std::size_t index) {
   return devices[index];
 }
 
+constexpr std::chrono::seconds patience{4};
+constexpr std::chrono::seconds longestUsual{10};  // to arrive; what takes longer was held up
+
 // Beyond this much of the range a sample says little; of a floodlight image some may: lamps, gloss.
 constexpr float clipped = 0.98f;
 constexpr double mostClipped = 0.02;
@@ -55,11 +58,37 @@ void LiveRig::shown(std::size_t index, const image::Image& encodedDrive) {
       !drive.empty() && std::all_of(drive.begin(), drive.end(), [](float value) { return value >= 1.0f; });
 }
 
+void LiveRig::beforePhotographing(std::size_t index, const rig::CaptureRequest& request) {
+  QMutexLocker lock(&guard_);
+  const auto exposure =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.seconds));
+  at(asked_, index) = Asked{Clock::now(), exposure};
+}
+
+void LiveRig::afterPhotographing(std::size_t index) noexcept {
+  QMutexLocker lock(&guard_);
+  arrived_ = Clock::now() - asked_[index]->when - asked_[index]->exposure;
+  asked_[index].reset();
+}
+
+bool LiveRig::isCameraSilent(Clock::time_point now) const {
+  QMutexLocker lock(&guard_);
+  return std::any_of(asked_.begin(), asked_.end(), [&](const std::optional<Asked>& asked) {
+    return asked && now - asked->when > asked->exposure + patience + 2 * slowest_;
+  });
+}
+
+int LiveRig::photographs() const {
+  QMutexLocker lock(&guard_);
+  return photographs_;
+}
+
 void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request,
                            const rig::RawFrame& frame) {
   {
     QMutexLocker lock(&guard_);
     ++photographs_;
+    slowest_ = std::max(slowest_, std::min<Clock::duration>(arrived_, longestUsual));
     Photographed& photographed = at(cameras_, index);
     photographed.frame = frame;
     photographed.request = request;

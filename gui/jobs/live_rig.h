@@ -5,7 +5,9 @@
 #include <QMutex>
 #include <QObject>
 #include <QWaitCondition>
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "relucent/linearization/ramp_preview.h"
@@ -32,8 +34,17 @@ class LiveRig : public QObject, public rig::RigWatcher {
 
   void beforeShowing(std::size_t index, rig::RigLight& light) override;
   void shown(std::size_t index, const image::Image& encodedDrive) override;
+  void beforePhotographing(std::size_t index, const rig::CaptureRequest& request) override;
+  void afterPhotographing(std::size_t index) noexcept override;
   void photographed(std::size_t index, const rig::CaptureRequest& request,
                     const rig::RawFrame& frame) override;
+
+  using Clock = std::chrono::steady_clock;
+  /// A photograph is overdue: by four seconds beyond its exposure, and by twice as long as the slowest one
+  /// before took to arrive, as still cameras need some.
+  bool isCameraSilent(Clock::time_point now = Clock::now()) const;
+  /// By all cameras, since the start.
+  int photographs() const;
 
   /// Least time between two patterns, milliseconds, while people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
@@ -78,6 +89,12 @@ class LiveRig : public QObject, public rig::RigWatcher {
   std::vector<Shown> projectors_;
   std::vector<image::Image> patterns_;  // of the projectors
   std::vector<Photographed> cameras_;
+  struct Asked {
+    Clock::time_point when;
+    Clock::duration exposure{};
+  };
+  std::vector<std::optional<Asked>> asked_;  // of the cameras, for a photograph that is on its way
+  Clock::duration arrived_{}, slowest_{};    // beyond the exposure: the last one; the slowest that came
   linearization::RampPreview ramps_;
   int photographs_ = 0;
   QElapsedTimer since_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <QGuiApplication>
+
 #include "theme/icons.h"
 #include "theme/theme.h"
 
@@ -79,11 +81,11 @@ QRadioButton::indicator { width: 14px; height: 14px; border: 1px solid {border};
 QRadioButton::indicator:checked { border: 5px solid {accent}; width: 6px; height: 6px; background: {onAccent}; }
 QRadioButton:focus { text-decoration: underline; }
 QSlider::groove:horizontal { height: 4px; background: {border}; border-radius: 2px; }
-QSlider::sub-page:horizontal { background: {accent}; border-radius: 2px; }
+QSlider::{filled}:horizontal { background: {accent}; border-radius: 2px; }
 QSlider::handle:horizontal { background: {accent}; border: 2px solid {card}; width: 14px; height: 14px; margin: -7px 0;
   border-radius: 9px; }
 QSlider::handle:horizontal:focus { border: 2px solid {text}; }
-QSlider::handle:horizontal:disabled, QSlider::sub-page:horizontal:disabled { background: {disabled}; }
+QSlider::handle:horizontal:disabled, QSlider::{filled}:horizontal:disabled { background: {disabled}; }
 QProgressBar { background: {line}; border: none; max-height: 3px; min-height: 3px; }
 QProgressBar::chunk { background: {accent}; }
 QListWidget { background: {input}; border: 1px solid {line}; border-radius: 6px; }
@@ -114,6 +116,8 @@ QString styleSheetOf(const Colours& colours) {
   auto fill = [&](const char* name, const QColor& colour) {
     sheet.replace("{" + QString::fromLatin1(name) + "}", colour.name());
   };
+  // Of a slider, the part from where its values begin; style sheets mirror the handle alone.
+  sheet.replace("{filled}", QGuiApplication::isRightToLeft() ? "add-page" : "sub-page");
   sheet.replace("{arrow}", iconFile(Icon::down, colours.secondary, 16));
   sheet.replace("{tick}", iconFile(Icon::tick, colours.onAccent, 16));
   fill("window", colours.window);

@@ -260,23 +260,10 @@ void MatrixView::arrange() {
   want();
 }
 
-const MatrixView::Picture* MatrixView::finestAt(QPoint entry) const {
-  auto row = static_cast<std::size_t>(entry.y()), column = static_cast<std::size_t>(entry.x());
-  for (const Picture* picture : {&shown_.detail, &shown_.whole}) {
-    if (!picture->density) continue;
-    const transport::MatrixPart& part = picture->density->part;
-    if (row >= part.firstRow && row < part.endRow && column >= part.firstColumn && column < part.endColumn)
-      return picture;
-  }
-  return nullptr;
-}
-
 std::optional<float> MatrixView::valueAt(QPoint entry) const {
-  const Picture* picture = finestAt(entry);
-  if (picture == nullptr) return std::nullopt;
-  Pixel cell =
-      picture->density->cellOf(static_cast<std::size_t>(entry.y()), static_cast<std::size_t>(entry.x()));
-  return picture->means[indexOf(picture->density->cells, cell)];
+  if (!matrix_) return std::nullopt;
+  const auto row = static_cast<std::size_t>(entry.y()), column = static_cast<std::size_t>(entry.x());
+  return matrix_->density({row, row + 1, column, column + 1}, {1, 1}).sums.front();
 }
 
 image::Image MatrixView::values() const {

@@ -33,8 +33,8 @@ class MatrixView : public PlaneView {
 
   /// The visible entries.
   transport::MatrixPart seen() const;
-  /// Mean light of the entries in the finest picture's cell over a column and row; none where it is not known
-  /// yet.
+  /// Light of one entry: of that camera pixel from that projector pixel, however much a cell of the picture
+  /// holds. None: there is no matrix.
   std::optional<float> valueAt(QPoint entry) const;
   /// The values of the visible part of that picture. One channel; empty until they are exact.
   image::Image values() const;
@@ -75,7 +75,6 @@ class MatrixView : public PlaneView {
   static Picture pictureOf(const transport::MatrixPictures& matrix, const transport::MatrixPart& part,
                            Size cells, std::size_t step = 1);
   QRectF targetOf(const transport::MatrixPart& part) const;
-  const Picture* finestAt(QPoint entry) const;
   void paintAxes(QPainter& painter) const;
   void paintCross(QPainter& painter) const;
   void paintLens(QPainter& painter) const;

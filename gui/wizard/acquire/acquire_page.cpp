@@ -13,6 +13,7 @@
 #include "views/number_text.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/full_disk.h"
+#include "wizard/devices/missing_camera.h"
 #include "wizard/devices/missing_screen.h"
 #include "wizard/devices/stopped_early.h"
 
@@ -102,6 +103,8 @@ StepStatus AcquirePage::status() const {
   const bool hasResult = session_.result(calibration::Stage::acquisition).has_value();
   if (isMeasuring() && session_.isScreenMissing())
     return {StepState::busy, tr("Screen unplugged"), hasResult, true};
+  if (isMeasuring() && session_.isCameraSilent())
+    return {StepState::busy, missingCameraText(), hasResult, true};
   if (isPaused() || isDiskFull())
     return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction())), hasResult, isDiskFull()};
   if (isCountingDown())
@@ -195,6 +198,7 @@ std::optional<double> AcquirePage::progress() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
+  if (isMeasuring() && session_.isCameraSilent()) return missingCamera();
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);

@@ -11,6 +11,8 @@
 #include "relucent/base/message.h"
 #include "relucent/linearization/test_light.h"
 #include "views/number_text.h"
+#include "wizard/devices/missing_camera.h"
+#include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
 namespace {
@@ -87,6 +89,8 @@ CameraPage::~CameraPage() {
 StepStatus CameraPage::status() const {
   if (isLooking()) {
     bool done = session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
+    if (session_.isCameraSilent())
+      return {done ? StepState::done : StepState::open, missingCameraText(), false, true};
     return {done ? StepState::done : StepState::open, tr("Checking")};
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
@@ -168,6 +172,12 @@ std::vector<PageCommand*> CameraPage::secondary() const {
   if (needsCamera()) return {};
   if (mayChooseCamera()) return {again_, chooseAnother_};
   return {again_};
+}
+
+std::optional<Banner> CameraPage::banner() const {
+  if (isLooking() && session_.isScreenMissing()) return missingScreen();
+  if (isLooking() && session_.isCameraSilent()) return missingCamera();
+  return std::nullopt;
 }
 
 /// What is seen is kept when it is no longer being looked at.

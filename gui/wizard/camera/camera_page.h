@@ -40,6 +40,7 @@ class CameraPage : public PageModel {
   QString hint() const override;
   PageCommand* primary() const override;
   std::vector<PageCommand*> secondary() const override;
+  std::optional<Banner> banner() const override;
   void enter() override;
   void leave() override { finish(); }
   void finish() override;

@@ -35,6 +35,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
     : QDialog(parent) {
   QString heading =
       report.failure.heading.isEmpty() ? headingOf(report.failure.kind) : report.failure.heading;
+  setObjectName("failure");
   setWindowTitle(heading);
   setMinimumWidth(560);
   auto* column = new QVBoxLayout(this);

@@ -6,6 +6,7 @@
 #include <QGuiApplication>
 #include <QLocale>
 #include <algorithm>
+#include <utility>
 
 #include "jobs/free_space.h"
 #include "output/window_projector.h"
@@ -120,7 +121,10 @@ void StatusStrip::refresh() {
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
-  camera_->setWhole(session_.areDevicesFree() ? kind : tr("%1, in use").arg(kind));
+  camera_->setWhole(session_.isCameraSilent()   ? tr("%1, silent").arg(kind)
+                    : session_.areDevicesFree() ? kind
+                                                : tr("%1, in use").arg(kind));
+  setRole(camera_, session_.isCameraSilent() ? "amber" : "note");
   const QString folder = QString::fromStdString(session_.path().string());
   disk_->setWhole(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
   QString latest;
@@ -128,6 +132,12 @@ void StatusStrip::refresh() {
     if (const auto& result = session_.result(stage))
       latest = std::max(latest, QString::fromStdString(result->stored));
   QDateTime when = QDateTime::fromString(latest, Qt::ISODate);
+  // While it is measured, every photograph is.
+  const int photographs = session_.live().photographs();
+  if (std::exchange(photographs_, photographs) != photographs && session_.isMeasuring())
+    lastPhotograph_ = QDateTime::currentDateTime();
+  if (!session_.isMeasuring()) lastPhotograph_ = {};
+  if (lastPhotograph_.isValid()) when = lastPhotograph_;
   saved_->setWhole(
       when.isValid() ? tr("Saved %1").arg(QLocale().toString(when.toLocalTime().time(), QLocale::ShortFormat))
                      : QString());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QDateTime>
 #include <QFrame>
 #include <QTimer>
 #include <vector>
@@ -31,6 +32,8 @@ class StatusStrip : public QFrame {
   QWidget* room_;
   ElidedLabel* roomLight_;
   std::vector<QLabel*> names_;
+  int photographs_ = 0;
+  QDateTime lastPhotograph_;
   QTimer often_;
 };
 

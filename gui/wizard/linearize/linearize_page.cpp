@@ -11,6 +11,7 @@
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/devices/full_disk.h"
+#include "wizard/devices/missing_camera.h"
 #include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
@@ -62,6 +63,8 @@ void LinearizePage::look() {
 StepStatus LinearizePage::status() const {
   if (isMeasuring() && session_.isScreenMissing())
     return {StepState::busy, tr("Screen unplugged"), result_.has_value(), true};
+  if (isMeasuring() && session_.isCameraSilent())
+    return {StepState::busy, missingCameraText(), result_.has_value(), true};
   if (isMeasuring())
     return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), result_.has_value()};
   switch (session_.progress(calibration::Stage::linearization)) {
@@ -120,6 +123,7 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
+  if (isMeasuring() && session_.isCameraSilent()) return missingCamera();
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
   if (isMeasuring() || !isStale()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),

@@ -153,7 +153,10 @@ Session::Session(fs::path cache, QObject* parent)
           [this](const Failure& failure) {
             readFailure_ = failure;
             Q_EMIT acquisitionChanged();
-          }) {}
+          }) {
+  silence_.setInterval(500);
+  connect(&silence_, &QTimer::timeout, this, &Session::listenForCamera);
+}
 
 QString Session::name() const {
   return QString::fromStdString(path_.filename().string());
@@ -402,6 +405,7 @@ DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
   deviceWork_ = work;
+  silence_.start();
   Q_EMIT devicesChanged();
   return DeviceLease(*this);
 }
@@ -411,8 +415,15 @@ QString Session::whyLocked(const StepName& step) const {
   return tr("%1 is at work. What is chosen here can be kept when that has ended.").arg(devicesUserName());
 }
 
+void Session::listenForCamera() {
+  const bool isSilent = live_->isCameraSilent();
+  if (std::exchange(cameraSilent_, isSilent) != isSilent) Q_EMIT devicesChanged();
+}
+
 void Session::takeBackDevices() {
   devicesUser_.reset();
+  silence_.stop();
+  cameraSilent_ = false;
   if (devices_) devices_->rest();
 }
 

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -193,6 +194,9 @@ class Session : public QObject {
   /// The projector's screen is unplugged, and work waits for it.
   bool isScreenMissing() const { return screenMissing_; }
 
+  /// A photograph does not come.
+  bool isCameraSilent() const { return cameraSilent_; }
+
   /// Since the calibration was opened; none before it was measured.
   const std::optional<RoomLight>& roomLight() const { return roomLight_; }
   void setRoomLight(const RoomLight& light);
@@ -236,6 +240,7 @@ class Session : public QObject {
   void slowDown();
   void makeDevices();
   void takeBackDevices();
+  void listenForCamera();
   std::unique_ptr<devices::ScreenProjector> openScreen(const pipeline::ScreenRigSettings& settings);
 
   std::filesystem::path path_, cache_;
@@ -254,7 +259,8 @@ class Session : public QObject {
   DeviceWork deviceWork_ = DeviceWork::brief;
   int flashLimit_ = 0;
   bool roomClear_ = false;
-  bool screenMissing_ = false;
+  bool screenMissing_ = false, cameraSilent_ = false;
+  QTimer silence_;  // runs while somebody uses the devices
   std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
   Latest<std::shared_ptr<const transport::Acquisition>> reading_;

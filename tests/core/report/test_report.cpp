@@ -12,6 +12,7 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/json.h"
+#include "relucent/report/number_text.h"
 #include "relucent/report/pictures.h"
 #include "relucent/report/report.h"
 #include "relucent/report/support_bundle.h"
@@ -124,6 +125,31 @@ class TestReport : public QObject {
   Q_OBJECT
 
  private slots:
+  void numbersAsTheyAreRead() {
+    QCOMPARE(percent(-0.0001), std::string("0.0 %"));
+    QCOMPARE(percent(-0.012), std::string("-1.2 %"));
+    qputenv("TZ", "Etc/GMT-1");
+    tzset();
+    QCOMPARE(localTime("2026-01-02T23:30:05Z"), std::string("3 January 2026, 00:30"));
+    QCOMPARE(localTime("long ago"), std::string("long ago"));
+    QVERIFY(html(fullData()).contains("2 January 2026, 04:04"));
+    qunsetenv("TZ");
+    tzset();
+  }
+
+  /// Law: what a client would see is told; what nobody measured is not made up.
+  void whatStandsOutIsSaid() {
+    ReportData data = fullData();
+    data.result.findings.clear();
+    QVERIFY(html(data).contains("Nothing stands out"));
+    data.comparisons.front().reachable = 0.914;
+    QVERIFY(!html(data).contains("Nothing stands out"));
+    QVERIFY(html(data).contains("8.6 % of “Evening” cannot be reached"));
+    QVERIFY(html(data).contains("Most memory used"));
+    data.result.peakMemoryBytes = 0;
+    QVERIFY(!html(data).contains("Most memory used"));
+  }
+
   void nothingIsFetchedFromAnywhere() {
     QString page = html(fullData());
     for (const char* forbidden : {"http:", "https:", "<script", "<link", "@import", "url("})
@@ -177,8 +203,9 @@ class TestReport : public QObject {
 
   void verificationAndVersionsAreSaid() {
     QString page = html(fullData());
+    const std::string taken = localTime(fullData().verification->taken);
     for (const char* expected :
-         {"Photograph, compensated", "ΔE 3.2", "2026-01-02T04:05:06Z", "Eigen 3.4.0", "A &amp; B 1"})
+         {"Photograph, compensated", "ΔE 3.2", taken.c_str(), "Eigen 3.4.0", "A &amp; B 1"})
       QVERIFY2(page.contains(expected), expected);
   }
 

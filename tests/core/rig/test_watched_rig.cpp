@@ -32,6 +32,7 @@ class LoggedCamera : public Camera {
   ExposureRange exposures() const override { return {0.25, 2.0}; }
   RawFrame capture(const CaptureRequest& request) override {
     log_ << QString("capture %1").arg(request.shot.number);
+    if (request.shot.number < 0) throw std::runtime_error("no answer");
     return {Image({1, 1}, 3, 0.5f), 12, request.seconds};
   }
 
@@ -57,6 +58,10 @@ class Notes : public RigWatcher {
   void photographed(std::size_t index, const CaptureRequest& request, const RawFrame& frame) override {
     log_ << QString("photographed %1 %2 %3").arg(index).arg(request.shot.number).arg(frame.seconds);
   }
+  void beforePhotographing(std::size_t index, const CaptureRequest& request) override {
+    log_ << QString("asked %1 %2").arg(index).arg(request.seconds);
+  }
+  void afterPhotographing(std::size_t index) noexcept override { log_ << QString("over %1").arg(index); }
   bool paused = false, fails = false;
 
  private:
@@ -94,8 +99,14 @@ class TestWatchedRig : public QObject {
     rig_.projectors[1]->show(Image({2, 1}, 3, 0.25f));
     RawFrame frame = rig_.cameras[0]->capture({{"stage", 7}, 0, 0.5});
     QCOMPARE(frame.signal, Image({1, 1}, 3, 0.5f));
-    QCOMPARE(log_,
-             QStringList({"before 1", "show 0.25", "shown 1 0.25", "capture 7", "photographed 0 7 0.5"}));
+    QCOMPARE(log_, QStringList({"before 1", "show 0.25", "shown 1 0.25", "asked 0 0.5", "capture 7", "over 0",
+                                "photographed 0 7 0.5"}));
+  }
+
+  /// Whoever waits for a photograph learns that it will not come.
+  void aPhotographThatFailsIsOverAsWell() {
+    QVERIFY_EXCEPTION_THROWN(rig_.cameras[0]->capture({{"stage", -1}, 0, 2.0}), std::runtime_error);
+    QCOMPARE(log_, QStringList({"asked 0 2", "capture -1", "over 0"}));
   }
 
   /// Of the first shot each projector is dark; later, the one that has its pattern already has it again.

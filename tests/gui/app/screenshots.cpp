@@ -111,6 +111,9 @@ void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporar
     return !wizard.page<CameraPage>().isListing() && !wizard.page<CameraPage>().cameras().cameras.empty();
   });
   photographs.take("02-cameras");
+  wizard.session().decide(CameraCheckResult{{1.0}, std::nullopt, {}});
+  wizard.wizard().go(2);
+  photographs.take("03-consent");
 }
 
 /// The measurement of a rehearsal under way: what it is going to look like, sharper and sharper.
@@ -139,9 +142,33 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
     until([&, blocks = blocks] { return trace.outlook() && trace.outlook()->blocks <= blocks; });
     photographs.take(name);
   }
+  wizard.wizard().go(2);
+  photographs.take("03-while-measuring");
+  wizard.wizard().go(3);
+  wizard.window().close();
+  photographs.takeDialog("12-question", "failure");
   wizard.session().live().setLeastInterval(0);
   wizard.page<AcquirePage>().finish();
   until([&] { return !wizard.page<AcquirePage>().isMeasuring(); });
+}
+
+/// A measurement that was stopped early, and what follows from it.
+void takeStopped(WizardWindow& wizard, Photographs& photographs) {
+  AcquirePage& acquire = wizard.page<AcquirePage>();
+  const QMetaObject::Connection stopping =
+      QObject::connect(&acquire.trace(), &AcquisitionTrace::changed, &acquire, [&acquire] {
+        if (acquire.isMeasuring() && !acquire.isStopping() && acquire.trace().growth().levels.size() > 2)
+          acquire.stopAndKeep();
+      });
+  acquire.primary()->trigger();
+  until([&] { return !acquire.isMeasuring(); });
+  QObject::disconnect(stopping);
+  photographs.take("04-stopped");
+  wizard.wizard().go(4);
+  until([&] { return wizard.page<ThresholdPage>().kept().has_value(); });
+  wizard.page<ThresholdPage>().primary()->trigger();
+  until([&] { return wizard.page<ClusterPage>().result() && !wizard.page<ClusterPage>().isComputing(); });
+  photographs.take("06-stopped");
 }
 
 }  // namespace
@@ -170,6 +197,7 @@ int main(int argc, char** argv) {
 
   takeCameras(wizard, photographs, own);
   takeMeasuring(wizard, photographs, own);
+  takeStopped(wizard, photographs);
   wizard.page<VenuePage>().open(argv[2]);
   wizard.wizard().go(0);
   photographs.take("00-start");

@@ -271,7 +271,7 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(wizard_->page<AcquirePage>().isPaused());
     // It is not ended by the way.
     QVERIFY(!wizard_->window().close());
-    auto* question = find<FailureDialog>("");
+    auto* question = find<FailureDialog>("failure");
     QVERIFY(question != nullptr && question->isVisible());
     QVERIFY(question->windowTitle().contains("under way"));
     QTest::keyClick(question, Qt::Key_Escape);

@@ -45,6 +45,26 @@ class TestLiveRig : public QObject {
     QCOMPARE(live.pictures(1, 1).photographs, 2);
   }
 
+  /// Law: a camera is silent from some seconds beyond its exposure on; one that is always slow later than
+  /// that, and one that has answered, or failed, not at all.
+  void aPhotographThatDoesNotComeIsNoticedInSeconds() {
+    using namespace std::chrono_literals;
+    LiveRig live(0);
+    const auto now = LiveRig::Clock::now();
+    QVERIFY(!live.isCameraSilent(now + 1h));
+    live.beforePhotographing(1, {{"stage", 3}, 0, 2.0});
+    QVERIFY(!live.isCameraSilent(now + 5s));
+    QVERIFY(live.isCameraSilent(now + 7s));
+    live.afterPhotographing(1);
+    QVERIFY(!live.isCameraSilent(now + 1h));
+    // The next one is noticed as soon: what failed says nothing of how slow it is.
+    live.beforePhotographing(0, {{"stage", 4}, 0, 0.0});
+    QVERIFY(live.isCameraSilent(now + 5s));
+    live.afterPhotographing(0);
+    live.photographed(0, {}, lit(0.1f));
+    QCOMPARE(live.photographs(), 1);
+  }
+
   void everyCamerasPhotographIsTold() {
     LiveRig live(0);
     QSignalSpy seen(&live, &LiveRig::seen);

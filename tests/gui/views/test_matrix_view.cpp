@@ -98,6 +98,28 @@ class TestMatrixView : public QObject {
         QCOMPARE(*view.valueAt(entry + QPoint(x, y)), exact.sums[indexOf(exact.cells, {x + 2, y + 2})]);
   }
 
+  /// Law: what is read at an entry is that entry's, however many a cell of the picture holds.
+  void anEntrysValueIsTheSameAtEveryMagnification() {
+    auto transport = std::make_shared<TransportMatrix>(
+        Size{40, 30}, Size{64, 48},
+        randomBlocks(1200, NodeLayout(Rasters(Size{64, 48})).count(), 0.01, 5, 0.0f).sparse);
+    auto pictures = std::make_shared<MatrixPictures>(transport);
+    OpenedView view;
+    open(view, pictures);
+    QRandomGenerator random(3);
+    for (int i = 0; i < 20; ++i) {
+      const auto row = static_cast<std::size_t>(random.bounded(1200)),
+                 column = static_cast<std::size_t>(random.bounded(3072));
+      const QPoint entry(static_cast<int>(column), static_cast<int>(row));
+      const float expected = pictures->density({row, row + 1, column, column + 1}, {1, 1}).sums.front();
+      for (double zoom : {1.0, 8.0, 60.0}) {
+        view.link().look(zoom, {entry.x() / 3072.0, entry.y() / 1200.0});
+        QTRY_VERIFY_WITH_TIMEOUT(view.isSettled(), patience);
+        QCOMPARE(*view.valueAt(entry), expected);
+      }
+    }
+  }
+
   void theKeysOfAView() {
     OpenedView view;
     open(view, diagonal(16));

@@ -5,6 +5,7 @@
 #include <QtTest>
 
 #include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
 #include "wizard/frame/wizard.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/threshold/threshold_page.h"
@@ -114,6 +115,10 @@ class TestWhileMeasuring : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
     disconnect(stopping);
     QVERIFY(acquire.stoppedAt() > 1 && wizard.go(1));
+    // Coarse blocks differ from the test patterns by themselves: nothing need have moved.
+    QCOMPARE(acquire.findings().size(), 1);
+    QVERIFY2(acquire.findings().front().contains(QString::number(acquire.stoppedAt())),
+             qPrintable(acquire.findings().front()));
     session_->wantAcquisition();
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value(), patience);
     const Banner banner = threshold.banner().value();
@@ -134,6 +139,28 @@ class TestWhileMeasuring : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value() && threshold.primary()->isEnabled(), patience);
     QCOMPARE(threshold.status().state, StepState::done);
     QVERIFY(!threshold.banner());
+  }
+
+  /// Law: a photograph that does not come is said before anything fails.
+  void aSilentCameraIsSaid() {
+    CommandRigSettings script;
+    script.projector = {64, 48};
+    script.camera = {48, 36};
+    script.projectorCommand = "true {image}";
+    script.cameraCommand = "sleep 8 # {exposure} {output}";
+    CalibrateSettings settings;
+    settings.rig = script;
+    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    session_->setRoomClear(true);
+    CameraPage camera(*session_);
+    QSignalSpy failed(&camera, &PageModel::failed);
+    camera.enter();
+    QVERIFY(camera.isLooking() && !camera.banner() && !camera.status().isHeldUp);
+    QTRY_VERIFY_WITH_TIMEOUT(camera.status().isHeldUp, 20'000);
+    QVERIFY(camera.banner().has_value() && failed.isEmpty());
+    camera.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking(), patience);
+    QVERIFY(!session_->isCameraSilent() && !camera.banner());
   }
 
  private:

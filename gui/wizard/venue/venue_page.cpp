@@ -7,6 +7,7 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
+#include "wizard/venue/venue_tidy.h"
 
 namespace relucent::gui {
 namespace {
@@ -157,6 +158,14 @@ void VenuePage::setMode(Mode mode) {
 bool VenuePage::isOpenNow(const RecentVenue& venue) const {
   return session_.isOpen() &&
          QDir::cleanPath(QString::fromStdString(session_.path().string())) == venue.folder;
+}
+
+QString VenuePage::tidyProblem() const {
+  return VenueTidy::problem(session_);
+}
+
+std::unique_ptr<VenueTidy> VenuePage::tidy(const RecentVenue& venue) {
+  return std::make_unique<VenueTidy>(session_, venue.folder);
 }
 
 void VenuePage::open(const QString& path) {

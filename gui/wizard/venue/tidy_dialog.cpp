@@ -39,12 +39,12 @@ QString sentenceOf(Kept kept) {
 
 /// What is no longer possible without the photographs that go.
 QString consequenceOf(Kept kept, int photographs) {
-  if (photographs == 0) return TidyDialog::tr("No photograph goes: all stays possible.");
+  if (photographs == 0) return TidyDialog::tr("No photograph goes: everything stays possible.");
   return kept == Kept::results
              ? TidyDialog::tr(
                    "Showing, checking and reports need results only. Other settings, and better "
                    "methods of later versions, then have to photograph everything again.")
-             : TidyDialog::tr("The latest measurement keeps its photographs: all stays possible.");
+             : TidyDialog::tr("The latest measurement keeps its photographs: everything stays possible.");
 }
 
 QString photographsText(int count) {
@@ -133,7 +133,7 @@ void TidyDialog::refresh() {
   const bool atWork = state == State::looking || state == State::freeing;
   doing_->setVisible(atWork);
   progress_->setVisible(atWork);
-  doing_->setText(state == State::looking ? tr("Looking what could be freed. Nothing is removed yet.")
+  doing_->setText(state == State::looking ? tr("Looking up what could be freed. Nothing is removed yet.")
                                           : tr("Freeing the disk"));
   progress_->setAccessibleName(doing_->text());
   progress_->setValue(static_cast<int>(1000.0 * tidy_->fraction()));

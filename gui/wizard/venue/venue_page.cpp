@@ -165,7 +165,7 @@ QString VenuePage::tidyProblem() const {
 }
 
 std::unique_ptr<VenueTidy> VenuePage::tidy(const RecentVenue& venue) {
-  return std::make_unique<VenueTidy>(session_, venue.folder);
+  return std::make_unique<VenueTidy>(session_, stepName, venue.folder);
 }
 
 void VenuePage::open(const QString& path) {

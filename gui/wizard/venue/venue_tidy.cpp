@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/venue/venue_tidy.h"
 
-#include "wizard/venue/venue_page.h"
-
 namespace relucent::gui {
 
 using pipeline::KeptPhotographs;
 
-VenueTidy::VenueTidy(Session& session, const QString& folder, QObject* parent)
-    : QObject(parent), session_(session), folder_(folder.toStdString()) {
+VenueTidy::VenueTidy(Session& session, const StepName& step, const QString& folder, QObject* parent)
+    : QObject(parent), session_(session), step_(step), folder_(folder.toStdString()) {
   connect(&job_, &Job::progressed, this, &VenueTidy::changed);
   connect(&job_, &Job::ended, this, &VenueTidy::conclude);
   look();
@@ -55,7 +53,7 @@ void VenueTidy::free() {
   require(state_ == State::asking, "nothing is removed that nobody has agreed to");
   if (QString reason = problem(session_); !reason.isEmpty())
     return fail({ErrorKind::usage, reason, tr("Try again then."), {}});
-  if (isOpenVenue()) lease_ = session_.leaseDevices(VenuePage::stepName);
+  if (isOpenVenue()) lease_ = session_.leaseDevices(step_);
   job_.start([folder = folder_, kept = kept_, freed = freed_](Progress& progress) {
     *freed = pipeline::tidy({folder}, {kept, false}, progress).calibrations.front();
   });

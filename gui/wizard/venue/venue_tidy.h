@@ -18,8 +18,9 @@ class VenueTidy : public QObject {
  public:
   enum class State { looking, choosing, asking, freeing, done, stopped, failed };
 
-  /// Begins to look. `folder`: of a venue, open or not; `session` outlives this.
-  VenueTidy(Session& session, const QString& folder, QObject* parent = nullptr);
+  /// Begins to look. `step`: which the devices are leased for; `folder`: of a venue, open or not; `session`
+  /// outlives this.
+  VenueTidy(Session& session, const StepName& step, const QString& folder, QObject* parent = nullptr);
 
   QString name() const;
   State state() const { return state_; }
@@ -64,6 +65,7 @@ class VenueTidy : public QObject {
   void turn(State state);
 
   Session& session_;
+  StepName step_;
   std::filesystem::path folder_;
   State state_ = State::looking;
   pipeline::KeptPhotographs kept_ = pipeline::KeptPhotographs::everything;

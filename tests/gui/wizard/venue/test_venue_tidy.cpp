@@ -116,7 +116,7 @@ class TestVenueTidy : public QObject {
   void whatItSaysIsWhatItFrees_data() {
     QTest::addColumn<KeptPhotographs>("kept");
     QTest::addColumn<QString>("afterwards");
-    QTest::newRow("of the latest measurement") << KeptPhotographs::latest << "all stays possible";
+    QTest::newRow("of the latest measurement") << KeptPhotographs::latest << "everything stays possible";
     QTest::newRow("results only") << KeptPhotographs::results << "have to photograph everything again";
   }
   void whatItSaysIsWhatItFrees() {

@@ -42,7 +42,7 @@ Rasters smallestOf(const Rasters& cameras) {
 }
 
 Argument gigabytes(std::uint64_t bytes) {
-  return as::number(static_cast<double>(bytes) / 1e9, as::decimals(1));
+  return as::number(static_cast<double>(bytes) / 1e9, as::decimals(2));
 }
 
 [[noreturn]] void refuse(std::uint64_t needed, std::uint64_t memory, reduction::PixelUse::Kind kind) {

@@ -232,7 +232,7 @@ class TestReductions : public QObject {
         std::make_unique<CountedProjector>(std::move(devices.rig.projectors[0]), patterns);
     const std::string sentence =
         sentenceOf([&] { chooseReductions(folder, devices.rig, 100'000'000, quiet); }, ErrorKind::memory);
-    QVERIFY(mentions(sentence, "0.1 GB may be taken"));
+    QVERIFY(mentions(sentence, "0.10 GB may be taken"));
     QVERIFY(mentions(sentence, advice.toStdString()));
     QCOMPARE(patterns, 0);
     QVERIFY(!hasReductions(folder));

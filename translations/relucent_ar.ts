@@ -2125,10 +2125,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>من بكسلات الكاميرا وعددها ⁨{}⁩ تنتج ⁨{}⁩: يصير كل ⁨{}⁩ بكسلًا واحدًا لأن الذاكرة لا تتسع لأكثر</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>من بكسلات الكاميرا وعددها ⁨{}⁩ تُستخدم ⁨{}⁩ المحيطة بالجزء المضاء</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>اختر بكسلات أقل للكاميرا: الاختيار التلقائي يأخذ ما تتسع له الذاكرة</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>يحتاج القياس إلى ⁨{} GB⁩ من الذاكرة، والمتاح ⁨{} GB⁩</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>استخدم حاسوبًا أو حدًّا بذاكرة أكبر، أو إشارة للعارض ببكسلات أقل</translation>
     </message>
 </context>
 <context>
@@ -5088,6 +5116,140 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>كلها</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>لقطات أحدث قياس</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>لا شيء: النتائج فقط</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>يُحذف ما لا يقرؤه شيء فقط، وتُضغط الملفات القديمة دون فقد.</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>تُحذف أيضًا اللقطات التي نُحّيت عند إعادة القياس. لا يقرؤها شيء.</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>يبقى كل ما قيس وحُسب، وتُحذف اللقطات.</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>العرض والفحص والتقارير تحتاج إلى النتائج فقط. أما الإعدادات الأخرى والطرق الأفضل في الإصدارات القادمة فتتطلب تصوير كل شيء من جديد.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>لا لقطات</numerusform>
+            <numerusform>لقطة واحدة</numerusform>
+            <numerusform>لقطتان</numerusform>
+            <numerusform>%n لقطات</numerusform>
+            <numerusform>%n لقطة</numerusform>
+            <numerusform>%n لقطة</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>ترتيب</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>ترتيب ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>أُوقف الترتيب.</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>ما أُخلي حتى ذلك الحين صار متاحًا. لم يُفقد شيء لازم.</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>اللقطات المحفوظة</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>لم يكتمل قياس هذا الموقع.</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>تبقى كل لقطاته: يحتاج إليها إكمال القياس.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>رجوع</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>يجري إخلاء القرص</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>ستُحذف نهائيًا: %1.</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>سيُخلى %1.</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>أُخلي %1، وحُذف: %2</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>⁨%1⁩ لم يُفقد شيء لازم.</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>يُخلي %1</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>لا شيء لإخلائه</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>إيقاف</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>إغلاق</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>إخلاء %1…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>إخلاء %1</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>لا تُحذف أي لقطة: يبقى كل شيء ممكنًا.</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>يحتفظ أحدث قياس بلقطاته: يبقى كل شيء ممكنًا.</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>يجري البحث عما يمكن إخلاؤه. لا يُحذف شيء بعد.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5558,6 +5720,25 @@ projector %2</source>
     <message>
         <source>%1 of %2</source>
         <translation>%1 من %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>ترتيب…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>إخلاء القرص مما لا يحتاج إليه ⁨%1⁩</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>خطوة «%1» تعمل الآن. يمكن أن ينتظر الترتيب حتى تنتهي.</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>حاول بعد ذلك مرة أخرى.</translation>
     </message>
 </context>
 <context>

@@ -2109,10 +2109,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>von den {} Pixeln der Kamera werden {}: je {} werden zu einem, da der Speicher für mehr nicht reicht</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>von den {} Pixeln der Kamera werden die {} um das Beleuchtete verwendet</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>wählen Sie weniger Kamerapixel: automatisch sind es so viele, wie Platz haben</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>das Messen bräuchte {} GB Speicher, und {} GB stehen zur Verfügung</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>nehmen Sie einen Computer oder eine Grenze mit mehr Speicher oder ein Projektorsignal mit weniger Pixeln</translation>
     </message>
 </context>
 <context>
@@ -4972,6 +5000,136 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Die der letzten Messung</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Keine: nur Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>Es geht nur, was nichts mehr liest; alte Dateien werden verlustfrei komprimiert.</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>Auch beim erneuten Messen beiseitegelegte Fotos gehen. Nichts liest sie.</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>Alles Gemessene und Berechnete bleibt. Die Fotos gehen.</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>Vorführen, Prüfen und Berichte brauchen nur Ergebnisse. Für andere Einstellungen und bessere Verfahren späterer Versionen muss dann alles neu fotografiert werden.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n Foto</numerusform>
+            <numerusform>%n Fotos</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>Aufräumen</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>%1 aufräumen</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>Das Aufräumen wurde beendet.</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>Was bis dahin frei wurde, ist frei. Nichts, was gebraucht wird, ist verloren.</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Fotos behalten</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>Dieser Spielort ist nicht zu Ende gemessen.</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>Alle seine Fotos bleiben: Das Weitermessen braucht sie.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>Das Laufwerk wird freigegeben</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>%1 werden endgültig entfernt.</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>%1 werden frei.</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>%1 frei geworden, %2 entfernt</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1 Nichts, was gebraucht wird, ist verloren.</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>%1 werden frei</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>nichts frei zu machen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>%1 freigeben…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>%1 freigeben</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>Kein Foto geht: Alles bleibt möglich.</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>Die letzte Messung behält ihre Fotos: Alles bleibt möglich.</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>Es wird nachgesehen, was frei werden kann. Noch wird nichts entfernt.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5434,6 +5592,25 @@ Projektor %2</translation>
     <message>
         <source>%1 of %2</source>
         <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>Aufräumen…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>Laufwerk von dem befreien, was %1 nicht braucht</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>Die Seite „%1“ arbeitet gerade. Das Aufräumen kann bis danach warten.</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Versuchen Sie es danach noch einmal.</translation>
     </message>
 </context>
 <context>

@@ -244,6 +244,16 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n photograph</numerusform>
+            <numerusform>%n photographs</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message numerus="yes">
         <source>About %n pattern(s), %1</source>

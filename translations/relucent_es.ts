@@ -2109,10 +2109,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>de los {} píxeles de la cámara se hacen {}: cada {} se convierten en uno, porque no hay memoria para más</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>de los {} píxeles de la cámara se usan los {} en torno a lo iluminado</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>elija menos píxeles de cámara: en automático son tantos como caben</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>medir necesitaría {} GB de memoria, y hay {} GB disponibles</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>use un ordenador o un límite con más memoria, o una señal de proyector con menos píxeles</translation>
     </message>
 </context>
 <context>
@@ -4972,6 +5000,136 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>Todas</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Las de la última medición</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Ninguna: solo resultados</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>Solo se va lo que nada lee; los archivos antiguos se comprimen sin pérdida.</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>También se van las que se apartaron al medir de nuevo. Nada las lee.</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>Todo lo medido y calculado se queda. Las fotografías se van.</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>Mostrar, comprobar y los informes solo necesitan resultados. Otros ajustes, y métodos mejores de versiones posteriores, tendrán que fotografiarlo todo de nuevo.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n fotografía</numerusform>
+            <numerusform>%n fotografías</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>Ordenar</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>Ordenar %1</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>Se detuvo la tarea de ordenar.</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>Lo liberado hasta entonces queda libre. No se ha perdido nada necesario.</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Fotografías que se conservan</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>Este lugar no está medido hasta el final.</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>Se quedan todas sus fotografías: hacen falta para continuar.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Atrás</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>Liberando el disco</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>Se eliminarán para siempre: %1.</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>Se liberarán %1.</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>%1 liberados, %2 eliminadas</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1 No se ha perdido nada necesario.</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>libera %1</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>nada que liberar</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Detener</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>Liberar %1…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>Liberar %1</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>No se va ninguna fotografía: todo sigue siendo posible.</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>La última medición conserva sus fotografías: todo sigue siendo posible.</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>Se busca lo que se puede liberar. Todavía no se elimina nada.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5434,6 +5592,25 @@ proyector %2</translation>
     <message>
         <source>%1 of %2</source>
         <translation>%1 de %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>Ordenar…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>Liberar el disco de lo que %1 no necesita</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>%1 está trabajando. Ordenar puede esperar a que termine.</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Inténtelo de nuevo después.</translation>
     </message>
 </context>
 <context>

@@ -2109,10 +2109,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>des {} pixels de la caméra, on en fait {} : chaque groupe de {} devient un seul pixel, car la mémoire ne suffit pas pour davantage</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>des {} pixels de la caméra, seuls les {} autour de ce qui est éclairé sont utilisés</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>choisissez moins de pixels de caméra : en automatique, il y en a autant que la mémoire en contient</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>la mesure demanderait {} Go de mémoire, et {} Go sont disponibles</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>utilisez un ordinateur ou une limite avec plus de mémoire, ou un signal de projecteur de moins de pixels</translation>
     </message>
 </context>
 <context>
@@ -4972,6 +5000,136 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>Toutes</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Celles de la dernière mesure</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Aucune : résultats seuls</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>Seul part ce que rien ne lit ; les anciens fichiers sont compressés sans perte.</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>Celles mises de côté lors d’une nouvelle mesure partent aussi. Rien ne les lit.</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>Tout ce qui a été mesuré et calculé reste. Les photos partent.</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>Projection, contrôle et rapports n’ont besoin que des résultats. D’autres réglages, et de meilleures méthodes de versions futures, devront alors tout rephotographier.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n photo</numerusform>
+            <numerusform>%n photos</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>Faire le ménage</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>Faire le ménage dans %1</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>Le ménage a été arrêté.</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>Ce qui a été libéré jusque-là l’est. Rien de nécessaire n’est perdu.</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Photos à conserver</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>Ce lieu n’est pas mesuré jusqu’au bout.</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>Toutes ses photos restent : il les faut pour continuer.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Retour</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>Libération du disque</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>%1 seront supprimées pour de bon.</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>%1 seront libérés.</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>%1 libérés, %2 supprimées</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1 Rien de nécessaire n’est perdu.</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>libère %1</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>rien à libérer</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>Libérer %1…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>Libérer %1</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>Aucune photo ne part : tout reste possible.</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>La dernière mesure garde ses photos : tout reste possible.</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>Recherche de ce qui peut être libéré. Rien n’est encore supprimé.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5434,6 +5592,25 @@ projecteur %2</translation>
     <message>
         <source>%1 of %2</source>
         <translation>%1 sur %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>Ménage…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>Libérer le disque de ce dont %1 n’a pas besoin</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>L’étape « %1 » est en cours. Le ménage peut attendre qu’elle soit finie.</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Réessayez ensuite.</translation>
     </message>
 </context>
 <context>

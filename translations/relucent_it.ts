@@ -2109,10 +2109,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>dei {} pixel della fotocamera ne risultano {}: ogni {} diventano uno, perché non c’è memoria per di più</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>dei {} pixel della fotocamera si usano i {} attorno a ciò che è illuminato</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>scegliere meno pixel della fotocamera: in automatico sono quanti ne entrano</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>la misura richiederebbe {} GB di memoria, e ne sono disponibili {} GB</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>usare un computer o un limite con più memoria, o un segnale del proiettore con meno pixel</translation>
     </message>
 </context>
 <context>
@@ -4972,6 +5000,136 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>Tutte</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>Quelle dell’ultima misura</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>Nessuna: solo risultati</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>Va via solo ciò che nulla legge; i vecchi file sono compressi senza perdita.</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>Vanno via anche quelle messe da parte misurando di nuovo. Nulla le legge.</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>Tutto ciò che è misurato e calcolato resta. Le foto vanno via.</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>Per proiettare, controllare e fare rapporti bastano i risultati. Altre impostazioni, e metodi migliori di versioni future, dovranno poi fotografare tutto di nuovo.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n foto</numerusform>
+            <numerusform>%n foto</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>Riordina</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>Riordina %1</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>Il riordino è stato fermato.</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>Quanto liberato fin lì è libero. Nulla di necessario è andato perso.</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>Foto da conservare</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>Questo luogo non è misurato fino in fondo.</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>Tutte le sue foto restano: servono per continuare.</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Indietro</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>Si libera il disco</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>Saranno rimosse per sempre: %1.</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>Saranno liberati %1.</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>%1 liberati, %2 rimosse</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1 Nulla di necessario è andato perso.</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>libera %1</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>nulla da liberare</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>Libera %1…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>Libera %1</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>Nessuna foto va via: tutto resta possibile.</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>L’ultima misura conserva le sue foto: tutto resta possibile.</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>Ricerca di ciò che si può liberare. Non si rimuove ancora nulla.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5434,6 +5592,25 @@ proiettore %2</translation>
     <message>
         <source>%1 of %2</source>
         <translation>%1 di %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>Riordina…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>Liberare il disco da ciò che non serve a %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>%1 è al lavoro. Il riordino può aspettare che finisca.</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Riprovare dopo.</translation>
     </message>
 </context>
 <context>

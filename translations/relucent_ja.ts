@@ -2105,10 +2105,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>カメラの {} 画素から {} を作ります。それ以上はメモリーに収まらないため、{} 画素ごとに 1 つにまとめます</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>カメラの {} 画素のうち、照らされた部分とその周囲の {} を使います</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>カメラの画素を減らしてください。自動にすると、収まるだけの画素が使われます</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>測定には {} GB のメモリーが要りますが、使えるのは {} GB です</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>メモリーの多いコンピューターや上限にするか、プロジェクターの信号の画素を減らしてください</translation>
     </message>
 </context>
 <context>
@@ -4943,6 +4971,135 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>すべて</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>最新の測定の写真</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>なし：結果のみ</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>使われないものだけを削除し、古いファイルは劣化なしに圧縮します。</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>再測定のときに取り置いた写真も削除します。もう使われません。</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>測定と計算の結果はすべて残り、写真は削除されます。</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>上映、点検、レポートには結果だけで足ります。別の設定や、新しい版のより良い方法では、すべて撮り直しになります。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>写真 %n 枚</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>整理</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>%1 を整理</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>整理を中止しました。</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>それまでに空けた分は空いたままです。必要なものは失われていません。</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>残す写真</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>この会場の測定は終わっていません。</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>続きの測定に要るので、写真はすべて残します。</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>戻る</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>ディスクを空けています</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>%1を完全に削除します。</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>%1 空きます。</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>%1 空きました。削除：%2</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1必要なものは失われていません。</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>%1 空く</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>空ける分なし</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>中止</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>%1 空ける…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>%1 空ける</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>写真は削除されません。できることはこれまでと同じです。</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>最新の測定の写真は残ります。できることはこれまでと同じです。</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>空けられるものを調べています。まだ何も削除しません。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5403,6 +5560,25 @@ projector %2</source>
     <message>
         <source>%1 of %2</source>
         <translation>%2 中 %1</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>整理…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>%1 に要らないものをディスクから削除します</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>「%1」が動作中です。整理は終わってからにしてください。</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>そのあとでもう一度お試しください。</translation>
     </message>
 </context>
 <context>

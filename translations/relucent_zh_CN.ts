@@ -2105,10 +2105,38 @@
     </message>
 </context>
 <context>
+    <name>reduction.binned-for-memory</name>
+    <message>
+        <source>of the camera&apos;s {} pixels, {} are made: every {} become one, as there is memory for no more</source>
+        <translation>相机的 {} 个像素合成为 {}：每 {} 个像素合为一个，因为内存容不下更多</translation>
+    </message>
+</context>
+<context>
     <name>reduction.cropped</name>
     <message>
         <source>of the camera&apos;s {} pixels, the {} around what is lit are used</source>
         <translation>在相机的 {} 个像素中，使用被照亮部分及其周围的 {}</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.fewer-camera-pixels</name>
+    <message>
+        <source>choose fewer camera pixels: automatic ones are as many as fit</source>
+        <translation>请选择较少的相机像素：自动选择时，用到内存容得下为止</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.memory-too-little</name>
+    <message>
+        <source>measuring would take {} GB of memory, and {} GB may be taken</source>
+        <translation>测量需要 {} GB 内存，而可用的是 {} GB</translation>
+    </message>
+</context>
+<context>
+    <name>reduction.more-memory-or-smaller-projector</name>
+    <message>
+        <source>use a computer or a limit with more memory, or a projector signal of fewer pixels</source>
+        <translation>请使用内存更大的电脑或更高的内存上限，或像素较少的投影机信号</translation>
     </message>
 </context>
 <context>
@@ -4943,6 +4971,135 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::TidyDialog</name>
+    <message>
+        <source>All</source>
+        <translation>全部</translation>
+    </message>
+    <message>
+        <source>Of the latest measurement</source>
+        <translation>最近一次测量的照片</translation>
+    </message>
+    <message>
+        <source>None: results only</source>
+        <translation>无：仅保留结果</translation>
+    </message>
+    <message>
+        <source>Only what nothing reads goes, and old files are compressed without loss.</source>
+        <translation>只删除没有用到的内容，旧文件无损压缩。</translation>
+    </message>
+    <message>
+        <source>Those that were set aside by measuring again go too. Nothing reads them.</source>
+        <translation>重新测量时搁置的照片也会删除。它们不再有用。</translation>
+    </message>
+    <message>
+        <source>All that was measured and computed stays. The photographs go.</source>
+        <translation>测量和计算的结果全部保留，照片删除。</translation>
+    </message>
+    <message>
+        <source>Showing, checking and reports need results only. Other settings, and better methods of later versions, then have to photograph everything again.</source>
+        <translation>放映、检查和报告只需要结果。之后若用其他设置，或新版本更好的方法，则需要重新拍摄全部照片。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s)</source>
+        <translation>
+            <numerusform>%n 张照片</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Tidy</source>
+        <translation>清理</translation>
+    </message>
+    <message>
+        <source>Tidy %1</source>
+        <translation>清理 %1</translation>
+    </message>
+    <message>
+        <source>Tidying was stopped.</source>
+        <translation>清理已停止。</translation>
+    </message>
+    <message>
+        <source>What was freed until then is free. Nothing that is needed is lost.</source>
+        <translation>此前腾出的空间已经腾出。需要的内容没有丢失。</translation>
+    </message>
+    <message>
+        <source>Photographs to keep</source>
+        <translation>要保留的照片</translation>
+    </message>
+    <message>
+        <source>This venue is not measured to the end.</source>
+        <translation>此场地尚未测量完毕。</translation>
+    </message>
+    <message>
+        <source>All its photographs stay: going on needs them.</source>
+        <translation>照片全部保留：继续测量需要它们。</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>返回</translation>
+    </message>
+    <message>
+        <source>Freeing the disk</source>
+        <translation>正在腾出磁盘空间</translation>
+    </message>
+    <message>
+        <source>%1 will be removed for good.</source>
+        <translation>将永久删除 %1。</translation>
+    </message>
+    <message>
+        <source>%1 will be freed.</source>
+        <translation>将腾出 %1。</translation>
+    </message>
+    <message>
+        <source>%1 freed, %2 removed</source>
+        <translation>已腾出 %1，删除 %2</translation>
+    </message>
+    <message>
+        <source>%1 Nothing that is needed is lost.</source>
+        <translation>%1需要的内容没有丢失。</translation>
+    </message>
+    <message>
+        <source>frees %1</source>
+        <translation>腾出 %1</translation>
+    </message>
+    <message>
+        <source>nothing to free</source>
+        <translation>没有可腾出的</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Free %1…</source>
+        <translation>腾出 %1…</translation>
+    </message>
+    <message>
+        <source>Free %1</source>
+        <translation>腾出 %1</translation>
+    </message>
+    <message>
+        <source>No photograph goes: everything stays possible.</source>
+        <translation>不删除照片：一切操作照旧可行。</translation>
+    </message>
+    <message>
+        <source>The latest measurement keeps its photographs: everything stays possible.</source>
+        <translation>最近一次测量的照片保留：一切操作照旧可行。</translation>
+    </message>
+    <message>
+        <source>Looking up what could be freed. Nothing is removed yet.</source>
+        <translation>正在查找可以腾出的空间。尚未删除任何内容。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::VenuePage</name>
     <message>
         <source>Unplugged. Plug it in or choose another.</source>
@@ -5403,6 +5560,25 @@ projector %2</source>
     <message>
         <source>%1 of %2</source>
         <translation>%1 / %2</translation>
+    </message>
+    <message>
+        <source>Tidy…</source>
+        <translation>清理…</translation>
+    </message>
+    <message>
+        <source>Free the disk of what %1 does not need</source>
+        <translation>清除磁盘上 %1 不需要的内容</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
+        <source>%1 is at work. Tidying can wait until it has ended.</source>
+        <translation>“%1”正在工作。请等它结束后再清理。</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>之后请重试。</translation>
     </message>
 </context>
 <context>

@@ -8,6 +8,7 @@
 #include "relucent/base/error.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/platform/memory_limits.h"
 #include "relucent/reduction/choice.h"
 #include "relucent/reduction/reduced_rig.h"
 
@@ -25,15 +26,70 @@ bool hasPhotographs(const calibration::CalibrationFolder& folder, calibration::S
   return false;
 }
 
+// What simulated venues took beyond the forecast, 128x96 / 160x120 to 512x384 / 320x240: 10 to 170 MB.
+constexpr double forecastMargin = 1.2;
+constexpr std::uint64_t otherBytes = 150'000'000;
+
+/// No choice leaves fewer pixels.
+Rasters smallestOf(const Rasters& cameras) {
+  std::vector<Size> sizes;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const Size size = cameras.size(camera);
+    sizes.push_back(
+        {std::min(size.width, reduction::leastSide), std::min(size.height, reduction::leastSide)});
+  }
+  return Rasters(std::move(sizes));
+}
+
+Argument gigabytes(std::uint64_t bytes) {
+  return as::number(static_cast<double>(bytes) / 1e9, as::decimals(2));
+}
+
+[[noreturn]] void refuse(std::uint64_t needed, std::uint64_t memory, reduction::PixelUse::Kind kind) {
+  throw Error(ErrorKind::memory,
+              RELUCENT_MESSAGE("reduction.memory-too-little",
+                               "measuring would take {} GB of memory, and {} GB may be taken")
+                  .with(gigabytes(needed), gigabytes(memory)),
+              kind == reduction::PixelUse::Kind::automatic
+                  ? RELUCENT_MESSAGE("reduction.more-memory-or-smaller-projector",
+                                     "use a computer or a limit with more memory, or a projector signal of "
+                                     "fewer pixels")
+                  : RELUCENT_MESSAGE("reduction.fewer-camera-pixels",
+                                     "choose fewer camera pixels: automatic ones are as many as fit"));
+}
+
 }  // namespace
 
-void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress) {
+std::uint64_t memoryNeeded(const Rasters& cameras, const Rasters& projectors,
+                           const acquisition::AcquisitionSettings& settings) {
+  const acquisition::ForecastDevices devices{cameras, projectors, 1, 0.0};
+  const WorkLeft work = acquisition::forecast(devices, settings, {}, {});
+  return static_cast<std::uint64_t>(forecastMargin * static_cast<double>(work.memoryBytes)) + otherBytes;
+}
+
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, std::uint64_t memory,
+                      Progress& progress) {
   if (hasReductions(folder) || hasPhotographs(folder, calibration::Stage::linearization)) return;
   const CalibrateSettings settings = settingsOf(folder);
+  const Rasters projectors = rig.projectorRasters();
+  const reduction::Fits fits = [&](const Rasters& cameras) {
+    return memoryNeeded(cameras, projectors, settings.acquisition) <= memory;
+  };
+  auto ensureRoom = [&](const Rasters& cameras) {
+    if (!fits(cameras))
+      refuse(memoryNeeded(cameras, projectors, settings.acquisition), memory, settings.pixels.kind);
+  };
+  const bool usesAll = settings.pixels.kind == reduction::PixelUse::Kind::all;
+  ensureRoom(usesAll ? rig.cameraRasters() : smallestOf(rig.cameraRasters()));
   const std::vector<Reduction> chosen =
-      reduction::chooseReductions(rig, settings.pixels, settings.linearization.seed, progress);
+      reduction::chooseReductions(rig, settings.pixels, settings.linearization.seed, fits, progress);
+  ensureRoom(chosen.empty() ? rig.cameraRasters() : reduction::reducedRasters(chosen));
   // Where there was nothing to choose, the manifest is what it would be without any of this.
   keepReductions(folder, chosen);
+}
+
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress) {
+  chooseReductions(folder, rig, platform::memoryLeft(), progress);
 }
 
 void changePixels(calibration::CalibrationFolder& folder, const reduction::PixelUse& use) {
@@ -55,7 +111,8 @@ rig::Rig reducedRig(const calibration::CalibrationFolder& folder, rig::Rig& rig)
 
 std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearization::ExposureChoice& exposures,
                                           const rig::ShotTimes& took,
-                                          const acquisition::AcquisitionSettings& settings) {
+                                          const acquisition::AcquisitionSettings& settings,
+                                          std::uint64_t memory) {
   using Kind = reduction::PixelUse::Kind;
   const Size camera = rig.cameras.front()->size();
   const Rasters projectors = rig.projectorRasters();
@@ -67,9 +124,17 @@ std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearizati
   for (const reduction::PixelUse& use :
        {reduction::PixelUse{}, reduction::PixelUse{Kind::all}, reduction::PixelUse{Kind::binned, 2},
         reduction::PixelUse{Kind::binned, 3}, reduction::PixelUse{Kind::binned, 4}}) {
-    const Size used = use.kind == Kind::all
-                          ? camera
-                          : reduction::reductionFor(camera, projectors.count(), use, light, stride).size();
+    Size used = camera;
+    if (use.kind != Kind::all) {
+      Reduction reduction = reduction::reductionFor(camera, projectors.count(), use, light, stride);
+      while (use.kind == Kind::automatic &&
+             memoryNeeded(Rasters(reduction.size()), projectors, settings) > memory) {
+        const auto larger = reduction::withLargerBins(reduction, projectors.count(), light, stride);
+        if (!larger) break;
+        reduction = *larger;
+      }
+      used = reduction.size();
+    }
     rig::ShotTimes benchmark = took;
     if (!(used == camera))
       benchmark.bytes = static_cast<std::uint64_t>(bytesOfASample * 3.0 * static_cast<double>(used.count()) *
@@ -86,6 +151,15 @@ std::vector<Message> findingsOf(const std::vector<Reduction>& reductions) {
   std::vector<Message> findings;
   for (const Reduction& reduction : reductions) {
     if (reduction.isNothing()) continue;
+    if (reduction.savesMemory) {
+      findings.push_back(
+          RELUCENT_MESSAGE("reduction.binned-for-memory",
+                           "of the camera's {} pixels, {} are made: every {} become one, as there is memory "
+                           "for no more")
+              .with(as::size(reduction.camera), as::size(reduction.size()),
+                    as::size({reduction.bin, reduction.bin})));
+      continue;
+    }
     findings.push_back(reduction.bin == 1
                            ? RELUCENT_MESSAGE("reduction.cropped",
                                               "of the camera's {} pixels, the {} around what is lit are used")

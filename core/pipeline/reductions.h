@@ -14,8 +14,18 @@
 /// (stored_settings.h).
 namespace relucent::pipeline {
 
+/// Bytes that measuring the light transport takes on top of what the program has already, by its forecast
+/// (acquisition/forecast.h), which may be a fifth too low, and what the rest of a calibration takes.
+std::uint64_t memoryNeeded(const Rasters& cameras, const Rasters& projectors,
+                           const acquisition::AcquisitionSettings& settings);
+
 /// Chooses reductions as the settings want them and keeps them, unless that is done or something has been
-/// measured: photographs of the linearization are in the journal. Throws: as chooseReductions().
+/// measured: photographs of the linearization are in the journal. `memory`: bytes that may be taken;
+/// without it, platform::memoryLeft().
+/// Throws: as chooseReductions(); Error{memory} if it is too little, before the first photograph if no choice
+/// of automatic pixels could change that.
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, std::uint64_t memory,
+                      Progress& progress);
 void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress);
 
 /// The settings want other pixels. What was chosen is forgotten, and photographs of linearization and
@@ -34,11 +44,12 @@ struct PixelForecast {
 };
 
 /// Of the first camera: automatic, all, and bins of 2 to 4, by the photographs that chose the exposures and
-/// what they took. Empty for a camera with no more pixels than the projectors. Of a camera that is not linear
-/// more seems to be lit than is, so that this is rather too much.
+/// what they took; automatic as far as `memory` goes. Empty for a camera with no more pixels than the
+/// projectors. Of a camera that is not linear more seems to be lit than is, so that this is rather too much.
 std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearization::ExposureChoice& exposures,
                                           const rig::ShotTimes& took,
-                                          const acquisition::AcquisitionSettings& settings);
+                                          const acquisition::AcquisitionSettings& settings,
+                                          std::uint64_t memory);
 
 /// What is made of the pixels of every camera that is reduced, a sentence each.
 std::vector<Message> findingsOf(const std::vector<reduction::Reduction>& reductions);

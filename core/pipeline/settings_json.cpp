@@ -100,13 +100,15 @@ Sorted reductionToJson(const Reduction& reduction) {
   Sorted responses = Sorted::array();
   for (const hdr::ResponseCurve& curve : reduction.response)
     if (!curve.isIdentity()) responses.push_back({{"signal", curve.x()}, {"linear", curve.y()}});
-  return {{"camera", {reduction.camera.width, reduction.camera.height}},
-          {"begin", {reduction.begin.x, reduction.begin.y}},
-          {"part", {reduction.part.width, reduction.part.height}},
-          {"bin", reduction.bin},
-          {"clip", reduction.clip},
-          {"response", std::move(responses)},
-          {"defective", reduction.defective}};
+  Sorted json{{"camera", {reduction.camera.width, reduction.camera.height}},
+              {"begin", {reduction.begin.x, reduction.begin.y}},
+              {"part", {reduction.part.width, reduction.part.height}},
+              {"bin", reduction.bin},
+              {"clip", reduction.clip},
+              {"response", std::move(responses)},
+              {"defective", reduction.defective}};
+  if (reduction.savesMemory) json["saves_memory"] = true;
+  return json;
 }
 
 Reduction reductionFromJson(const Sorted& json) {
@@ -122,6 +124,7 @@ Reduction reductionFromJson(const Sorted& json) {
     reduction.response[c] = hdr::ResponseCurve(responses[c].at("signal").get<std::vector<double>>(),
                                                responses[c].at("linear").get<std::vector<double>>());
   reduction.defective = json.at("defective").get<std::vector<std::uint32_t>>();
+  reduction.savesMemory = json.value("saves_memory", false);
   return reduction;
 }
 

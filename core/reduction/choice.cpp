@@ -19,7 +19,6 @@ namespace relucent::reduction {
 namespace {
 
 constexpr double asMany = 0.75;            // as the projectors' pixels: about as many
-constexpr int leastSide = 8;               // of what remains, in pixels
 constexpr double worthwhile = 0.75;        // of the camera's pixels may remain
 constexpr double saturationMargin = 0.97;  // of what a camera clips at, in ExposureChoice::saturation
 constexpr double mostClipped = 0.005;      // of the samples: hardly any
@@ -174,26 +173,53 @@ Reduction reductionFor(Size camera, std::size_t projectorPixels, const PixelUse&
   return use.kind == PixelUse::Kind::automatic && little ? noReduction(camera) : reduction;
 }
 
+std::optional<Reduction> withLargerBins(const Reduction& reduction, std::size_t projectorPixels,
+                                        const image::Image& light, int stride) {
+  const PixelUse larger{PixelUse::Kind::binned, reduction.bin + 1};
+  if (larger.bin > mostBin) return std::nullopt;
+  Reduction result = reductionFor(reduction.camera, projectorPixels, larger, light, stride);
+  if (result.bin <= reduction.bin) return std::nullopt;
+  result.savesMemory = true;
+  return result;
+}
+
 std::vector<Reduction> chooseReductions(rig::Rig& rig, const PixelUse& use, std::uint64_t seed,
-                                        Progress& progress) {
+                                        const Fits& fits, Progress& progress) {
   const std::size_t projectors = rig.projectorRasters().count();
-  if (std::ranges::none_of(rig.cameras,
-                           [&](const auto& camera) { return needsLook(camera->size(), projectors, use); }))
-    return {};
+  const bool mayGrow = use.kind == PixelUse::Kind::automatic;
+  const bool isTooMuch = mayGrow && !fits(rig.cameraRasters());
+  auto isLookedAt = [&](const auto& camera) {
+    return isTooMuch || needsLook(camera->size(), projectors, use);
+  };
+  if (std::ranges::none_of(rig.cameras, isLookedAt)) return {};
   Look look(rig, seed, progress);
   std::vector<Reduction> reductions;
-  bool bins = false;
+  std::vector<Responses> responses(rig.cameras.size());
+  std::vector<image::Image> lights(rig.cameras.size());
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     const Size size = rig.cameras[camera]->size();
     reductions.push_back(noReduction(size));
-    if (!needsLook(size, projectors, use)) continue;
-    const Responses responses = look.responsesOf(camera, progress);
-    reductions.back() = reductionFor(size, projectors, use, lightOf(look.exposures(), camera, responses),
-                                     strideFor(size, mostLookedAt));
-    if (reductions.back().bin == 1) continue;
+    if (!isLookedAt(rig.cameras[camera])) continue;
+    responses[camera] = look.responsesOf(camera, progress);
+    lights[camera] = lightOf(look.exposures(), camera, responses[camera]);
+    reductions.back() = reductionFor(size, projectors, use, lights[camera], strideFor(size, mostLookedAt));
+  }
+  for (bool grows = mayGrow; grows && !fits(reducedRasters(reductions));) {
+    grows = false;
+    for (std::size_t camera = 0; camera < reductions.size(); ++camera) {
+      if (lights[camera].empty()) continue;
+      const int stride = strideFor(reductions[camera].camera, mostLookedAt);
+      const auto larger = withLargerBins(reductions[camera], projectors, lights[camera], stride);
+      if (larger) reductions[camera] = *larger;
+      grows = grows || larger;
+    }
+  }
+  bool bins = false;
+  for (std::size_t camera = 0; camera < reductions.size(); ++camera) {
+    if (reductions[camera].bin == 1) continue;
     bins = true;
-    reductions.back().response = responses;
-    reductions.back().clip = look.saturation(camera) / saturationMargin;
+    reductions[camera].response = responses[camera];
+    reductions[camera].clip = look.saturation(camera) / saturationMargin;
   }
 
   if (bins) {

@@ -107,4 +107,10 @@ rig::Rig sparse(rig::Rig& rig, std::size_t mostPixels) {
   });
 }
 
+Rasters reducedRasters(const std::vector<Reduction>& reductions) {
+  std::vector<Size> sizes;
+  for (const Reduction& reduction : reductions) sizes.push_back(reduction.size());
+  return Rasters(std::move(sizes));
+}
+
 }  // namespace relucent::reduction

@@ -22,4 +22,7 @@ image::Image everyNth(const image::Image& picture, int stride);
 /// The stride that this leaves no more than `mostPixels` of.
 int strideFor(Size camera, std::size_t mostPixels);
 
+/// The pixels that are left of all cameras, one reduction each.
+Rasters reducedRasters(const std::vector<Reduction>& reductions);
+
 }  // namespace relucent::reduction

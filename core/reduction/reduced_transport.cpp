@@ -6,6 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/image/image.h"
+#include "relucent/reduction/reduced_rig.h"
 
 namespace relucent::reduction {
 namespace {
@@ -13,12 +14,6 @@ namespace {
 Rasters fullRasters(const std::vector<Reduction>& reductions) {
   std::vector<Size> sizes;
   for (const Reduction& reduction : reductions) sizes.push_back(reduction.camera);
-  return Rasters(std::move(sizes));
-}
-
-Rasters reducedRasters(const std::vector<Reduction>& reductions) {
-  std::vector<Size> sizes;
-  for (const Reduction& reduction : reductions) sizes.push_back(reduction.size());
   return Rasters(std::move(sizes));
 }
 

@@ -21,6 +21,7 @@ struct Reduction {
   double clip = 1.0;                           // signal of a sample that is full, as the camera delivers it
   std::array<hdr::ResponseCurve, 3> response;  // signal -> linear signal; the identity of a linear camera
   std::vector<std::uint32_t> defective;        // ascending 3 * pixel + channel: samples that are left out
+  bool savesMemory = false;                    // smaller bins would suit the projection
 
   /// Of what remains.
   Size size() const { return {part.width / bin, part.height / bin}; }

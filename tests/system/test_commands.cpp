@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole calibration through external commands: real processes, real files.
+#include <QDir>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QTest>
@@ -88,6 +89,35 @@ class TestCommands : public QObject {
                          "--projector", "16x12"});
     QCOMPARE(failed.status, 1);
     QVERIFY2(failed.errors.contains("the lens cap is on"), failed.errors.constData());
+  }
+
+  /// Law: with little memory it is refused beforehand or done, never killed.
+  void littleMemoryIsRefusedOrEnough_data() {
+    QTest::addColumn<int>("megabytes");
+    QTest::addColumn<QString>("pixels");
+    for (int megabytes : {700, 1000, 1400})
+      for (const char* pixels : {"auto", "all"})
+        QTest::addRow("%d MB, %s", megabytes, pixels) << megabytes << pixels;
+  }
+  void littleMemoryIsRefusedOrEnough() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    QSKIP("sanitizers map more than any limit");
+#endif
+    QFETCH(int, megabytes);
+    QFETCH(QString, pixels);
+    QTemporaryDir folder;
+    const QString calibrate =
+        QString(
+            "ulimit -v %1 && exec \"$0\" calibrate \"$1\" --venue plain --projector 48x36 --camera 400x300 "
+            "--paths 8 --levels 9 --camera-pixels %2 --cache \"$2\"")
+            .arg(1000 * megabytes)
+            .arg(pixels);
+    const Run limited = run("/bin/bash", {"-c", calibrate, tool("relucent-cli"), folder.filePath("venue"),
+                                          folder.filePath("cache")});
+    const bool isRefused = limited.status == 1 && limited.errors.contains("GB of memory, and");
+    qInfo("%s", isRefused ? "refused" : "done");
+    QVERIFY2(limited.status == 0 || isRefused, limited.errors.constData());
+    if (isRefused) QVERIFY(QDir(folder.filePath("venue/shots")).isEmpty());
   }
 };
 

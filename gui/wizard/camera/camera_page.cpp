@@ -10,6 +10,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/linearization/test_light.h"
+#include "relucent/platform/memory_limits.h"
 #include "views/number_text.h"
 #include "wizard/devices/missing_camera.h"
 #include "wizard/devices/missing_screen.h"
@@ -269,7 +270,7 @@ void CameraPage::start() {
         progress.part(0.3, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
     linearization::ExposureChoice choice = linearization::chooseExposures(shots, exposing);
     std::vector<pipeline::PixelForecast> pixels =
-        pipeline::pixelForecasts(rig, choice, shots.times(), settings);
+        pipeline::pixelForecasts(rig, choice, shots.times(), settings, platform::memoryLeft());
     // A large camera's photographs would take up the memory that measuring needs.
     choice.whites.clear();
     choice.black = {};

@@ -8,6 +8,7 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
 #include "wizard/frame/end_question.h"
+#include "wizard/venue/venue_tidy.h"
 
 namespace relucent::gui {
 namespace {
@@ -162,6 +163,14 @@ void VenuePage::setMode(Mode mode) {
 bool VenuePage::isOpenNow(const RecentVenue& venue) const {
   return session_.isOpen() &&
          QDir::cleanPath(QString::fromStdString(session_.path().string())) == venue.folder;
+}
+
+QString VenuePage::tidyProblem() const {
+  return VenueTidy::problem(session_);
+}
+
+std::unique_ptr<VenueTidy> VenuePage::tidy(const RecentVenue& venue) {
+  return std::make_unique<VenueTidy>(session_, stepName, venue.folder);
 }
 
 void VenuePage::open(const QString& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "wizard/devices/screen_choice.h"
@@ -12,6 +13,8 @@
 class QDir;
 
 namespace relucent::gui {
+
+class VenueTidy;
 
 /// A simulated venue as it is offered.
 struct RehearsalVenue {
@@ -58,6 +61,11 @@ class VenuePage : public PageModel {
   /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened. Where a measurement
   /// would end by it, asks first.
   void open(const QString& path);
+
+  /// Why no venue can be tidied now, a sentence; empty: it can.
+  QString tidyProblem() const;
+  /// Of a venue that was opened before; see VenueTidy.
+  std::unique_ptr<VenueTidy> tidy(const RecentVenue& venue);
 
   const std::vector<RehearsalVenue>& venues() const { return venues_; }
   const std::vector<RehearsalSize>& sizes() const { return sizes_; }

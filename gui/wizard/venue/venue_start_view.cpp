@@ -4,6 +4,7 @@
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "wizard/venue/tidy_dialog.h"
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
@@ -31,6 +32,7 @@ class RecentRow : public QFrame {
     state->setWordWrap(false);
     row->addWidget(state);
     row->addSpacing(8);
+    row->addWidget(tidyButton(model, venue));
     const bool isOpen = model.isOpenNow(venue);
     QPushButton* open = buttonOf(isOpen ? VenuePage::tr("Is open") : VenuePage::tr("Open"));
     open->setEnabled(!isOpen);
@@ -38,6 +40,22 @@ class RecentRow : public QFrame {
     QObject::connect(open, &QPushButton::clicked, &model,
                      [&model, folder = venue.folder] { model.open(folder); });
     row->addWidget(open);
+  }
+
+ private:
+  QPushButton* tidyButton(VenuePage& model, const RecentVenue& venue) {
+    QPushButton* tidy = buttonOf(VenuePage::tr("Tidy…"), "flat");
+    tidy->setObjectName("tidy");
+    tidy->setAccessibleName(VenuePage::tr("Free the disk of what %1 does not need").arg(venue.name));
+    const QString problem = model.tidyProblem();
+    tidy->setEnabled(problem.isEmpty());
+    tidy->setToolTip(problem.isEmpty() ? tidy->accessibleName() : problem);
+    connect(tidy, &QPushButton::clicked, &model, [this, &model, venue] {
+      auto* dialog = new TidyDialog(model.tidy(venue), window());
+      dialog->setAttribute(Qt::WA_DeleteOnClose);
+      dialog->open();
+    });
+    return tidy;
   }
 };
 
@@ -88,7 +106,7 @@ class StartStage : public QWidget {
   void showEvent(QShowEvent*) override { fill(); }
   void fill() {
     QList<RecentVenue> venues = model_.recent();
-    QStringList now;
+    QStringList now{model_.tidyProblem()};
     for (const RecentVenue& venue : venues)
       now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "");
     if (now == shown_ && recent_->body()->count() > 0) return;

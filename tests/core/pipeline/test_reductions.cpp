@@ -19,6 +19,7 @@
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/verify.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -44,6 +45,24 @@ CalibrateSettings settingsFor(Size camera, const PixelUse& pixels = {}, const ch
   settings.pixels = pixels;
   return settings;
 }
+
+/// Counts what it is told to show.
+class CountedProjector : public rig::Projector {
+ public:
+  CountedProjector(std::unique_ptr<rig::Projector> projector, int& patterns)
+      : projector_(std::move(projector)), patterns_(patterns) {}
+  std::string name() const override { return projector_->name(); }
+  Size size() const override { return projector_->size(); }
+  int bits() const override { return projector_->bits(); }
+  void show(const Image& encodedDrive) override {
+    ++patterns_;
+    projector_->show(encodedDrive);
+  }
+
+ private:
+  std::unique_ptr<rig::Projector> projector_;
+  int& patterns_;
+};
 
 }  // namespace
 
@@ -162,6 +181,65 @@ class TestReductions : public QObject {
     QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
   }
 
+  /// Automatic pixels are as many as there is memory for; one sentence says so, later as well.
+  void automaticPixelsFitIntoMemory_data() {
+    QTest::addColumn<int>("larger");
+    for (int larger : {0, 1, 2}) QTest::addRow("bins %d larger", larger) << larger;
+  }
+  void automaticPixelsFitIntoMemory() {
+    QFETCH(int, larger);
+    Progress quiet;
+    const CalibrateSettings settings = settingsFor({256, 192});
+    OpenedRig devices = openRig(settings.rig, cache(), quiet);
+    auto chosen = [&](const std::string& name, const PixelUse& use, std::uint64_t memory) {
+      CalibrateSettings own = settings;
+      own.pixels = use;
+      CalibrationFolder folder = beginCalibration(path(std::string(QTest::currentDataTag()) + name), own);
+      chooseReductions(folder, devices.rig, memory, quiet);
+      return reductionsOf(folder).at(0);
+    };
+    constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
+    const Reduction suitable = chosen(" suitable", {}, plenty);
+    const PixelUse wanted{PixelUse::Kind::binned, suitable.bin + larger};
+    const Rasters size(chosen(" wanted", wanted, plenty).size());
+    const std::uint64_t memory = memoryNeeded(size, devices.rig.projectorRasters(), settings.acquisition);
+    const Reduction found = chosen(" found", {}, memory);
+    QCOMPARE(Rasters(found.size()), size);
+    QCOMPARE(found.savesMemory, larger > 0);
+    const std::vector<Message> findings = findingsOf({found});
+    QCOMPARE(findings.size(), std::size_t{1});
+    QCOMPARE(findings[0].id() == "reduction.binned-for-memory", larger > 0);
+  }
+
+  void tooLittleMemoryIsRefusedBeforeTheFirstPhotograph_data() {
+    QTest::addColumn<int>("kind");
+    QTest::addColumn<QString>("advice");
+    QTest::newRow("automatic") << static_cast<int>(PixelUse::Kind::automatic) << "a limit with more memory";
+    QTest::newRow("all") << static_cast<int>(PixelUse::Kind::all) << "choose fewer camera pixels";
+    QTest::newRow("binned") << static_cast<int>(PixelUse::Kind::binned) << "choose fewer camera pixels";
+  }
+  void tooLittleMemoryIsRefusedBeforeTheFirstPhotograph() {
+    QFETCH(int, kind);
+    QFETCH(QString, advice);
+    Progress quiet;
+    const PixelUse use{static_cast<PixelUse::Kind>(kind), 2};
+    CalibrateSettings settings = settingsFor({128, 96}, use);
+    CalibrationFolder folder =
+        beginCalibration(path("refused " + std::string(QTest::currentDataTag())), settings);
+    OpenedRig devices = openRig(settings.rig, cache(), quiet);
+    int patterns = 0;
+    devices.rig.projectors[0] =
+        std::make_unique<CountedProjector>(std::move(devices.rig.projectors[0]), patterns);
+    const std::string sentence =
+        sentenceOf([&] { chooseReductions(folder, devices.rig, 100'000'000, quiet); }, ErrorKind::memory);
+    QVERIFY(mentions(sentence, "0.10 GB may be taken"));
+    QVERIFY(mentions(sentence, advice.toStdString()));
+    QCOMPARE(patterns, 0);
+    QVERIFY(!hasReductions(folder));
+    // With more it goes on.
+    chooseReductions(folder, devices.rig, 2'000'000'000, quiet);
+  }
+
   /// People look at all that the camera sees; figures are of what was measured.
   void aProofShowsAllThatTheCameraSees() {
     Progress quiet;
@@ -217,6 +295,7 @@ class TestReductions : public QObject {
         beginCalibration(path("damaged " + std::string(QTest::currentDataTag())), settingsFor({128, 96}));
     Reduction reduction = reductionTo({128, 96}, {10, 12}, {64, 48}, 2);
     reduction.defective = {5, 77};
+    reduction.savesMemory = true;
     keepReductions(folder, {reduction});
     QVERIFY(reductionsOf(folder) == std::vector<Reduction>{reduction});
     Json settings = folder.settings();

@@ -8,6 +8,7 @@
 #include "relucent/platform/files.h"
 #include "relucent/platform/folder_lock.h"
 #include "relucent/platform/interruption_signals.h"
+#include "relucent/platform/memory_limits.h"
 #include "relucent/platform/process.h"
 #include "relucent/platform/shell.h"
 #include "relucent/platform/system_description.h"
@@ -68,6 +69,90 @@ class TestPlatform : public QObject {
       QVERIFY(outcome.code == std::errc::no_such_file_or_directory);
       QVERIFY(!outcome.opened);
     }
+  }
+
+  /// Machines as their files describe them.
+  void memoryIsLimitedByTheLeast_data() {
+    using Files = std::vector<std::pair<const char*, const char*>>;
+    QTest::addColumn<Files>("files");
+    QTest::addColumn<quint64>("machine");
+    QTest::addColumn<quint64>("group");
+    const std::pair memory("proc/meminfo", "MemFree:  9 kB\nMemTotal:  8000000 kB\nCached: 7 kB\n");
+    const quint64 whole = 8'192'000'000, none = noMemoryLimit;
+    QTest::newRow("nothing known") << Files{} << none << none;
+    QTest::newRow("no groups") << Files{memory} << whole << none;
+    QTest::newRow("version 2, none set") << Files{memory,
+                                                  {"proc/self/cgroup", "0::/user/session\n"},
+                                                  {"sys/fs/cgroup/user/session/memory.max", "max\n"}}
+                                         << whole << none;
+    QTest::newRow("version 2, of the group")
+        << Files{memory,
+                 {"proc/self/cgroup", "0::/user/session\n"},
+                 {"sys/fs/cgroup/user/session/memory.max", "4000000000\n"},
+                 {"sys/fs/cgroup/user/memory.max", "max\n"}}
+        << whole << quint64{4'000'000'000};
+    QTest::newRow("version 2, of one that it is in")
+        << Files{memory,
+                 {"proc/self/cgroup", "0::/user/session\n"},
+                 {"sys/fs/cgroup/user/session/memory.max", "4000000000\n"},
+                 {"sys/fs/cgroup/user/memory.max", "3000000000\n"}}
+        << whole << quint64{3'000'000'000};
+    QTest::newRow("version 2, a container's own")
+        << Files{memory, {"proc/self/cgroup", "0::/\n"}, {"sys/fs/cgroup/memory.max", "2000000000\n"}}
+        << whole << quint64{2'000'000'000};
+    QTest::newRow("version 1")
+        << Files{memory,
+                 {"proc/self/cgroup", "5:cpu,cpuacct:/a\n4:memory:/job\n1:name=systemd:/b\n"},
+                 {"sys/fs/cgroup/memory/job/memory.limit_in_bytes", "1500000000\n"},
+                 {"sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n"}}
+        << whole << quint64{1'500'000'000};
+    QTest::newRow("version 1, in a container")
+        << Files{memory,
+                 {"proc/self/cgroup", "4:hugetlb,memory:/docker/0123\n"},
+                 {"sys/fs/cgroup/memory/memory.limit_in_bytes", "1000000000\n"}}
+        << whole << quint64{1'000'000'000};
+  }
+  void memoryIsLimitedByTheLeast() {
+    using Files = std::vector<std::pair<const char*, const char*>>;
+    QFETCH(Files, files);
+    QFETCH(quint64, machine);
+    QFETCH(quint64, group);
+    QTemporaryDir root;
+    for (const auto& [name, content] : files) {
+      const fs::path file = fs::path(root.path().toStdString()) / name;
+      fs::create_directories(file.parent_path());
+      QVERIFY(!writeContent(file, content).code);
+    }
+    const MemoryLimits limits = memoryLimits(root.path().toStdString());
+    QCOMPARE(quint64{limits.machine}, machine);
+    QCOMPARE(quint64{limits.group}, group);
+  }
+  void memoryThatIsLeft_data() {
+    QTest::addColumn<quint64>("machine");
+    QTest::addColumn<quint64>("group");
+    QTest::addColumn<quint64>("addressSpace");
+    QTest::addColumn<quint64>("left");  // with 100 MB in use and 1 GB mapped
+    const quint64 none = noMemoryLimit, mapped = 1'000'000'000 + (quint64{128} << 20);
+    QTest::newRow("no limits") << none << none << none << none;
+    QTest::newRow("the machine") << quint64{10'000'000'000} << none << none << quint64{7'900'000'000};
+    QTest::newRow("its group") << quint64{10'000'000'000} << quint64{4'000'000'000} << none
+                               << quint64{3'900'000'000};
+    QTest::newRow("its address space")
+        << quint64{10'000'000'000} << quint64{4'000'000'000} << mapped + 5 << quint64{5};
+    QTest::newRow("all in use") << quint64{10'000'000'000} << quint64{90'000'000} << none << quint64{0};
+  }
+  void memoryThatIsLeft() {
+    QFETCH(quint64, machine);
+    QFETCH(quint64, group);
+    QFETCH(quint64, addressSpace);
+    QFETCH(quint64, left);
+    QCOMPARE(quint64{memoryLeft({machine, group, addressSpace}, {100'000'000, 1'000'000'000})}, left);
+  }
+  /// Of this machine: there is some, and this program takes some of it.
+  void memoryOfThisProgramIsKnown() {
+    const MemoryUse use = memoryUse();
+    QVERIFY(use.resident > 1'000'000 && use.addressSpace > use.resident);
+    QVERIFY(memoryLimits().machine > use.resident && memoryLimits().machine != noMemoryLimit);
   }
 
   void aFullDiskIsKnown() {

@@ -19,6 +19,7 @@ using namespace relucent::transport;
 
 namespace {
 
+const Fits anySize = [](const Rasters&) { return true; };
 constexpr PixelUse automatic{}, all{PixelUse::Kind::all}, thirds{PixelUse::Kind::binned, 3};
 
 SyntheticSettings sceneOf(Size projector, Size camera, double shareSeen, std::uint64_t seed) {
@@ -102,8 +103,8 @@ class TestChoice : public QObject {
     const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {32, 24}, 0.5, 1));
     Rig rig = venue.rig();
     Progress progress;
-    QVERIFY(chooseReductions(rig, automatic, 1, progress).empty());
-    QVERIFY(chooseReductions(rig, all, 1, progress).empty());
+    QVERIFY(chooseReductions(rig, automatic, 1, anySize, progress).empty());
+    QVERIFY(chooseReductions(rig, all, 1, anySize, progress).empty());
     QCOMPARE(venue.captures(), 0);
   }
 
@@ -120,7 +121,7 @@ class TestChoice : public QObject {
     const ScriptedVenue venue = venueOf(scene);
     Rig rig = venue.rig();
     Progress progress;
-    const std::vector<Reduction> chosen = chooseReductions(rig, automatic, 1, progress);
+    const std::vector<Reduction> chosen = chooseReductions(rig, automatic, 1, anySize, progress);
     QCOMPARE(chosen.size(), std::size_t{1});
     const Reduction& reduction = chosen[0];
 
@@ -153,12 +154,66 @@ class TestChoice : public QObject {
     const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {80, 60}, 0.6, 1));
     Rig rig = venue.rig();
     Progress progress;
-    const std::vector<Reduction> chosen = chooseReductions(rig, thirds, 1, progress);
+    const std::vector<Reduction> chosen = chooseReductions(rig, thirds, 1, anySize, progress);
     QCOMPARE(chosen.size(), std::size_t{1});
     QCOMPARE(chosen[0].bin, 3);
     // Not so many become one that nothing is left to measure with.
-    const Size least = chooseReductions(rig, {PixelUse::Kind::binned, mostBin}, 1, progress).at(0).size();
+    const Size least =
+        chooseReductions(rig, {PixelUse::Kind::binned, mostBin}, 1, anySize, progress).at(0).size();
     QVERIFY(least.width >= 8 && least.height >= 8);
+  }
+
+  /// Law: bins are the least that suit the projection and fit, or the largest there are.
+  void binsGrowUntilTheyFit_data() {
+    QTest::addColumn<int>("most");  // camera pixels that fit
+    QTest::addColumn<quint64>("seed");
+    for (quint64 seed : {1, 2, 3})
+      for (int most : {100'000, 700, 300, 120, 1})
+        QTest::addRow("%d pixels, seed %llu", most, seed) << most << seed;
+  }
+  void binsGrowUntilTheyFit() {
+    QFETCH(int, most);
+    QFETCH(quint64, seed);
+    const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {160, 120}, 0.8, seed));
+    Rig rig = venue.rig();
+    Progress progress;
+    const Fits fits = [most](const Rasters& cameras) { return cameras.count() <= std::size_t(most); };
+    const Reduction suitable = chooseReductions(rig, automatic, seed, anySize, progress).at(0);
+    const Reduction chosen = chooseReductions(rig, automatic, seed, fits, progress).at(0);
+    QVERIFY(!suitable.savesMemory);
+    QCOMPARE(chosen.savesMemory, chosen.bin > suitable.bin);
+    QVERIFY(chosen.bin >= suitable.bin);
+    // The one before does not fit, so far as there is one before.
+    if (chosen.savesMemory) {
+      const PixelUse before{PixelUse::Kind::binned, chosen.bin - 1};
+      QVERIFY(!fits(Rasters(chooseReductions(rig, before, seed, anySize, progress).at(0).size())));
+    }
+    const int next = std::min(chosen.part.width, chosen.part.height) / (chosen.bin + 1);
+    QVERIFY2(fits(Rasters(chosen.size())) || chosen.bin == mostBin || next < leastSide,
+             qPrintable(QString("bins of %1, %2x%3 pixels")
+                            .arg(chosen.bin)
+                            .arg(chosen.size().width)
+                            .arg(chosen.size().height)));
+  }
+  /// Others than automatic ones are as somebody wants them.
+  void whatSomebodyWantsDoesNotGrow() {
+    const ScriptedVenue venue = venueOf(sceneOf({32, 24}, {80, 60}, 0.6, 1));
+    Rig rig = venue.rig();
+    Progress progress;
+    const Fits nothing = [](const Rasters&) { return false; };
+    const Reduction chosen = chooseReductions(rig, thirds, 1, nothing, progress).at(0);
+    QVERIFY(chosen.bin == 3 && !chosen.savesMemory);
+    QVERIFY(chooseReductions(rig, all, 1, nothing, progress).empty());
+  }
+  /// Nobody would look at it if there were memory enough.
+  void aCameraOfFewPixelsGetsLargerBinsToo() {
+    const ScriptedVenue venue = venueOf(sceneOf({64, 48}, {48, 36}, 0.9, 1));
+    Rig rig = venue.rig();
+    Progress progress;
+    QVERIFY(chooseReductions(rig, automatic, 1, anySize, progress).empty());
+    const Fits few = [](const Rasters& cameras) { return cameras.count() <= 500; };
+    const std::vector<Reduction> chosen = chooseReductions(rig, automatic, 1, few, progress);
+    QVERIFY(chosen.size() == 1 && chosen[0].bin == 2 && chosen[0].savesMemory);
   }
 
   /// What is measured through the reduced camera is linear, whatever the camera's own response.
@@ -170,7 +225,7 @@ class TestChoice : public QObject {
     const ScriptedVenue venue = venueOf(scene, camera);
     Rig rig = venue.rig();
     Progress progress;
-    const std::vector<Reduction> chosen = chooseReductions(rig, automatic, 1, progress);
+    const std::vector<Reduction> chosen = chooseReductions(rig, automatic, 1, anySize, progress);
     QVERIFY(chosen.at(0).bin > 1);
     QVERIFY(!chosen[0].response[0].isIdentity());
 

@@ -17,6 +17,7 @@
 #include "wizard/output/output_page.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
+#include "wizard/venue/tidy_dialog.h"
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;
@@ -315,6 +316,25 @@ class TestLayouts : public QObject {
     wizard_->page<PreviewPage>().setCorners(corners);
     QVERIFY(!wizard_->page<PreviewPage>().problem().isEmpty());
     pages({4, 6}, "something wrong");
+  }
+
+  void tidying() {
+    steps().go(0);
+    inEveryLanguage([this](const QString& language) {
+      QStringList faults;
+      wizard_->window().findChild<QPushButton*>("tidy")->click();
+      auto* dialog = wizard_->window().findChild<TidyDialog*>();
+      VenueTidy& tidy = dialog->tidy();
+      faults << seen(*dialog, language, "tidying, looking");
+      if (!QTest::qWaitFor([&] { return tidy.state() == VenueTidy::State::choosing; }, patience))
+        return faults << language + ": nothing to choose from";
+      faults << seen(*dialog, language, "tidying, choosing");
+      tidy.choose(KeptPhotographs::results);
+      tidy.ask();
+      faults << seen(*dialog, language, "tidying, asking");
+      delete dialog;
+      return faults;
+    });
   }
 
   void output() {

@@ -86,7 +86,7 @@ ColourBlock BlockSparse::block(std::size_t row, std::size_t entry) const {
 
 BlockSize BlockSparse::sizeOf(std::size_t row, std::size_t entry) const {
   if (sharedColours()) {
-    const auto magnitudes = block(row, entry).cwiseAbs();
+    const ColourBlock magnitudes = block(row, entry).cwiseAbs();
     return {magnitudes.maxCoeff(), magnitudes.sum()};
   }
   int largest = 0, sum = 0;

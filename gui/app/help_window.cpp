@@ -4,6 +4,7 @@
 #include <QDesktopServices>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QScreen>
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextCursor>
@@ -69,7 +70,8 @@ HelpWindow::HelpWindow(const QString& language, QWidget* parent)
     : QDialog(parent), pages_(helpPages(language)) {
   setWindowTitle(tr("Help"));
   setObjectName("help");
-  resize(900, 640);
+  constexpr int titleBar = 40;
+  resize(QSize(900, 640).boundedTo(screen()->availableSize() - QSize(0, titleBar)));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(space::page, space::page, space::page, space::page);
   row->setSpacing(space::gap);

@@ -69,6 +69,7 @@ QLineEdit, QComboBox, QSpinBox, QDoubleSpinBox { background: {input}; border: 1p
   padding: 0 10px; min-height: 32px; selection-background-color: {accent}; selection-color: {onAccent}; }
 QLineEdit:focus, QComboBox:focus, QSpinBox:focus, QDoubleSpinBox:focus { border: 2px solid {text}; padding: 0 9px;
   min-height: 30px; }
+QComboBox:disabled, QLineEdit:disabled, QSpinBox:disabled { color: {disabled}; border-color: {line}; background: {card}; }
 QComboBox QAbstractItemView { background: {raised}; border: 1px solid {border}; selection-background-color: {accentGround};
   selection-color: {text}; outline: none; }
 QComboBox::drop-down { border: none; width: 30px; }

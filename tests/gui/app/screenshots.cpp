@@ -136,17 +136,19 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   photographs.take("04-plan");
   wizard.page<AcquirePage>().primary()->trigger();
   wizard.session().live().setLeastInterval(250);  // as real devices would be
+  wizard.page<AcquirePage>().pause();
+  wizard.wizard().go(2);
+  photographs.take("03-while-measuring");
+  wizard.wizard().go(3);
+  wizard.window().close();
+  photographs.takeDialog("12-question", "failure");
+  wizard.page<AcquirePage>().resume();
   const AcquisitionTrace& trace = wizard.page<AcquirePage>().trace();
   for (const auto& [blocks, name] :
        {std::pair{16, "04-measuring-coarse"}, {4, "04-measuring"}, {1, "04-measuring-fine"}}) {
     until([&, blocks = blocks] { return trace.outlook() && trace.outlook()->blocks <= blocks; });
     photographs.take(name);
   }
-  wizard.wizard().go(2);
-  photographs.take("03-while-measuring");
-  wizard.wizard().go(3);
-  wizard.window().close();
-  photographs.takeDialog("12-question", "failure");
   wizard.session().live().setLeastInterval(0);
   wizard.page<AcquirePage>().finish();
   until([&] { return !wizard.page<AcquirePage>().isMeasuring(); });

@@ -83,6 +83,7 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(page.isMeasuring());
     for (bool ends : {false, true}) {
       venue.open(folder_->filePath("other"));
+      QCOMPARE(asked.size(), 1);
       const auto question = asked.takeFirst().front().value<FailureReport>();
       QVERIFY(question.isQuestion && question.resume && question.goOn);
       QVERIFY(question.failure.what.contains(page.name()) && !question.safe.isEmpty());

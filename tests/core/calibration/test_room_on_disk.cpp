@@ -4,7 +4,8 @@
 
 #include "relucent/base/disk_full.h"
 #include "relucent/base/random.h"
-#include "relucent/calibration/patient_shot_log.h"#include "support/sentences.h"
+#include "relucent/calibration/patient_shot_log.h"
+#include "support/sentences.h"
 #include "support/stopped.h"
 
 using namespace relucent;

@@ -110,10 +110,10 @@ std::optional<sentinels::Interruption> Measurement::photograph(int level, int pa
   if (context_.watch.shots() - context_.watch.confirmed() >= fewUnconfirmed)
     if (auto disturbed = confirm(part)) return disturbed;
   std::vector<Photographed> photographed = std::exchange(ahead_, {});
+  const int through = levels_.back() - patterns + static_cast<int>(photographed.size());
+  if (!photographed.empty()) told(level, through, part);
   std::vector<Taken> wanted;
-  for (int number = levels_.back() - patterns + static_cast<int>(photographed.size());
-       number < levels_.back(); ++number)
-    wanted.push_back({level, number});
+  for (int number = through; number < levels_.back(); ++number) wanted.push_back({level, number});
   return take(level, wanted, std::move(photographed), part);
 }
 

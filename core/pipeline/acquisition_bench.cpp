@@ -90,9 +90,10 @@ class Stopping : public sentinels::AcquisitionObserver {
 };
 
 /// Measures until a number of levels, and compensates with that. Photographs of the time before are not taken
-/// again.
-AcquisitionBenchStop stopped(const std::filesystem::path& path, int levels, const venue::VenueSettings& venue,
-                             const std::filesystem::path& cache) {
+/// again. None: blocks as wide as these hold no picture.
+std::optional<AcquisitionBenchStop> stopped(const std::filesystem::path& path, int levels,
+                                            const venue::VenueSettings& venue,
+                                            const std::filesystem::path& cache) {
   struct Nobody : ProgressSink {
     void progressed(double, const Message&) override {}
   } nobody;
@@ -110,7 +111,8 @@ AcquisitionBenchStop stopped(const std::filesystem::path& path, int levels, cons
         goOnMeasuring(folder, devices.rig, linearization, {}, observer, {}, measuring);
     result.blocks = acquisition.stoppedAt;
     result.patterns = acquisition.patterns;
-    result.expected = acquisition.expected.value_or(transport::ExpectedQuality());
+    if (!acquisition.expected) return std::nullopt;
+    result.expected = *acquisition.expected;
     measureInverse(folder, measuredVenueOf(acquisition, {}), quiet);
   }
   EvaluateSettings judged;
@@ -126,9 +128,12 @@ std::vector<AcquisitionBenchStop> stops(const venue::VenueSettings& venue, const
   std::filesystem::path path = temporary.path() / venue.name;
   beginCalibration(path, settingsOf(venue, trial));
   std::vector<AcquisitionBenchStop> found;
-  for (int levels = 1; found.empty() || found.back().blocks != 0; ++levels) {
+  const int most = transport::NodeLayout(venue.projector).levels() + 1;
+  for (int levels = 1; levels <= most && (found.empty() || found.back().blocks != 0); ++levels) {
     progress.checkpoint();
-    found.push_back(stopped(path, levels, venue, cache));
+    std::optional<AcquisitionBenchStop> stop = stopped(path, levels, venue, cache);
+    if (!stop) continue;
+    found.push_back(*std::move(stop));
     found.back().threshold = trial.threshold;
   }
   return found;

@@ -55,7 +55,7 @@ struct AcquisitionBenchResult {
   Size projector;
   Size camera;
   std::vector<AcquisitionBenchRun> runs;
-  std::vector<AcquisitionBenchStop> stops{};  // of every level
+  std::vector<AcquisitionBenchStop> stops{};  // of every level whose blocks can hold a picture
 };
 
 /// Measures simulated venues in every mode at several thresholds, holds T against the truth, and compensates

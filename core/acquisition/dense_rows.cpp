@@ -48,6 +48,8 @@ bool every(std::size_t) {
   return true;
 }
 
+void justSolved(std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {}
+
 /// How well photographs that were held out are predicted.
 struct Prediction {
   double squared = 0.0, variance = 0.0, light = 0.0;
@@ -171,13 +173,11 @@ void DenseRows::solve() {
 
 void DenseRows::solveJudged() {
   solveRows(
-      0, detailsAt(level_), [&](std::size_t row) { return isJudged(row); },
-      [](std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {});
+      0, detailsAt(level_), [&](std::size_t row) { return isJudged(row); }, justSolved);
 }
 
 void DenseRows::solveRows(std::size_t heldOut, int details) {
-  solveRows(heldOut, details, every,
-            [](std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {});
+  solveRows(heldOut, details, every, justSolved);
 }
 
 /// Solves every wanted row with the last `heldOut` photographs unseen and `details` leaves with colours of

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "relucent/acquisition/growth.h"
+#include "relucent/acquisition/mixed_rows.h"
 #include "relucent/acquisition/verification.h"
 #include "relucent/base/message.h"
 
@@ -22,38 +23,6 @@ void adoptVerification(VerifiedTransport& verified, const Verification& verifica
   verified.error = errorOf(verification.rows);
   verified.flagged = verification.flagged;
   verified.residual = verification.residual;
-}
-
-/// `first`, with the rows of `second`, which has own colours, that are chosen.
-transport::BlockSparse mixed(const transport::BlockSparse& first, const transport::BlockSparse& second,
-                             const std::vector<std::uint8_t>& chosen,
-                             const photography::References& references) {
-  if (const transport::ColumnKinds* kinds = first.sharedColours()) {
-    transport::SharedColourWriter writer(first.columns(), first.rows(), *kinds, first.blocks());
-    transport::SharedColourEncoder encoder(*kinds);
-    transport::SharedColourRow encoded;
-    std::vector<transport::ColourBlock> blocks;
-    for (std::size_t row = 0; row < first.rows(); ++row) {
-      if (!chosen[row]) {
-        writer.add(first.sharedRow(row));
-        continue;
-      }
-      blocks.clear();
-      for (std::size_t entry = second.rowBegin(row); entry < second.rowBegin(row + 1); ++entry)
-        blocks.push_back(second.block(row, entry));
-      encoder.encode(second.columnsOf(row), blocks, encoded);
-      writer.add(encoded);
-    }
-    return writer.build();
-  }
-  transport::BlockSparseWriter writer(first.columns(), references.fullScale, first.blocks());
-  for (std::size_t row = 0; row < first.rows(); ++row) {
-    const transport::BlockSparse& from = chosen[row] ? second : first;
-    for (std::size_t entry = from.rowBegin(row); entry < from.rowBegin(row + 1); ++entry)
-      writer.add(from.column(entry), from.code(entry));
-    writer.endRow();
-  }
-  return writer.build();
 }
 
 void replaceRows(Stack& into, const Stack& from, const std::vector<std::uint8_t>& chosen) {
@@ -112,8 +81,9 @@ class Repair {
   transport::TransportMatrix with(const transport::BlockSparse& again,
                                   const std::vector<std::uint8_t>& chosen) const {
     const photography::References& references = context_.references();
-    return transport::TransportMatrix(references.cameras, references.projectors,
-                                      mixed(verified_.transport.leaves(), again, chosen, references));
+    return transport::TransportMatrix(
+        references.cameras, references.projectors,
+        mixedRows(verified_.transport.leaves(), again, chosen, references.fullScale));
   }
 
   void adopt(const Verification& after, const std::vector<std::uint8_t>& better) {

@@ -28,6 +28,14 @@ bool runPython(const fs::path& folder, const QString& script, QString& output) {
   return process.exitCode() == 0;
 }
 
+/// Changes the file's arrays, `a` by name.
+bool changeArrays(const fs::path& folder, const QString& change, QString& output) {
+  return runPython(folder,
+                   "import numpy as n; a = {k: n.array(v) for k, v in n.load('matrix.npz').items()}; " +
+                       change + "; n.savez('matrix.npz', **a)",
+                   output);
+}
+
 bool scipyIsThere() {
   QString output;
   static const bool there = runPython(fs::temp_directory_path(), "import scipy.sparse", output);
@@ -234,11 +242,7 @@ class TestFiles : public QObject {
     QFETCH(QString, word);
     saveBlocks(path(), someBlocks());
     QString output;
-    QVERIFY2(runPython(folder(),
-                       "import numpy as n; a = {k: n.array(v) for k, v in n.load('matrix.npz').items()}; " +
-                           change + "; n.savez('matrix.npz', **a)",
-                       output),
-             qPrintable(output));
+    QVERIFY2(changeArrays(folder(), change, output), qPrintable(output));
     expectError(ErrorKind::format, word, [&] { loadBlocks(path()); });
   }
 
@@ -274,11 +278,7 @@ class TestFiles : public QObject {
     QFETCH(QString, word);
     saveTransport(path(), someTransport(), StoredValues::codes);
     QString output;
-    QVERIFY2(runPython(folder(),
-                       "import numpy as n; a = dict(n.load('matrix.npz')); " + change +
-                           "; n.savez('matrix.npz', **a)",
-                       output),
-             qPrintable(output));
+    QVERIFY2(changeArrays(folder(), change, output), qPrintable(output));
     expectError(ErrorKind::format, word, [&] { loadTransport(path()); });
   }
 
@@ -302,11 +302,7 @@ class TestFiles : public QObject {
     QFETCH(QString, change);
     saveTransport(path(), someSharedTransport(), StoredValues::codes);
     QString output;
-    QVERIFY2(runPython(folder(),
-                       "import numpy as n; a = dict(n.load('matrix.npz')); " + change +
-                           "; n.savez('matrix.npz', **a)",
-                       output),
-             qPrintable(output));
+    QVERIFY2(changeArrays(folder(), change, output), qPrintable(output));
     expectError(ErrorKind::format, "", [&] { loadTransport(path()); });
   }
 
@@ -331,10 +327,7 @@ class TestFiles : public QObject {
                            "a['projectors'] = a['projectors'][:0]", "del a['cameras']"}) {
       saveTransport(path(), someTransport());
       QString output;
-      QVERIFY(runPython(folder(),
-                        "import numpy as n; a = {k: n.array(v) for k, v in n.load('matrix.npz').items()}; " +
-                            change + "; n.savez('matrix.npz', **a)",
-                        output));
+      QVERIFY(changeArrays(folder(), change, output));
       expectError(ErrorKind::format, "", [&] { loadTransport(path()); });
     }
   }

@@ -14,6 +14,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
+#include "wizard/acquire/lit_outline.h"
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/frame/page_view.h"
@@ -195,6 +196,11 @@ QWidget* floodlightCard(AcquirePage& model) {
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
     const image::Image flood = wanted.first == 0 ? image::Image() : model.floodlight();
     view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
+    const LitOutline lit = flood.empty() ? LitOutline() : litOutline(flood);
+    view->setOverlay(lit.picture);
+    const QString share = AcquirePage::tr("Lit: %1 of the view").arg(percentText(lit.share));
+    view->setBadge(lit.picture.isNull() ? QString() : share);
+    view->setAccessibleDescription(lit.picture.isNull() ? QString() : share);
   };
   refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How far a measurement is, and how it is held up, ended or taken back.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <span>
 
 #include "wizard/acquire/acquire_page.h"
 
@@ -37,14 +39,22 @@ PatternCount AcquirePage::patterns() const {
   return {taken, std::max(taken, patternsExpected())};
 }
 
-/// In all, by the levels that have begun.
+/// In all, by the levels that have begun. The finest goes on while that makes predictions better: before it
+/// has as many patterns as were expected of it, nobody takes it for complete.
 int AcquirePage::patternsExpected() const {
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return 0;
   const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
-  const acquisition::AcquisitionState state{trace_.growth().levels};
-  return acquisition::forecast({cameras, projectors, 1, 1.0}, session_.settings().acquisition, {}, state)
-      .shots;
+  const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
+  acquisition::AcquisitionState state{trace_.growth().levels};
+  if (!state.levels.empty()) {
+    const std::span before(state.levels.begin(), state.levels.end() - 1);
+    const auto expected = acquisition::levelPatterns(projectors, settings, before);
+    if (expected.size() == state.levels.size())
+      state.levels.back() =
+          std::max(state.levels.back(), static_cast<int>(std::lround(expected.back().likely)));
+  }
+  return acquisition::forecast({cameras, projectors, 1, 1.0}, settings, {}, state).shots;
 }
 
 void AcquirePage::expect(const WorkLeft& left) {

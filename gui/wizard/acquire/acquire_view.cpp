@@ -108,9 +108,10 @@ QWidget* runOf(AcquirePage& model) {
     if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
     counts->setText(stage);
     const PatternCount count = model.patterns();
-    patterns->setValue(AcquirePage::tr("%1 of about %2")
-                           .arg(countText(static_cast<std::uint64_t>(count.taken)),
-                                countText(static_cast<std::uint64_t>(count.expected))));
+    const QString taken = countText(static_cast<std::uint64_t>(count.taken));
+    const QString expected = countText(static_cast<std::uint64_t>(count.expected));
+    patterns->setValue(count.taken < count.expected ? AcquirePage::tr("%1 of about %2").arg(taken, expected)
+                                                    : taken);
     photographs->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
     rate->setValue(countText(static_cast<std::uint64_t>(std::lround(model.photographsAMinute()))));
     if (const auto& work = model.forecast()) disk->setValue(bytesText(work->diskBytes));

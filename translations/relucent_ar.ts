@@ -2810,10 +2810,6 @@
         <translation>يُستخدم القياس السابق مجددًا مع كل ما ترتّب عليه.</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>المُضاء: ⁨%1⁩ من المشهد</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>كل ما تم قياسه آمن.</translation>
     </message>
@@ -2822,16 +2818,24 @@
         <translation>متوقف مؤقتًا، بقي نحو ⁨%1⁩</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>بقي نحو ⁨%1⁩، حتى ⁨%2⁩</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>اللقطات في الدقيقة</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>⁨%1⁩ من نحو ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>⁨%1⁩؛ المُضاء: ⁨%2⁩ من المشهد</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>بقي نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>ينتهي نحو ⁨%1⁩. ⁨%2⁩</translation>
     </message>
 </context>
 <context>

@@ -2742,10 +2742,6 @@
         <translation>Die frühere Messung wird wieder verwendet, mit allem, was daraus folgte.</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>Beleuchtet: %1 der Ansicht</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>Das Gemessene ist sicher.</translation>
     </message>
@@ -2754,16 +2750,24 @@
         <translation>Pausiert, noch etwa %1</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>Noch etwa %1, bis %2</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>Fotos je Minute</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>%1 von etwa %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; beleuchtet: %2 der Ansicht</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Noch etwa %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Ende gegen %1. %2</translation>
     </message>
 </context>
 <context>

@@ -2742,10 +2742,6 @@
         <translation>Se vuelve a usar la medición anterior, con todo lo que siguió de ella.</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>Iluminado: %1 de la vista</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>Lo medido está a salvo.</translation>
     </message>
@@ -2754,16 +2750,24 @@
         <translation>En pausa, quedan aprox. %1</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>Quedan aprox. %1, hasta las %2</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>Fotografías por minuto</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>%1 de unos %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; iluminado: %2 de la vista</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Quedan aprox. %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Termina hacia las %1. %2</translation>
     </message>
 </context>
 <context>

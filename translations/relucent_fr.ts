@@ -81,7 +81,7 @@
     </message>
     <message>
         <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
-        <translation>Tout ce qui est fait est en sécurité. Rebranchez-le : la suite reprend d’elle-même.</translation>
+        <translation>Tout ce qui est fait est en sécurité. Rebranchez-le&#xa0;: la suite reprend d’elle-même.</translation>
     </message>
     <message>
         <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
@@ -860,7 +860,7 @@
     <name>device.camera-given-up-advice</name>
     <message>
         <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
-        <translation>enfoncez le câble aux deux bouts et allumez-la, puis continuez : toutes les photos déjà prises sont gardées</translation>
+        <translation>enfoncez le câble aux deux bouts et allumez-la, puis continuez&#xa0;: toutes les photos déjà prises sont gardées</translation>
     </message>
 </context>
 <context>
@@ -2742,10 +2742,6 @@
         <translation>La mesure précédente est de nouveau utilisée, avec tout ce qui en a découlé.</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>Éclairé : %1 du champ</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>Ce qui est mesuré est en sécurité.</translation>
     </message>
@@ -2754,16 +2750,24 @@
         <translation>En pause, encore %1 environ</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>Encore %1 environ, jusqu’à %2</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>Photos par minute</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>%1 sur environ %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1 ; éclairé : %2 du champ</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Encore %1 environ</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Fin vers %1. %2</translation>
     </message>
 </context>
 <context>

@@ -2742,10 +2742,6 @@
         <translation>Si usa di nuovo la misura precedente, con tutto ciò che ne è seguito.</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>Illuminato: %1 dell’inquadratura</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>Quanto misurato è al sicuro.</translation>
     </message>
@@ -2754,16 +2750,24 @@
         <translation>In pausa, ancora circa %1</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>Ancora circa %1, fino alle %2</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>Foto al minuto</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>%1 di circa %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; illuminato: %2 dell’inquadratura</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Ancora circa %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Finisce verso le %1. %2</translation>
     </message>
 </context>
 <context>

@@ -2725,10 +2725,6 @@
         <translation>前の測定と、そこから得られたものが再び使われます。</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>照射範囲: 視野の %1</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>測定済みのデータは無事です。</translation>
     </message>
@@ -2737,16 +2733,24 @@
         <translation>一時停止中、残り約 %1</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>残り約 %1、%2 まで</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>毎分の撮影枚数</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>約 %2 中 %1</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1、照射範囲は視野の %2</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>残り約 %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>%1 頃に終了。%2</translation>
     </message>
 </context>
 <context>

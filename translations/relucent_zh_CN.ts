@@ -2725,10 +2725,6 @@
         <translation>重新使用之前的测量及其后续的全部结果。</translation>
     </message>
     <message>
-        <source>Lit: %1 of the view</source>
-        <translation>照亮部分：视野的 %1</translation>
-    </message>
-    <message>
         <source>What is measured is safe.</source>
         <translation>已测得的数据是安全的。</translation>
     </message>
@@ -2737,16 +2733,24 @@
         <translation>已暂停，剩余约 %1</translation>
     </message>
     <message>
-        <source>About %1 left, until %2</source>
-        <translation>剩余约 %1，至 %2</translation>
-    </message>
-    <message>
         <source>Photographs a minute</source>
         <translation>每分钟照片数</translation>
     </message>
     <message>
         <source>%1 of about %2</source>
         <translation>%1 / 约 %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1；照亮部分：视野的 %2</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>剩余约 %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>约 %1 结束。%2</translation>
     </message>
 </context>
 <context>

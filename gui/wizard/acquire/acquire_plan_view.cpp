@@ -198,9 +198,10 @@ QWidget* floodlightCard(AcquirePage& model) {
     view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
     const LitOutline lit = flood.empty() ? LitOutline() : litOutline(flood);
     view->setOverlay(lit.picture);
-    const QString share = AcquirePage::tr("Lit: %1 of the view").arg(percentText(lit.share));
-    view->setBadge(lit.picture.isNull() ? QString() : share);
-    view->setAccessibleDescription(lit.picture.isNull() ? QString() : share);
+    const QString white = AcquirePage::tr("the projector fully white");
+    const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(lit.share));
+    card->setSubtitle(lit.picture.isNull() ? white : whole);
+    view->setAccessibleDescription(lit.picture.isNull() ? QString() : whole);
   };
   refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;

@@ -72,15 +72,23 @@ QWidget* stageOf(AcquirePage& model) {
   return stage;
 }
 
-/// How long it still takes, and until when; held up, that stands still.
+/// How long it still takes; held up, that stands still.
 QString timeText(const AcquirePage& model) {
   const std::optional<double> seconds = model.secondsLeft();
   const QString left = seconds ? text(roundedDuration(*seconds)) : QString();
   if (model.isHeldUp())
     return seconds ? AcquirePage::tr("Paused, about %1 left").arg(left) : AcquirePage::tr("Paused");
-  if (!seconds) return AcquirePage::tr("Measuring");
+  return seconds ? AcquirePage::tr("About %1 left").arg(left) : AcquirePage::tr("Measuring");
+}
+
+/// What is done now, and when all of it ends.
+QString stageText(const AcquirePage& model) {
+  QString stage = model.stage();
+  if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
+  const std::optional<double> seconds = model.secondsLeft();
+  if (!seconds || model.isHeldUp()) return stage;
   const QTime end = QTime::currentTime().addSecs(static_cast<int>(*seconds));
-  return AcquirePage::tr("About %1 left, until %2").arg(left, QLocale().toString(end, QLocale::ShortFormat));
+  return AcquirePage::tr("Ends near %1. %2").arg(QLocale().toString(end, QLocale::ShortFormat), stage);
 }
 
 /// While it goes on: how long, how fast.
@@ -104,9 +112,7 @@ QWidget* runOf(AcquirePage& model) {
   auto refresh = [&model, left, counts, patterns, photographs, rate, disk] {
     if (!model.isMeasuring()) return;
     left->setText(timeText(model));
-    QString stage = model.stage();
-    if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
-    counts->setText(stage);
+    counts->setText(stageText(model));
     const PatternCount count = model.patterns();
     const QString taken = countText(static_cast<std::uint64_t>(count.taken));
     const QString expected = countText(static_cast<std::uint64_t>(count.expected));

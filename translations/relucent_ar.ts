@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>شاشة جهاز العرض غير موصولة</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>كل ما سبق آمن. أعد توصيلها، فيُتابَع العمل تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>كل ما سبق آمن. ثبّت الكابل من طرفيه ولا تحرّك الحامل: يُتابَع العمل تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>الكاميرا لا تستجيب</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>الشاشة مفصولة</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>الكاميرا صامتة</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>الأفضل الممكن، صور ثابتة</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>الكاميرا لا تستجيب</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>كل ما سبق آمن. ثبّت الكابل من طرفيه ولا تحرّك الحامل: يُتابَع العمل تلقائيًا.</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>الكاميرا صامتة</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>شاشة جهاز العرض غير موصولة</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>كل اللقطات آمنة. أعد توصيل الشاشة، فيتابع القياس تلقائيًا.</translation>
     </message>
 </context>
 <context>
@@ -862,6 +863,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>ينقص أمرَ الكاميرا ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>الكاميرا لا تستجيب</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>أحكم إدخال الكابل من طرفيه وشغّلها ثم تابع: كل اللقطات السابقة محفوظة</translation>
     </message>
 </context>
 <context>
@@ -2368,18 +2383,6 @@
         <translation>زجاج، لمعان، زوايا عميقة</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>اللقطات في الثانية</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>المُلتقط في هذه الجلسة</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>الأنماط المتبقية</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>مساحة القرص اللازمة</translation>
     </message>
@@ -2390,10 +2393,6 @@
     <message>
         <source>Paused</source>
         <translation>متوقف مؤقتًا</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>بقي نحو %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2764,10 +2763,6 @@
         <translation>حُذفت لقطات القياس الأخير: ستُلتقط كلها من جديد.</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>الشاشة مفصولة</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>في انتظار شاشة جهاز العرض.</translation>
     </message>
@@ -2801,6 +2796,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>يجري القياس بهذه الإعدادات.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>في انتظار الكاميرا.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>الاحتفاظ بالسابق</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>يُستخدم القياس السابق مجددًا مع كل ما ترتّب عليه.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>كل ما تم قياسه آمن.</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>متوقف مؤقتًا، بقي نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>اللقطات في الدقيقة</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>⁨%1⁩ من نحو ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>⁨%1⁩؛ المُضاء: ⁨%2⁩ من المشهد</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>بقي نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>ينتهي نحو ⁨%1⁩. ⁨%2⁩</translation>
     </message>
 </context>
 <context>
@@ -3859,12 +3894,20 @@
         <translation>تابع الآن</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>الشاشة مفصولة</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>يجري القياس بهذه الإعدادات. أوقفه لتغييرها.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>الاحتفاظ بالسابق</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>تُستخدم المنحنيات السابقة مجددًا مع كل ما ترتّب عليها.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>كل ما تم قياسه آمن.</translation>
     </message>
 </context>
 <context>

@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Der Bildschirm des Projektors ist getrennt</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>Alles Bisherige ist sicher. Schließen Sie ihn wieder an: Es geht von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Alles Bisherige ist sicher. Drücken Sie das Kabel an beiden Enden fest und bewegen Sie das Stativ nicht: Es geht von selbst weiter.</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>Die Kamera antwortet nicht</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Bildschirm getrennt</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Kamera stumm</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Bestmöglich, Standbilder</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>Die Kamera antwortet nicht</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>Alles Bisherige ist sicher. Drücken Sie das Kabel an beiden Enden fest und bewegen Sie das Stativ nicht: Es geht von selbst weiter.</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>Kamera stumm</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>Der Bildschirm des Projektors ist getrennt</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>Alle Fotos sind sicher. Schließen Sie ihn wieder an: Die Messung läuft von selbst weiter.</translation>
     </message>
 </context>
 <context>
@@ -846,6 +847,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>im Befehl der Kamera fehlt {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>die Kamera antwortet nicht</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>drücken Sie das Kabel an beiden Enden fest und schalten Sie sie ein, dann machen Sie weiter: Alle bisherigen Fotos sind behalten</translation>
     </message>
 </context>
 <context>
@@ -2336,18 +2351,6 @@
         <translation>Glas, Glanz, tiefe Ecken</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>Fotos je Sekunde</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>Fotos dieser Sitzung</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>Ausstehende Muster</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>Noch nötiger Platz</translation>
     </message>
@@ -2358,10 +2361,6 @@
     <message>
         <source>Paused</source>
         <translation>Pausiert</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>Noch etwa %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2700,10 +2699,6 @@
         <translation>Die Fotos der letzten Messung wurden entfernt: Alle werden neu aufgenommen.</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Bildschirm getrennt</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>Wartet auf den Bildschirm des Projektors.</translation>
     </message>
@@ -2733,6 +2728,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>Mit diesen Einstellungen wird gemessen.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>Wartet auf die Kamera.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Frühere behalten</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>Die frühere Messung wird wieder verwendet, mit allem, was daraus folgte.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Das Gemessene ist sicher.</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>Pausiert, noch etwa %1</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>Fotos je Minute</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>%1 von etwa %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; beleuchtet: %2 der Ansicht</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Noch etwa %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Ende gegen %1. %2</translation>
     </message>
 </context>
 <context>
@@ -3755,12 +3790,20 @@
         <translation>Jetzt weiter</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Bildschirm getrennt</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>Mit diesen Einstellungen wird gemessen. Stoppen Sie, um sie zu ändern.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Frühere behalten</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>Die früheren Kurven werden wieder verwendet, mit allem, was daraus folgte.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Das Gemessene ist sicher.</translation>
     </message>
 </context>
 <context>

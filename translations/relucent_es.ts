@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>La pantalla del proyector está desconectada</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>Todo lo hecho está a salvo. Vuelva a conectarla: sigue por sí solo.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Todo lo hecho está a salvo. Apriete el cable en ambos extremos y no mueva el trípode: sigue por sí solo.</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La cámara no responde</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Pantalla desconectada</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Cámara sin respuesta</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Lo mejor posible, imágenes fijas</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>La cámara no responde</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>Todo lo hecho está a salvo. Apriete el cable en ambos extremos y no mueva el trípode: sigue por sí solo.</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>Cámara sin respuesta</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>La pantalla del proyector está desconectada</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>Todas las fotografías están a salvo. Vuelva a conectarla: la medición sigue por sí sola.</translation>
     </message>
 </context>
 <context>
@@ -846,6 +847,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>en la orden de la cámara falta {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>la cámara no responde</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>encaje el cable en ambos extremos y enciéndala, luego continúe: todas las fotografías hechas se conservan</translation>
     </message>
 </context>
 <context>
@@ -2336,18 +2351,6 @@
         <translation>vidrio, brillo, rincones profundos</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>Fotografías por segundo</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>Tomadas en esta sesión</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>Patrones restantes</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>Disco aún necesario</translation>
     </message>
@@ -2358,10 +2361,6 @@
     <message>
         <source>Paused</source>
         <translation>En pausa</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>Quedan aprox. %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2700,10 +2699,6 @@
         <translation>Las de la última medición se eliminaron: se toman todas de nuevo.</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Pantalla desconectada</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>Esperando la pantalla del proyector.</translation>
     </message>
@@ -2733,6 +2728,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>Se está midiendo con estos ajustes.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>Esperando la cámara.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Conservar la anterior</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>Se vuelve a usar la medición anterior, con todo lo que siguió de ella.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Lo medido está a salvo.</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>En pausa, quedan aprox. %1</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>Fotografías por minuto</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>%1 de unos %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; iluminado: %2 de la vista</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Quedan aprox. %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Termina hacia las %1. %2</translation>
     </message>
 </context>
 <context>
@@ -3755,12 +3790,20 @@
         <translation>Seguir ahora</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Pantalla desconectada</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>Se está midiendo con estos ajustes. Deténgalo para cambiarlos.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Conservar la anterior</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>Se vuelven a usar las curvas anteriores, con todo lo que siguió de ellas.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Lo medido está a salvo.</translation>
     </message>
 </context>
 <context>

@@ -20,7 +20,7 @@
     </message>
     <message>
         <source>%1 in the venue “%2”.</source>
-        <translation>%1 dans le lieu « %2 ».</translation>
+        <translation>%1 dans le lieu «&#x202f;%2&#x202f;».</translation>
     </message>
     <message>
         <source>Every photograph is on the disk. Opened again, the venue goes on from there.</source>
@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>L’écran du projecteur est débranché</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>Tout ce qui est fait est en sécurité. Rebranchez-le&#xa0;: la suite reprend d’elle-même.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Tout ce qui est fait est en sécurité. Enfoncez le câble aux deux bouts sans déplacer le trépied : la suite reprend d’elle-même.</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La caméra ne répond pas</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Écran débranché</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Caméra muette</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Optimum, images fixes</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>La caméra ne répond pas</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>Tout ce qui est fait est en sécurité. Enfoncez le câble aux deux bouts sans déplacer le trépied : la suite reprend d’elle-même.</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>Caméra muette</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>L’écran du projecteur est débranché</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>Toutes les photos sont en sécurité. Rebranchez-le&#x202f;: la mesure reprend d’elle-même.</translation>
     </message>
 </context>
 <context>
@@ -846,6 +847,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>la commande de la caméra ne contient pas {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>la caméra ne répond pas</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>enfoncez le câble aux deux bouts et allumez-la, puis continuez&#xa0;: toutes les photos déjà prises sont gardées</translation>
     </message>
 </context>
 <context>
@@ -2336,18 +2351,6 @@
         <translation>verre, brillant, angles profonds</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>Photos par seconde</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>Prises dans cette session</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>Motifs restants</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>Disque encore requis</translation>
     </message>
@@ -2358,10 +2361,6 @@
     <message>
         <source>Paused</source>
         <translation>En pause</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>Encore %1 environ</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2700,10 +2699,6 @@
         <translation>Celles de la dernière mesure ont été supprimées&#x202f;: toutes seront reprises.</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Écran débranché</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>En attente de l’écran du projecteur.</translation>
     </message>
@@ -2733,6 +2728,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>Mesure en cours avec ces réglages.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>En attente de la caméra.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Garder la précédente</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>La mesure précédente est de nouveau utilisée, avec tout ce qui en a découlé.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Ce qui est mesuré est en sécurité.</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>En pause, encore %1 environ</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>Photos par minute</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>%1 sur environ %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1 ; éclairé : %2 du champ</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Encore %1 environ</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Fin vers %1. %2</translation>
     </message>
 </context>
 <context>
@@ -3755,12 +3790,20 @@
         <translation>Continuer maintenant</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Écran débranché</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>Mesure en cours avec ces réglages. Arrêtez-la pour les changer.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Garder la précédente</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>Les courbes précédentes sont de nouveau utilisées, avec tout ce qui en a découlé.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Ce qui est mesuré est en sécurité.</translation>
     </message>
 </context>
 <context>

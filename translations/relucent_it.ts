@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>Lo schermo del proiettore è scollegato</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>Tutto ciò che è fatto è al sicuro. Ricollegarlo: prosegue da solo.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>Tutto ciò che è fatto è al sicuro. Premere il cavo a entrambi i capi senza spostare il treppiede: prosegue da sola.</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>La fotocamera non risponde</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>Schermo scollegato</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>Fotocamera muta</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>Ottimale, immagini fisse</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>La fotocamera non risponde</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>Tutto ciò che è fatto è al sicuro. Premere il cavo a entrambi i capi senza spostare il treppiede: prosegue da sola.</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>Fotocamera muta</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>Lo schermo del proiettore è scollegato</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>Ogni foto è al sicuro. Ricollegarlo: la misura prosegue da sola.</translation>
     </message>
 </context>
 <context>
@@ -846,6 +847,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>nel comando della fotocamera manca {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>la fotocamera non risponde</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>inserire il cavo a entrambi i capi e accenderla, poi proseguire: tutte le foto già scattate sono conservate</translation>
     </message>
 </context>
 <context>
@@ -2336,18 +2351,6 @@
         <translation>vetro, lucido, angoli profondi</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>Foto al secondo</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>Foto della sessione</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>Pattern rimanenti</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>Disco ancora necessario</translation>
     </message>
@@ -2358,10 +2361,6 @@
     <message>
         <source>Paused</source>
         <translation>In pausa</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>Ancora circa %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2700,10 +2699,6 @@
         <translation>Quelle dell’ultima misura sono state rimosse: vengono scattate tutte di nuovo.</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Schermo scollegato</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>In attesa dello schermo del proiettore.</translation>
     </message>
@@ -2733,6 +2728,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>Misura in corso con queste impostazioni.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>In attesa della fotocamera.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Tieni la precedente</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>Si usa di nuovo la misura precedente, con tutto ciò che ne è seguito.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Quanto misurato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>In pausa, ancora circa %1</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>Foto al minuto</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>%1 di circa %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1; illuminato: %2 dell’inquadratura</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>Ancora circa %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>Finisce verso le %1. %2</translation>
     </message>
 </context>
 <context>
@@ -3755,12 +3790,20 @@
         <translation>Prosegui ora</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>Schermo scollegato</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>Misura in corso con queste impostazioni. Fermarla per cambiarle.</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>Tieni la precedente</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>Si usano di nuovo le curve precedenti, con tutto ciò che ne è seguito.</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>Quanto misurato è al sicuro.</translation>
     </message>
 </context>
 <context>

@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>プロジェクターの画面が外れています</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>これまでのものはすべて無事です。接続し直すと、自動的に再開します。</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>これまでのものはすべて無事です。ケーブルを両端で押し込み、三脚は動かさないでください。自動的に再開します。</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>カメラが応答しません</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>画面が未接続</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>カメラ応答なし</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>最高画質、静止画</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>カメラが応答しません</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>これまでのものはすべて無事です。ケーブルを両端で押し込み、三脚は動かさないでください。自動的に再開します。</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>カメラ応答なし</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>プロジェクターの画面が外れています</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>写真はすべて無事です。接続し直すと、測定は自動的に再開します。</translation>
     </message>
 </context>
 <context>
@@ -842,6 +843,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>カメラのコマンドに {} がありません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>カメラが応答しません</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>ケーブルを両端とも差し込み、電源を入れてから続けてください。これまでの写真はすべて保持されています</translation>
     </message>
 </context>
 <context>
@@ -2328,18 +2343,6 @@
         <translation>ガラス、光沢、奥まった角</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>毎秒の撮影枚数</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>今回の撮影枚数</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>残りのパターン</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>今後必要な容量</translation>
     </message>
@@ -2350,10 +2353,6 @@
     <message>
         <source>Paused</source>
         <translation>一時停止中</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>残り約 %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2684,10 +2683,6 @@
         <translation>前回の測定の写真は削除されているため、すべて撮り直します。</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>画面が未接続</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>プロジェクターの画面を待っています。</translation>
     </message>
@@ -2716,6 +2711,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>この設定で測定中です。</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>カメラを待っています。</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>前の測定に戻す</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>前の測定と、そこから得られたものが再び使われます。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>測定済みのデータは無事です。</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>一時停止中、残り約 %1</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>毎分の撮影枚数</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>約 %2 中 %1</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1、照射範囲は視野の %2</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>残り約 %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>%1 頃に終了。%2</translation>
     </message>
 </context>
 <context>
@@ -3729,12 +3764,20 @@
         <translation>今すぐ続ける</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>画面が未接続</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>この設定で測定中です。変更するには停止してください。</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>前の測定に戻す</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>前の曲線と、そこから得られたものが再び使われます。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>測定済みのデータは無事です。</translation>
     </message>
 </context>
 <context>

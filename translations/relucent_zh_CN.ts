@@ -74,6 +74,33 @@
     </message>
 </context>
 <context>
+    <name>LostDevice</name>
+    <message>
+        <source>The projector&apos;s screen is unplugged</source>
+        <translation>投影机的屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again: it goes on by itself.</source>
+        <translation>目前的一切都已保存。重新接上后会自动继续。</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
+        <translation>目前的一切都已保存。请插紧线缆两端，不要移动三脚架：随后会自动继续。</translation>
+    </message>
+    <message>
+        <source>The camera does not answer</source>
+        <translation>相机没有响应</translation>
+    </message>
+    <message>
+        <source>Screen unplugged</source>
+        <translation>屏幕已断开</translation>
+    </message>
+    <message>
+        <source>Camera silent</source>
+        <translation>相机无响应</translation>
+    </message>
+</context>
+<context>
     <name>Method</name>
     <message>
         <source>No correction</source>
@@ -106,32 +133,6 @@
     <message>
         <source>Best possible, still pictures</source>
         <translation>最佳效果，静态图片</translation>
-    </message>
-</context>
-<context>
-    <name>MissingCamera</name>
-    <message>
-        <source>The camera does not answer</source>
-        <translation>相机没有响应</translation>
-    </message>
-    <message>
-        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by itself.</source>
-        <translation>目前的一切都已保存。请插紧线缆两端，不要移动三脚架：随后会自动继续。</translation>
-    </message>
-    <message>
-        <source>Camera silent</source>
-        <translation>相机无响应</translation>
-    </message>
-</context>
-<context>
-    <name>MissingScreen</name>
-    <message>
-        <source>The projector&apos;s screen is unplugged</source>
-        <translation>投影机的屏幕已断开</translation>
-    </message>
-    <message>
-        <source>Every photograph is safe. Plug it in again: measuring goes on by itself.</source>
-        <translation>所有照片均已保存。重新接上后，测量会自动继续。</translation>
     </message>
 </context>
 <context>
@@ -842,6 +843,20 @@
     <message>
         <source>the camera&apos;s command does not contain {}</source>
         <translation>相机的命令中缺少 {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up</name>
+    <message>
+        <source>the camera does not answer</source>
+        <translation>相机没有响应</translation>
+    </message>
+</context>
+<context>
+    <name>device.camera-given-up-advice</name>
+    <message>
+        <source>push in its cable at both ends and switch it on, then go on: every photograph so far is kept</source>
+        <translation>请插紧线缆两端并打开相机电源，然后继续：目前的所有照片均已保留</translation>
     </message>
 </context>
 <context>
@@ -2328,18 +2343,6 @@
         <translation>玻璃、光泽面、深角落</translation>
     </message>
     <message>
-        <source>Photographs a second</source>
-        <translation>每秒照片数</translation>
-    </message>
-    <message>
-        <source>Taken in this session</source>
-        <translation>本次已拍</translation>
-    </message>
-    <message>
-        <source>Patterns ahead</source>
-        <translation>剩余图案</translation>
-    </message>
-    <message>
         <source>Disk still needed</source>
         <translation>还需磁盘空间</translation>
     </message>
@@ -2350,10 +2353,6 @@
     <message>
         <source>Paused</source>
         <translation>已暂停</translation>
-    </message>
-    <message>
-        <source>About %1 left</source>
-        <translation>剩余约 %1</translation>
     </message>
     <message>
         <source>Measuring</source>
@@ -2684,10 +2683,6 @@
         <translation>上次测量的照片已删除：全部照片将重新拍摄。</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>屏幕已断开</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen.</source>
         <translation>正在等待投影机屏幕。</translation>
     </message>
@@ -2716,6 +2711,46 @@
     <message>
         <source>Measuring with these settings.</source>
         <translation>正在用这些设置测量。</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera.</source>
+        <translation>正在等待相机。</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>保留之前的</translation>
+    </message>
+    <message>
+        <source>The earlier measurement is used again, with all that followed from it.</source>
+        <translation>重新使用之前的测量及其后续的全部结果。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>已测得的数据是安全的。</translation>
+    </message>
+    <message>
+        <source>Paused, about %1 left</source>
+        <translation>已暂停，剩余约 %1</translation>
+    </message>
+    <message>
+        <source>Photographs a minute</source>
+        <translation>每分钟照片数</translation>
+    </message>
+    <message>
+        <source>%1 of about %2</source>
+        <translation>%1 / 约 %2</translation>
+    </message>
+    <message>
+        <source>%1; lit: %2 of the view</source>
+        <translation>%1；照亮部分：视野的 %2</translation>
+    </message>
+    <message>
+        <source>About %1 left</source>
+        <translation>剩余约 %1</translation>
+    </message>
+    <message>
+        <source>Ends near %1. %2</source>
+        <translation>约 %1 结束。%2</translation>
     </message>
 </context>
 <context>
@@ -3729,12 +3764,20 @@
         <translation>立即继续</translation>
     </message>
     <message>
-        <source>Screen unplugged</source>
-        <translation>屏幕已断开</translation>
-    </message>
-    <message>
         <source>Measuring with these settings. Stop to change them.</source>
         <translation>正在用这些设置测量。要更改请先停止。</translation>
+    </message>
+    <message>
+        <source>Keep the earlier one</source>
+        <translation>保留之前的</translation>
+    </message>
+    <message>
+        <source>The earlier curves are used again, with all that followed from them.</source>
+        <translation>重新使用之前的曲线及其后续的全部结果。</translation>
+    </message>
+    <message>
+        <source>What is measured is safe.</source>
+        <translation>已测得的数据是安全的。</translation>
     </message>
 </context>
 <context>

@@ -55,6 +55,13 @@ std::optional<rig::Shot> ShotJournal::find(const rig::ShotId& id, const std::str
   }
 }
 
+std::optional<fs::file_time_type> ShotJournal::keptAt(const rig::ShotId& id,
+                                                      const std::string& fingerprint) const {
+  std::error_code code;
+  const fs::file_time_type when = fs::last_write_time(pathOf(id, fingerprint), code);
+  return code ? std::nullopt : std::optional(when);
+}
+
 void ShotJournal::keep(const rig::Shot& shot) {
   const std::string content = shotFileOf(shot);
   writeFileAtomically(pathOf(shot.id, shot.fingerprint), content);

@@ -27,6 +27,10 @@ class ShotJournal : public rig::ShotLog {
   /// Throws: Error{disk}.
   void forget(const rig::ShotId& id, const std::string& fingerprint) override;
 
+  /// When a shot was kept; none: it is not there.
+  std::optional<std::filesystem::file_time_type> keptAt(const rig::ShotId& id,
+                                                        const std::string& fingerprint) const;
+
   const std::filesystem::path& folder() const { return folder_; }
 
  private:

@@ -3,12 +3,25 @@
 
 #include "relucent/base/fingerprint.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/results.h"
 
 namespace relucent::calibration {
 namespace {
 
 std::string hashOf(const Json& json) {
   return Fingerprint().add(json.dump()).hex();
+}
+
+/// What the stages after `stage` are given.
+std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage) {
+  const std::string inputs = fingerprintOf(folder, stage);
+  if (stage != Stage::acquisition) return inputs;
+  const std::optional<StageResult> measured = folder.find(stage, inputs);
+  if (!measured) return inputs;
+  const auto result = resultFrom<Stage::acquisition>(*measured);
+  if (result.stoppedAt == 0) return inputs;
+  const int patterns = result.cost ? result.cost->patterns : 0;
+  return hashOf(Json{{"inputs", inputs}, {"stopped_at", result.stoppedAt}, {"patterns", patterns}});
 }
 
 }  // namespace
@@ -32,7 +45,7 @@ std::string fingerprintAfter(const std::string& inputs, const StageDescription& 
 std::string fingerprintOf(const CalibrationFolder& folder, Stage stage) {
   const StageDescription& description = descriptionOf(stage);
   const std::string inputs =
-      description.predecessor ? fingerprintOf(folder, *description.predecessor) : hashOf(folder.rig());
+      description.predecessor ? fingerprintOfResult(folder, *description.predecessor) : hashOf(folder.rig());
   return fingerprintAfter(inputs, description, folder.settings());
 }
 

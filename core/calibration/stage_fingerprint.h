@@ -10,7 +10,9 @@ namespace relucent::calibration {
 /// A fingerprint of everything that a stage's result depends on, as the manifest says it: the devices, and
 /// the settings of this stage and of all before it. Each includes that of its predecessor, so that a changed
 /// setting or a newer version of an algorithm makes all later results out of date. Settings that the manifest
-/// lacks because a later version added them leave it as it was.
+/// lacks because a later version added them leave it as it was. A measurement that was stopped early is
+/// another than the one that went on, though its settings are the same: what follows from it knows where it
+/// was stopped.
 std::string fingerprintOf(const CalibrationFolder& folder, Stage stage);
 
 /// One link of that chain:

@@ -4,8 +4,8 @@
 #include "relucent/acquisition/acquisition.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/error.h"
-#include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/calibration/earlier_shots.h"
 #include "relucent/calibration/patient_shot_log.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/shot_journal.h"
@@ -22,16 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What a stage's run cost, kept with its result.
-calibration::StageCost costOf(const Stopwatch& watch, const rig::ShotTaker& shots) {
-  return {watch.seconds(), shots.shots(), shots.exposures()};
-}
-
-fs::path unusedFolder(const fs::path& parent) {
-  for (int number = 1;; ++number) {
-    fs::path folder = parent / fmt::format("earlier-{}", number);
-    std::error_code code;
-    if (!fs::exists(folder, code)) return folder;
-  }
+calibration::StageCost costOf(double seconds, const rig::ShotTaker& shots) {
+  return {seconds, shots.shots(), shots.exposures()};
 }
 
 /// A numerical failure of what is only said of a measurement is no reason to lose it.
@@ -51,10 +43,13 @@ class StageShots {
              calibration::RoomWaiter* waiter, const Progress& progress)
       : room_(folder.path(), waiter, progress),
         journal_(folder.shotFolder()),
-        log_(journal_, room_, rig),
+        earlier_(journal_),
+        log_(earlier_, room_, rig),
         taker_(rig, log_, std::string(nameOf(stage)), [this] { return workingTime(); }) {}
 
   rig::ShotTaker& taker() { return taker_; }
+  /// What earlier sessions took for the photographs that this one has read.
+  double earlierSeconds() const { return earlier_.seconds(); }
   /// Waits for room for a result of about so many bytes.
   void waitForResult(std::uint64_t bytes) {
     const std::uint64_t needed = bytes + calibration::PatientShotLog::spare;
@@ -69,6 +64,7 @@ class StageShots {
 
   calibration::RoomOnDisk room_;
   calibration::ShotJournal journal_;
+  calibration::EarlierShots earlier_;
   calibration::PatientShotLog log_;
   rig::ShotTaker taker_;
 };
@@ -110,7 +106,8 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
                                 stoppedEarly(acquisition.stoppedAt, acquisition.expected));
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   stage.waitForResult(bytesOf(acquisition));
-  calibration::storeAcquisition(folder, inputs, acquisition, costOf(watch, shots));
+  calibration::storeAcquisition(folder, inputs, acquisition,
+                                costOf(watch.seconds() + stage.earlierSeconds(), shots));
   return acquisition;
 }
 
@@ -146,7 +143,8 @@ linearization::Linearization measureLinearization(calibration::CalibrationFolder
       linearization::linearize(shots, settingsOf(folder).linearization, progress);
   for (Message& finding : findingsOf(reductionsOf(folder)))
     linearization.findings.push_back(std::move(finding));
-  calibration::storeLinearization(folder, inputs, linearization, costOf(watch, shots));
+  calibration::storeLinearization(folder, inputs, linearization,
+                                  costOf(watch.seconds() + stage.earlierSeconds(), shots));
   return linearization;
 }
 
@@ -200,28 +198,6 @@ void measureInverse(calibration::CalibrationFolder& folder, const compensation::
   // The operator itself is not stored: making it again is quicker than reading it. What is kept is how it is
   // made: the ridge, and the trials that chose it.
   calibration::storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
-}
-
-void setShotsAside(const calibration::CalibrationFolder& folder, calibration::Stage stage) {
-  const std::string begin = fmt::format("{}-", nameOf(stage));
-  std::vector<fs::path> shots;
-  std::error_code code;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
-    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(begin))
-      shots.push_back(entry.path());
-  if (shots.empty()) return;
-  fs::path aside = unusedFolder(folder.shotFolder());
-  createFolder(aside);
-  for (const fs::path& shot : shots) {
-    fs::rename(shot, aside / shot.filename(), code);
-    if (code)
-      throw Error(ErrorKind::disk,
-                  RELUCENT_MESSAGE("calibration.cannot-move-photograph", "a photograph cannot be moved ({})")
-                      .with(code.message()),
-                  RELUCENT_MESSAGE("calibration.allow-writing-then-retry",
-                                   "check that the folder may be written to, then try again"),
-                  shot.string());
-  }
 }
 
 }  // namespace relucent::pipeline

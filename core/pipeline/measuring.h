@@ -56,8 +56,4 @@ transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                     Progress& progress);
 
-/// Takes a stage's photographs out of the journal into a folder beside it, so that running the stage again
-/// measures again. Its results stay. Throws: Error{disk}.
-void setShotsAside(const calibration::CalibrationFolder& folder, calibration::Stage stage);
-
 }  // namespace relucent::pipeline

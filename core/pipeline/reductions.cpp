@@ -6,7 +6,7 @@
 
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/error.h"
-#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/platform/memory_limits.h"
 #include "relucent/reduction/choice.h"

@@ -9,6 +9,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/rig/device_given_up.h"
 
 namespace relucent::sentinels {
 namespace {
@@ -71,9 +72,13 @@ Watch::Watch(photography::Photographer& photographer, const photography::Referen
       black_(references.black) {}
 
 Interruptible<hdr::HdrFrame> Watch::photographed(const Photograph& photograph) {
-  hdr::HdrFrame frame = photograph();
-  if (auto interrupted = inspectBracket()) return *interrupted;
-  return frame;
+  try {
+    hdr::HdrFrame frame = photograph();
+    if (auto interrupted = inspectBracket()) return *interrupted;
+    return frame;
+  } catch (const rig::DeviceGivenUp&) {
+    return Interruption::keepAndStop;
+  }
 }
 
 Interruptible<Check> Watch::photographCheck(const Progress& progress) {

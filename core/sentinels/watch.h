@@ -34,6 +34,7 @@ struct WatchSettings {
 /// - sentinels compare the view with the first one, see inspection.h, or with what was accepted since. On
 ///   an alarm the handler is asked; unless it is accepted, an Interruption is returned in place of a result;
 /// - the observer is told of both.
+/// A device that is given up (rig/device_given_up.h) is an Interruption too: keepAndStop.
 /// Frames come out as light: less e, in units of the lamp's power at the first check.
 class Watch {
  public:
@@ -79,7 +80,8 @@ class Watch {
     double value = 1.0;
   };
   using Photograph = std::function<hdr::HdrFrame()>;
-  /// A photograph whose exposures agree, or are accepted though they do not.
+  /// A photograph whose exposures agree, or are accepted though they do not; or none, of a device that is
+  /// given up.
   Interruptible<hdr::HdrFrame> photographed(const Photograph& photograph);
   Interruptible<hdr::LampLight> lightOf(const Photograph& photograph, const Progress& progress);
   Interruptible<Check> photographCheck(const Progress& progress);

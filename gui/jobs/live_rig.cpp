@@ -12,8 +12,8 @@ Device& at(std::vector<Device>& devices, std::size_t index) {
   return devices[index];
 }
 
-constexpr std::chrono::seconds patience{4};
-constexpr std::chrono::seconds longestUsual{10};  // to arrive; what takes longer was held up
+constexpr std::chrono::seconds patience{3};
+constexpr std::size_t rememberedArrivals = 8;
 
 // Beyond this much of the range a sample says little; of a floodlight image some may: lamps, gloss.
 constexpr float clipped = 0.98f;
@@ -73,9 +73,23 @@ void LiveRig::afterPhotographing(std::size_t index) noexcept {
 
 bool LiveRig::isCameraSilent(Clock::time_point now) const {
   QMutexLocker lock(&guard_);
+  const Clock::duration usual = usualArrival();
   return std::any_of(asked_.begin(), asked_.end(), [&](const std::optional<Asked>& asked) {
-    return asked && now - asked->when > asked->exposure + patience + 2 * slowest_;
+    return asked && now - asked->when > asked->exposure + patience + 2 * usual;
   });
+}
+
+/// Contract: guard_ is held.
+LiveRig::Clock::duration LiveRig::usualArrival() const {
+  if (arrivals_.empty()) return {};
+  std::vector<Clock::duration> sorted(arrivals_.begin(), arrivals_.end());
+  std::ranges::sort(sorted, std::greater());
+  return sorted[sorted.size() > 1 ? 1 : 0];
+}
+
+rig::ShotId LiveRig::lastShot() const {
+  QMutexLocker lock(&guard_);
+  return lastShot_;
 }
 
 int LiveRig::photographs() const {
@@ -88,7 +102,9 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
   {
     QMutexLocker lock(&guard_);
     ++photographs_;
-    slowest_ = std::max(slowest_, std::min<Clock::duration>(arrived_, longestUsual));
+    lastShot_ = request.shot;
+    arrivals_.push_back(arrived_);
+    if (arrivals_.size() > rememberedArrivals) arrivals_.pop_front();
     Photographed& photographed = at(cameras_, index);
     photographed.frame = frame;
     photographed.request = request;

@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QWaitCondition>
 #include <chrono>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,11 +41,14 @@ class LiveRig : public QObject, public rig::RigWatcher {
                     const rig::RawFrame& frame) override;
 
   using Clock = std::chrono::steady_clock;
-  /// A photograph is overdue: by four seconds beyond its exposure, and by twice as long as the slowest one
-  /// before took to arrive, as still cameras need some.
+  /// A photograph is overdue: by three seconds beyond its exposure, and by twice as long as photographs
+  /// before took to arrive, as still cameras need some: the second slowest of the last ones, so that one that
+  /// was held up does not count.
   bool isCameraSilent(Clock::time_point now = Clock::now()) const;
   /// By all cameras, since the start.
   int photographs() const;
+  /// Whose photograph came last; of no stage before there is one.
+  rig::ShotId lastShot() const;
 
   /// Least time between two patterns, milliseconds, while people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
@@ -86,6 +90,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
     Floodlight floodlight;
   };
   bool isFloodlit() const;
+  Clock::duration usualArrival() const;
   std::vector<Shown> projectors_;
   std::vector<image::Image> patterns_;  // of the projectors
   std::vector<Photographed> cameras_;
@@ -94,7 +99,9 @@ class LiveRig : public QObject, public rig::RigWatcher {
     Clock::duration exposure{};
   };
   std::vector<std::optional<Asked>> asked_;  // of the cameras, for a photograph that is on its way
-  Clock::duration arrived_{}, slowest_{};    // beyond the exposure: the last one; the slowest that came
+  Clock::duration arrived_{};                // the last one, beyond its exposure
+  std::deque<Clock::duration> arrivals_;     // of the last photographs
+  rig::ShotId lastShot_;
   linearization::RampPreview ramps_;
   int photographs_ = 0;
   QElapsedTimer since_;

@@ -17,4 +17,9 @@ void ViewLink::setPick(std::optional<QPoint> pick) {
   Q_EMIT picked();
 }
 
+void ViewLink::reset() {
+  look(1.0, {0.5, 0.5});
+  setPick(std::nullopt);
+}
+
 }  // namespace relucent::gui

@@ -19,6 +19,8 @@ class ViewLink : public QObject {
   std::optional<QPoint> pick() const { return pick_; }
   void look(double zoom, QPointF centre);
   void setPick(std::optional<QPoint> pick);
+  /// The whole of another plane, in which nothing is picked.
+  void reset();
   double mostZoom() const { return mostZoom_; }
   void setMostZoom(double most) { mostZoom_ = most; }
 

@@ -6,25 +6,22 @@
 
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/message.h"
+#include "relucent/base/time_left.h"
 #include "relucent/calibration/results.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/full_disk.h"
-#include "wizard/devices/missing_camera.h"
-#include "wizard/devices/missing_screen.h"
 #include "wizard/devices/stopped_early.h"
 
 namespace relucent::gui {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double fastThreshold = 0.03, fineThreshold = 0.006;
 constexpr int fastVerification = 4;
-constexpr int photographsBeforeTime = 20;
 constexpr std::chrono::seconds beforeRetry{5};
 
 }  // namespace
@@ -36,7 +33,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
     finish();
     trace_.clear();
     forecast_.reset();
-    left_ = {};
+    secondsAPattern_ = 0.0;
     countKept();
     connect(&session_.live(), &LiveRig::seen, this, [this] {
       if (isMeasuring()) tellProgress();
@@ -48,12 +45,13 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   });
   connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::resultChanged);
   connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
-  connect(&session_, &Session::devicesChanged, this, &AcquirePage::tellSettings);
-  connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
-  connect(&job_, &Job::expected, this, [this](const WorkLeft& left) {
-    forecast_ = left;
-    left_.expect(Clock::now(), left.seconds);
+  connect(&session_, &Session::devicesChanged, this, [this] {
+    // Whoever has asked to stop does not wait for a camera that has gone.
+    if (isStopping()) session_.giveUpCamera();
+    tellSettings();
   });
+  connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
+  connect(&job_, &Job::expected, this, &AcquirePage::expect);
   connect(&job_, &Job::ended, this, &AcquirePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &AcquirePage::diskChanged);
   connect(&trace_, &AcquisitionTrace::changed, this, [this] {
@@ -83,6 +81,7 @@ void AcquirePage::makeCommands() {
   keep_ = addCommand(
       Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
   measureAnew_ = addCommand(Icon::retry, [this] { start(true); });
+  return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
   goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
@@ -101,16 +100,12 @@ AcquirePage::~AcquirePage() {
 
 StepStatus AcquirePage::status() const {
   const bool hasResult = session_.result(calibration::Stage::acquisition).has_value();
-  if (isMeasuring() && session_.isScreenMissing())
-    return {StepState::busy, tr("Screen unplugged"), hasResult, true};
-  if (isMeasuring() && session_.isCameraSilent())
-    return {StepState::busy, missingCameraText(), hasResult, true};
+  const QString share = percentText(progress().value_or(0.0));
   if (isPaused() || isDiskFull())
-    return {StepState::busy, tr("Paused, %1").arg(percentText(job_.fraction())), hasResult, isDiskFull()};
+    return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull()};
   if (isCountingDown())
     return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
-  if (isMeasuring())
-    return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), hasResult};
+  if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(share), hasResult};
   switch (session_.progress(calibration::Stage::acquisition)) {
     case calibration::StageProgress::done:
       if (const int blocks = stoppedAt(); blocks > 0)
@@ -132,6 +127,7 @@ StepStatus AcquirePage::status() const {
 
 QString AcquirePage::hint() const {
   if (isMeasuring() && session_.isScreenMissing()) return tr("Waiting for the projector's screen.");
+  if (isMeasuring() && session_.isCameraSilent()) return tr("Waiting for the camera.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
@@ -171,6 +167,8 @@ void AcquirePage::updateCommands() {
   pause_->show(tr("Pause"), !isStopping());
   resume_->show(tr("Resume"));
   keep_->show(tr("Stop and keep"), !isStopping());
+  return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));
+  return_->setToolTip(tr("The earlier measurement is used again, with all that followed from it."));
   goOnWithDisk_->show(tr("Go on now"));
   goOnMeasuring_->show(goOnMeasuringText(), mayStart);
   goOnMeasuring_->setToolTip(mayStart ? QString() : hint());
@@ -188,17 +186,14 @@ PageCommand* AcquirePage::primary() const {
 std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
   if (isDone()) return {measureAnew_};
-  if (!isMeasuring()) return {};
-  return {isPaused() ? resume_ : pause_, keep_};
-}
-
-std::optional<double> AcquirePage::progress() const {
-  return isMeasuring() ? std::optional(job_.fraction()) : std::nullopt;
+  PageCommand* const pause = isPaused() ? resume_ : pause_;
+  if (isMeasuringAgain()) return {return_, pause, keep_};
+  if (isMeasuring()) return {pause, keep_};
+  if (session_.mayReturnToEarlier(calibration::Stage::acquisition)) return {return_};
+  return {};
 }
 
 std::optional<Banner> AcquirePage::banner() const {
-  if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring() && session_.isCameraSilent()) return missingCamera();
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
@@ -252,15 +247,6 @@ Banner AcquirePage::stoppedBanner() const {
                       quality->photographs)
               .arg(decibels(quality->now), decibels(quality->whole), text(roundedDuration(quality->seconds))),
           goOnMeasuring_};
-}
-
-int AcquirePage::photographs() const {
-  return isMeasuring() ? pictures().photographs : 0;
-}
-
-std::optional<double> AcquirePage::secondsLeft() const {
-  if (!isMeasuring() || photographs() < photographsBeforeTime) return std::nullopt;
-  return left_.seconds(Clock::now());
 }
 
 Fineness AcquirePage::fineness() const {
@@ -347,25 +333,6 @@ void AcquirePage::lookAtResponse() {
   }
 }
 
-void AcquirePage::pause() {
-  session_.live().pause();
-  left_.pause(Clock::now());
-  tellProgress();
-  tellStatus();
-}
-
-void AcquirePage::resume() {
-  session_.live().resume();
-  left_.resume(Clock::now());
-  tellProgress();
-  tellStatus();
-}
-
-void AcquirePage::stopAndKeep() {
-  job_.stopAndKeep();
-  resume();
-}
-
 void AcquirePage::start(bool anew) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
   anew_ = anew;
@@ -386,9 +353,8 @@ void AcquirePage::stay() {
 void AcquirePage::begin() {
   leaving_.stop();
   question_->setClosed(false);
-  lastCount_ = session_.live().pictures().photographs;
-  rate_ = 0.0;
-  left_ = {};
+  begunAt_ = lastCount_ = session_.live().photographs();
+  rate_ = secondsAPattern_ = 0.0;
   trace_.begin();
   second_.start();
   auto retrying = std::make_shared<RetryingObserver>(trace_, question_, beforeRetry);
@@ -399,19 +365,13 @@ void AcquirePage::begin() {
     return question->wait();
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
-  job_.start([work = workOf(session_), anew = std::exchange(anew_, false), handler, retrying, expects,
+  job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
-    if (anew) {
-      // Other patterns of the same kind: what was measured stays beside them.
-      pipeline::CalibrateSettings settings = pipeline::settingsOf(folder);
-      ++settings.acquisition.seed;
-      pipeline::setShotsAside(folder, calibration::Stage::acquisition);
-      changeSettings(folder, settings);
-    }
+    if (anew) pipeline::measureAgain(folder, calibration::Stage::acquisition);
     Progress reading = progress.part(0.0, RELUCENT_MESSAGE("stage.reading-response", "Reading the response"));
     linearization::Linearization linearization = pipeline::measureLinearization(folder, rig, room, reading);
     Progress measuring = progress.part(
@@ -422,13 +382,8 @@ void AcquirePage::begin() {
   tellResult();
 }
 
-/// The time left stands still meanwhile.
 void AcquirePage::diskChanged() {
   if (!std::exchange(diskWasFull_, isDiskFull()) && isDiskFull()) Q_EMIT asks();
-  if (isDiskFull())
-    left_.pause(Clock::now());
-  else if (!isPaused())
-    left_.resume(Clock::now());
   tellProgress();
   tellStatus();
 }
@@ -456,7 +411,10 @@ void AcquirePage::ended() {
     session_.reload();
     countKept();
   }
+  traced_ = traced();
+  anew_ = false;
   lease_.release();
+  if (std::exchange(returns_, false) && job_.state() != Job::State::done) return returnToEarlier();
   if (job_.state() != Job::State::cancelled) Q_EMIT measured();
   if (job_.state() == Job::State::failed) {
     Q_EMIT failed(
@@ -466,14 +424,6 @@ void AcquirePage::ended() {
   }
   tellProgress();
   tellResult();
-}
-
-void AcquirePage::tick() {
-  int count = session_.live().pictures().photographs;
-  // Smoothed over some seconds.
-  rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
-  lastCount_ = count;
-  tellProgress();
 }
 
 }  // namespace relucent::gui

@@ -7,7 +7,7 @@
 #include "jobs/job.h"
 #include "jobs/room_question.h"
 #include "relucent/acquisition/forecast.h"
-#include "relucent/base/time_left.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
 #include "wizard/acquire/alarm_question.h"
@@ -25,6 +25,11 @@ struct BlockLevel {
   int through = 0;
   bool isKnown = false;
   bool isComplete() const { return isKnown && through >= patterns.likely; }
+};
+
+/// How far a measurement is, in patterns.
+struct PatternCount {
+  int taken = 0, expected = 0;
 };
 
 /// Step 4: the light transport, photograph by photograph.
@@ -48,6 +53,7 @@ class AcquirePage : public DevicePage {
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override;
+  PageCommand* insteadOfWaiting() const override { return isMeasuring() ? keep_ : nullptr; }
   QString whyLocked() const override;
   void finish() override;
 
@@ -59,27 +65,38 @@ class AcquirePage : public DevicePage {
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
   /// The measurement waits for room on the disk.
   bool isDiskFull() const { return isMeasuring() && room_.waiting().has_value(); }
+  /// By somebody, or by something that is missing.
+  bool isHeldUp() const { return isPaused() || isDiskFull() || (isMeasuring() && session_.isDeviceLost()); }
   bool isStopping() const { return isMeasuring() && job_.isStopping(); }
   QString stage() const { return job_.stage(); }
   /// Of the shown projector and camera.
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
-  /// Photographs of earlier runs that are in the journal, and all that there are by now.
-  int savedPhotographs() const { return kept_; }
+  /// Photographs since it was started.
   int photographs() const;
-  /// Seconds that it still takes; none before enough is known.
+  /// Patterns, those that were read from the journal included, of as many as are expected by now: more when
+  /// patterns are photographed again or levels turn out to need them.
+  PatternCount patterns() const;
+  /// Seconds that it still takes, by those patterns: it stands still while none is photographed. None before
+  /// enough is known, and while the last are computed with.
   std::optional<double> secondsLeft() const;
   const std::optional<WorkLeft>& forecast() const { return forecast_; }
-  /// Photographs a second, over the last ones.
-  double rate() const { return rate_; }
+  /// Photographs a minute, over the last ones.
+  double photographsAMinute() const { return 60.0 * rate_; }
 
   Fineness fineness() const;
   void setFineness(Fineness fineness);
   /// What the checks of this measurement said, or of the last one.
   const AcquisitionTrace& trace() const { return trace_; }
+  /// It is that of the measurement that the page is about: not of other settings, nor of another result.
+  bool isTraceCurrent() const;
   /// How often light and view are compared, and what follows.
   QString watching() const;
   /// What it cost, as far as the folder tells.
   std::optional<calibration::StageCost> cost() const;
+  /// It takes the place of an earlier measurement, which can be gone back to.
+  bool isMeasuringAgain() const {
+    return isMeasuring() && (anew_ || session_.mayReturnToEarlier(calibration::Stage::acquisition));
+  }
   /// Error of patterns that were only predicted, relative; none before it was measured.
   std::optional<double> verificationError() const;
   /// How well pictures are expected to be shown with what was measured; none if nobody worked it out.
@@ -118,6 +135,8 @@ class AcquirePage : public DevicePage {
   void pause();
   void resume();
   void stopAndKeep();
+  /// The earlier measurement is the one again; what was photographed since is set aside.
+  void returnToEarlier();
 
  Q_SIGNALS:
   /// It has ended, in any way.
@@ -149,21 +168,35 @@ class AcquirePage : public DevicePage {
   PageCommand* answering(Icon icon, sentinels::Answer answer);
   void ended();
   void tick();
+  void expect(const WorkLeft& left);
+  int patternsExpected() const;
   void lookAtResponse();
 
-  PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_;
+  PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
   PageCommand* goOnWithDisk_;                                     // of the banner too
   PageCommand* goOnMeasuring_;                                    // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
+  /// Which measurement the trace is of, by what the page is about when that ends.
+  struct Traced {
+    std::string measurement;
+    calibration::StageProgress progress = calibration::StageProgress::open;
+    double threshold = 0.0;
+    bool operator==(const Traced&) const = default;
+  };
+  Traced traced() const;
+
   AcquisitionTrace trace_;
-  TimeLeft left_;
+  Traced traced_;
   std::optional<WorkLeft> forecast_;
+  double secondsAPattern_ = 0.0;
+  int begunAt_ = 0;  // photographs of this session by then
   std::optional<linearization::Linearization> response_;
   std::string responseStored_;  // when that was
   int kept_ = 0, again_ = 0;    // photographs: in the journal; of them, newer than the result
   bool anew_ = false;           // nothing of the last measurement is used again
+  bool returns_ = false;        // when it has ended
   QTimer second_;
   double rate_ = 0.0;
   int lastCount_ = 0;

@@ -23,7 +23,7 @@ std::optional<WorkLeft> AcquirePage::expected(const acquisition::AcquisitionSett
 std::vector<BlockLevel> AcquirePage::levels() const {
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return {};
-  const AcquisitionTrace::Growth growth = trace_.growth();
+  const AcquisitionTrace::Growth growth = isTraceCurrent() ? trace_.growth() : AcquisitionTrace::Growth();
   // Of an earlier session only the sum is on record.
   if (isDone() && growth.levels.empty()) return {};
   std::vector<acquisition::PatternRange> patterns =

@@ -14,6 +14,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
+#include "wizard/acquire/lit_outline.h"
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/frame/page_view.h"
@@ -195,6 +196,12 @@ QWidget* floodlightCard(AcquirePage& model) {
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
     const image::Image flood = wanted.first == 0 ? image::Image() : model.floodlight();
     view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
+    const LitOutline lit = flood.empty() ? LitOutline() : litOutline(flood);
+    view->setOverlay(lit.picture);
+    const QString white = AcquirePage::tr("the projector fully white");
+    const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(lit.share));
+    card->setSubtitle(lit.picture.isNull() ? white : whole);
+    view->setAccessibleDescription(lit.picture.isNull() ? QString() : whole);
   };
   refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/acquire/acquire_view.h"
 
+#include <QLocale>
+#include <QTime>
+#include <cmath>
+
+#include "relucent/base/time_left.h"
 #include "text/message_text.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -67,6 +72,25 @@ QWidget* stageOf(AcquirePage& model) {
   return stage;
 }
 
+/// How long it still takes; held up, that stands still.
+QString timeText(const AcquirePage& model) {
+  const std::optional<double> seconds = model.secondsLeft();
+  const QString left = seconds ? text(roundedDuration(*seconds)) : QString();
+  if (model.isHeldUp())
+    return seconds ? AcquirePage::tr("Paused, about %1 left").arg(left) : AcquirePage::tr("Paused");
+  return seconds ? AcquirePage::tr("About %1 left").arg(left) : AcquirePage::tr("Measuring");
+}
+
+/// What is done now, and when all of it ends.
+QString stageText(const AcquirePage& model) {
+  QString stage = model.stage();
+  if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
+  const std::optional<double> seconds = model.secondsLeft();
+  if (!seconds || model.isHeldUp()) return stage;
+  const QTime end = QTime::currentTime().addSecs(static_cast<int>(*seconds));
+  return AcquirePage::tr("Ends near %1. %2").arg(QLocale().toString(end, QLocale::ShortFormat), stage);
+}
+
 /// While it goes on: how long, how fast.
 QWidget* runOf(AcquirePage& model) {
   auto* part = new QWidget;
@@ -78,30 +102,25 @@ QWidget* runOf(AcquirePage& model) {
   column->addWidget(counts);
   column->addWidget(outlookPart(model));
   column->addWidget(lineOf());
-  auto* rate = new ValueRow(AcquirePage::tr("Photographs a second"));
-  auto* taken = new ValueRow(AcquirePage::tr("Taken in this session"));
-  auto* ahead = new ValueRow(AcquirePage::tr("Patterns ahead"));
+  auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
+  auto* rate = new ValueRow(AcquirePage::tr("Photographs a minute"));
   auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
-  for (ValueRow* row : {rate, taken, ahead, disk}) column->addWidget(row);
+  for (ValueRow* row : {patterns, photographs, rate, disk}) column->addWidget(row);
   column->addWidget(lineOf());
   column->addWidget(watchPart(model));
-  auto refresh = [&model, left, counts, rate, taken, ahead, disk] {
+  auto refresh = [&model, left, counts, patterns, photographs, rate, disk] {
     if (!model.isMeasuring()) return;
-    if (model.isPaused())
-      left->setText(AcquirePage::tr("Paused"));
-    else if (auto seconds = model.secondsLeft())
-      left->setText(AcquirePage::tr("About %1 left").arg(text(roundedDuration(*seconds))));
-    else
-      left->setText(AcquirePage::tr("Measuring"));
-    QString stage = model.stage();
-    if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
-    counts->setText(stage);
-    rate->setValue(numberText(model.rate()));
-    taken->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
-    if (const auto& work = model.forecast()) {
-      ahead->setValue(AcquirePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work->shots))));
-      disk->setValue(bytesText(work->diskBytes));
-    }
+    left->setText(timeText(model));
+    counts->setText(stageText(model));
+    const PatternCount count = model.patterns();
+    const QString taken = countText(static_cast<std::uint64_t>(count.taken));
+    const QString expected = countText(static_cast<std::uint64_t>(count.expected));
+    patterns->setValue(count.taken < count.expected ? AcquirePage::tr("%1 of about %2").arg(taken, expected)
+                                                    : taken);
+    photographs->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
+    rate->setValue(countText(static_cast<std::uint64_t>(std::lround(model.photographsAMinute()))));
+    if (const auto& work = model.forecast()) disk->setValue(bytesText(work->diskBytes));
   };
   refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);
   return part;

@@ -84,7 +84,8 @@ QWidget* traceCard(AcquirePage& model) {
   auto refresh = [&model, card, chart, minutes, light] {
     const AcquisitionTrace& trace = model.trace();
     // Beside a banner there is no room for it, nor need.
-    card->setVisible(model.isMeasuring() || (model.isDone() && !trace.points().empty()));
+    card->setVisible(model.isMeasuring() ||
+                     (model.isDone() && model.isTraceCurrent() && !trace.points().empty()));
     charts::Axis x = minutes, y = around(trace.points(), light);
     double now = trace.seconds() / minute;
     x.high = std::max(leastMinutes, now + model.secondsLeft().value_or(0.0) / minute);

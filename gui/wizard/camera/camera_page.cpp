@@ -12,8 +12,6 @@
 #include "relucent/linearization/test_light.h"
 #include "relucent/platform/memory_limits.h"
 #include "views/number_text.h"
-#include "wizard/devices/missing_camera.h"
-#include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
 namespace {
@@ -54,6 +52,16 @@ CameraPage::CameraPage(Session& session, QObject* parent)
             Q_EMIT failed({failure, tr("Nothing was changed.")});
             Q_EMIT camerasListed();
             tellStatus();
+          }),
+      firstLooks_(
+          [this](CameraLook look) {
+            if (!isChecking()) return;
+            look_ = std::move(look);
+            best_ = std::max(best_, look_->sharpness);
+            tellAll();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, {}});
           }) {
   keep_ = addCommand(Icon::next, [this] { goOn(); });
   pause_ = addCommand(Icon::pause, [this] { finish(); });
@@ -75,6 +83,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     tooDark_.reset();
     best_ = 0.0;
     area_ = {};
+    connect(&session_.live(), &LiveRig::seen, this, &CameraPage::lookAtCheck);
   });
   connect(&session_, &Session::stepsChanged, this, &CameraPage::tellAll);
   connect(&session_, &Session::devicesChanged, this, &CameraPage::tellStatus);
@@ -90,8 +99,6 @@ CameraPage::~CameraPage() {
 StepStatus CameraPage::status() const {
   if (isLooking()) {
     bool done = session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
-    if (session_.isCameraSilent())
-      return {done ? StepState::done : StepState::open, missingCameraText(), false, true};
     return {done ? StepState::done : StepState::open, tr("Checking")};
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
@@ -146,17 +153,16 @@ QString CameraPage::hint() const {
     return isListing() ? tr("Looking for cameras") : tr("Choose the camera that looks at the surface.");
   if (!session_.areDevicesFree() && !isLooking())
     return tr("The camera is in use at %1.").arg(session_.devicesUserName());
-  if (isLooking() && exposures_.seconds.empty())
-    return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
+  if (isChecking()) return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
   if (tooBright_ && *tooBright_ > 0.05)
     return tr("%1 is too bright in every exposure.").arg(percentText(*tooBright_));
-  if (!look_) return tr("Look through the camera first.");
+  if (!isChecked()) return tr("Look through the camera first.");
   return tr("Next: test patterns for the projector's response");
 }
 
 void CameraPage::updateCommands() {
   const bool seen =
-      look_.has_value() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
+      isChecked() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
   const bool free = session_.areDevicesFree();
   keep_->show(tr("Keep exposures"), seen && (free || isLooking()));
   pause_->show(tr("Pause"));
@@ -175,15 +181,30 @@ std::vector<PageCommand*> CameraPage::secondary() const {
   return {again_};
 }
 
-std::optional<Banner> CameraPage::banner() const {
-  if (isLooking() && session_.isScreenMissing()) return missingScreen();
-  if (isLooking() && session_.isCameraSilent()) return missingCamera();
-  return std::nullopt;
+std::optional<double> CameraPage::progress() const {
+  return isChecking() ? std::optional(job_.fraction()) : std::nullopt;
+}
+
+/// A photograph that the checks took with all projectors white.
+void CameraPage::lookAtCheck() {
+  if (!isChecking()) return;
+  LivePictures live = session_.live().pictures();
+  const std::vector<float>& drive = live.pattern.data();
+  const bool isWhite = std::ranges::all_of(drive, [](float value) { return value >= 1.0f; });
+  if (live.frame.signal.empty() || drive.empty() || !isWhite) return;
+  if (area_ == image::Region{}) area_ = centre(live.frame.signal.size());
+  firstLooks_.ask([frame = std::move(live.frame), area = area_] {
+    CameraLook look;
+    look.frame = frame;
+    look.check = image::checkPhotograph(frame.signal, saturation, dark);
+    look.sharpness = sharpness(frame.signal, area);
+    return look;
+  });
 }
 
 /// What is seen is kept when it is no longer being looked at.
 void CameraPage::goOn() {
-  if (!look_) return Q_EMIT nextWanted();
+  if (!isChecked()) return Q_EMIT nextWanted();
   goOn_ = true;
   if (isLooking())
     job_.cancel();
@@ -250,14 +271,21 @@ void CameraPage::keepPixels(const reduction::PixelUse& use) {
 void CameraPage::start() {
   if (needsCamera() || !session_.areDevicesFree()) return;
   goOn_ = false;
+  isChecking_ = true;
   shared_ = std::make_shared<Shared>();
   shared_->area = area_;
   lease_ = session_.leaseDevices(stepName);
   job_.start([this, shared = shared_, work = workOf(session_),
               settings = session_.settings().acquisition](Progress& progress) {
-    Progress opening = progress.part(0.4, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
-    rig::Rig& rig = work.devices->open(opening);
+    Progress opening = progress.part(0.1, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+    rig::Rig& rig = work.devices->openUnproved(opening);
     if (work.devices->hasScreen()) {
+      Progress first =
+          progress.part(0.1, RELUCENT_MESSAGE("stage.looking-through-camera", "Looking through the camera"));
+      work.devices->lookFirst(first);
+      Progress proving = progress.part(
+          0.2, RELUCENT_MESSAGE("stage.finding-projector-picture", "Looking for the projector's picture"));
+      work.devices->open(proving);
       Progress checking = progress.part(
           0.3, RELUCENT_MESSAGE("stage.checking-projector-and-camera", "Checking projector and camera"));
       pipeline::RigCheck check = work.devices->check(checking);
@@ -332,12 +360,13 @@ void CameraPage::takeSharedState() {
       exposures_ = *std::exchange(shared_->choice, std::nullopt);
       pixels_ = shared_->pixels;
       exposure_ = shared_->exposure;
+      isChecking_ = false;
     }
     if (shared_->check) check_ = std::exchange(shared_->check, std::nullopt);
     tooBright_ = shared_->tooBright;
     tooDark_ = shared_->tooDark;
     area_ = shared_->area;
-    look_ = shared_->look;
+    if (shared_->look) look_ = shared_->look;
   }
   if (look_) best_ = std::max(best_, look_->sharpness);
   tellAll();
@@ -345,6 +374,7 @@ void CameraPage::takeSharedState() {
 
 void CameraPage::ended() {
   takeSharedState();
+  isChecking_ = false;
   lease_.release();
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost.")});

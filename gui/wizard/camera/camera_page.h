@@ -40,7 +40,7 @@ class CameraPage : public PageModel {
   QString hint() const override;
   PageCommand* primary() const override;
   std::vector<PageCommand*> secondary() const override;
-  std::optional<Banner> banner() const override;
+  std::optional<double> progress() const override;
   void enter() override;
   void leave() override { finish(); }
   void finish() override;
@@ -60,7 +60,10 @@ class CameraPage : public PageModel {
 
   bool isLooking() const { return job_.isRunning(); }
   QString stage() const { return job_.stage(); }
+  /// What is seen: at first what the checks photograph in white light, then one look after the other.
   const std::optional<CameraLook>& look() const { return look_; }
+  /// The devices are being checked and exposures found.
+  bool isChecking() const { return isLooking() && isChecking_; }
   /// Exposures for this venue, longest first; empty until they are found.
   const std::vector<double>& exposures() const { return exposures_.seconds; }
   /// Which of them the camera looks with.
@@ -100,6 +103,8 @@ class CameraPage : public PageModel {
   void keepPixels(const reduction::PixelUse& use);
   void start();
   void watch(const image::Region& area);
+  void lookAtCheck();
+  bool isChecked() const { return look_ && !isChecking_ && !exposures_.seconds.empty(); }
   void takeSharedState();
   void ended();
 
@@ -119,6 +124,8 @@ class CameraPage : public PageModel {
   Latest<devices::CameraList> listing_;
   std::optional<pipeline::RigCheck> check_;
   PageCommand *keep_, *pause_, *again_, *chooseAnother_;
+  bool isChecking_ = false;
+  Latest<CameraLook> firstLooks_;
   bool goOn_ = false;  // the next step was asked for while looking
 };
 

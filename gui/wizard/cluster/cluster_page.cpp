@@ -57,6 +57,7 @@ std::shared_ptr<const ClusterResult> withErrors(const ClusterResult& map, const 
 
 /// The graph refers to T.
 struct ClusterPage::Prepared {
+  std::shared_ptr<const transport::Acquisition> source;
   transport::TransportMatrix transport;
   std::optional<clustering::ConnectionGraph> graph;
   std::unique_ptr<clustering::Grouper> grouper;  // for computing_ alone, which asks it one thing at a time
@@ -67,6 +68,7 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       preparing_(
           [this](std::shared_ptr<const Prepared> prepared) {
+            if (prepared->source != source_) return;  // it has been measured again
             prepared_ = std::move(prepared);
             compute();
           },
@@ -85,21 +87,33 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
     prepared_ = nullptr;
     result_ = nullptr;
     preparedFor_.clear();
-    looked_ = false;
   });
   connect(&session_, &Session::devicesChanged, this, &ClusterPage::tellStatus);
   for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
     connect(&session_, signal, this, [this] {
-      if (looked_) prepare();
+      if (isLookedAt_) session_.wantAcquisition();
+      follow();
       tellAll();
     });
   updateCommands();
 }
 
 void ClusterPage::enter() {
-  looked_ = true;
+  isLookedAt_ = true;
   session_.wantAcquisition();
-  prepare();
+  follow();
+}
+
+/// Groups of a measurement that is no longer the one are neither shown nor kept.
+void ClusterPage::follow() {
+  if (source_ != session_.acquisition()) {
+    computing_.drop();
+    source_ = nullptr;
+    prepared_ = nullptr;
+    result_ = nullptr;
+    preparedFor_.clear();
+  }
+  if (isLookedAt_) prepare();
 }
 
 /// The graph, once for every threshold.
@@ -113,6 +127,7 @@ void ClusterPage::prepare() {
   source_ = acquisition;
   preparing_.ask([acquisition, cut]() -> std::shared_ptr<const Prepared> {
     auto prepared = std::make_shared<Prepared>();
+    prepared->source = acquisition;
     prepared->transport = transport::thresholded(acquisition->transport, cut, acquisition->flood);
     Progress quiet;
     prepared->graph.emplace(prepared->transport, pipeline::usablePixels(*acquisition),

@@ -45,6 +45,7 @@ class ClusterPage : public DevicePage {
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override;
+  void leave() override { isLookedAt_ = false; }
 
   const clustering::ClusteringSettings& settings() const { return settings_; }
   void setSettings(const clustering::ClusteringSettings& settings);
@@ -63,6 +64,7 @@ class ClusterPage : public DevicePage {
 
  private:
   struct Prepared;
+  void follow();
   void prepare();
   void cameraChanged() override;
   void compute();
@@ -77,7 +79,7 @@ class ClusterPage : public DevicePage {
   std::shared_ptr<const ClusterResult> result_;
   Latest<std::shared_ptr<const Prepared>> preparing_;
   Refining<std::shared_ptr<const ClusterResult>> computing_;
-  bool looked_ = false;
+  bool isLookedAt_ = false;
 };
 
 }  // namespace relucent::gui

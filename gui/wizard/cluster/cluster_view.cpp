@@ -77,6 +77,7 @@ class ClusterStage : public QWidget {
     sizes_->setFocusPolicy(Qt::NoFocus);
     sizeCard_->body()->addWidget(sizes_, 1);
     column->addWidget(sizeCard_, 3);
+    connect(&model_.session(), &Session::opened, &link_, &ViewLink::reset);
     refreshOn(
         model_, this, [this] { refresh(); }, &ClusterPage::settingsChanged, &ClusterPage::resultChanged);
   }
@@ -105,6 +106,10 @@ class ClusterStage : public QWidget {
     if (!result) {
       map_->setPicture({});
       error_->setValues({});
+      error_->setBadge({});
+      outline();
+      sizes_->setBars({});
+      sizeCard_->setSubtitle({});
       return error_->setPicture({});
     }
     map_->setPicture(result->picture);

@@ -23,8 +23,7 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
   row->addWidget(button_ = buttonOf({}));
   button_->setObjectName("banner-primary");
   connect(button_, &QPushButton::clicked, this, [this] {
-    if (auto banner = wizard_.currentPage().banner(); banner && banner->command != nullptr)
-      banner->command->trigger();
+    if (auto banner = wizard_.banner(); banner && banner->command != nullptr) banner->command->trigger();
   });
   connect(&wizard_, &Wizard::statusChanged, this, &BannerBar::refresh);
   connect(&wizard_, &Wizard::moved, this, &BannerBar::refresh);
@@ -33,7 +32,7 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
 }
 
 void BannerBar::refresh() {
-  std::optional<Banner> banner = wizard_.currentPage().banner();
+  std::optional<Banner> banner = wizard_.banner();
   setVisible(banner.has_value());
   if (!banner) return;
   bool amber = banner->kind == Banner::Kind::amber;

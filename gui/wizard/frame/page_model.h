@@ -78,6 +78,10 @@ class PageModel : public QObject {
   /// Of a measurement under way, 0 to 1.
   virtual std::optional<double> progress() const { return std::nullopt; }
   virtual std::optional<Banner> banner() const { return std::nullopt; }
+  /// What ends the wait for a device that is lost with what there is; nullptr: nothing does.
+  virtual PageCommand* insteadOfWaiting() const { return nullptr; }
+  /// The venue that is decided on here, if that is another than the open one; empty: it is not.
+  virtual QString otherVenue() const { return {}; }
   /// False: the stage has the whole width now.
   virtual bool usesInspector() const { return true; }
   /// The page is looked at, or no longer.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/frame/wizard.h"
 
+#include "wizard/frame/lost_device.h"
+
 namespace relucent::gui {
 
 Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(session) {
+  connect(&session_, &Session::devicesChanged, this, &Wizard::statusChanged);
   connect(&session_, &Session::opened, this, [this] {
     for (PageModel* page : pages_) page->undoStack().clear();
     if (session_.isOpen()) go(standing());
@@ -19,6 +22,22 @@ void Wizard::add(PageModel& page) {
     for (std::size_t i = 0; i < pages_.size(); ++i)
       if (pages_[i]->step().id == id) go(i);
   });
+}
+
+StepStatus Wizard::statusOf(std::size_t index) const {
+  StepStatus status = pages_[index]->status();
+  if (!session_.isDeviceLost() || session_.devicesUser() != pages_[index]->step()) return status;
+  status.result = lostDeviceText(session_);
+  status.isHeldUp = true;
+  return status;
+}
+
+std::optional<Banner> Wizard::banner() const {
+  PageCommand* instead = nullptr;
+  for (const PageModel* page : pages_)
+    if (session_.devicesUser() == page->step()) instead = page->insteadOfWaiting();
+  if (auto lost = lostDeviceBanner(session_, instead)) return lost;
+  return currentPage().banner();
 }
 
 bool Wizard::isLocked(std::size_t index) const {

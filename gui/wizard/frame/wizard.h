@@ -22,6 +22,10 @@ class Wizard : public QObject {
   PageModel& page(std::size_t index) const { return *pages_[index]; }
   std::size_t current() const { return current_; }
   PageModel& currentPage() const { return *pages_[current_]; }
+  /// Of a page, as the rail shows it: that it waits for a device comes before all else.
+  StepStatus statusOf(std::size_t index) const;
+  /// What stands above the stage: on every page that work waits for a device, else what the page says.
+  std::optional<Banner> banner() const;
 
   /// A page opens when all before it have a result, perhaps an old one.
   bool isLocked(std::size_t index) const;

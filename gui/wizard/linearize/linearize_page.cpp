@@ -6,13 +6,12 @@
 #include "relucent/base/message.h"
 #include "relucent/base/time_left.h"
 #include "relucent/calibration/results.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/devices/full_disk.h"
-#include "wizard/devices/missing_camera.h"
-#include "wizard/devices/missing_screen.h"
 
 namespace relucent::gui {
 
@@ -24,6 +23,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
       Icon::stop, [this] { finish(); }, QKeySequence("Ctrl+K"));
   again_ = addCommand(
       Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
+  return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   retry_ = addCommand(Icon::retry, [this] { measure(false); });
   goOn_ = addCommand(Icon::play, [this] { room_.goOn(); });
   connect(&session_, &Session::opened, this, [this] {
@@ -61,10 +61,6 @@ void LinearizePage::look() {
 }
 
 StepStatus LinearizePage::status() const {
-  if (isMeasuring() && session_.isScreenMissing())
-    return {StepState::busy, tr("Screen unplugged"), result_.has_value(), true};
-  if (isMeasuring() && session_.isCameraSilent())
-    return {StepState::busy, missingCameraText(), result_.has_value(), true};
   if (isMeasuring())
     return {StepState::busy, tr("Measuring, %1").arg(percentText(job_.fraction())), result_.has_value()};
   switch (session_.progress(calibration::Stage::linearization)) {
@@ -102,6 +98,8 @@ void LinearizePage::updateCommands() {
   measure_->show(isStale() ? tr("Measure again") : tr("Measure response"), !isMeasuring() && free);
   stop_->show(tr("Stop"), !job_.isStopping());
   again_->show(tr("Measure again"), free);
+  return_->show(tr("Keep the earlier one"), session_.areDevicesFree());
+  return_->setToolTip(tr("The earlier curves are used again, with all that followed from them."));
   retry_->show(tr("Try again"));
   goOn_->show(tr("Go on now"));
 }
@@ -113,6 +111,7 @@ PageCommand* LinearizePage::primary() const {
 
 std::vector<PageCommand*> LinearizePage::secondary() const {
   if (isMeasuring()) return {stop_};
+  if (session_.mayReturnToEarlier(calibration::Stage::linearization)) return {return_};
   if (session_.progress(calibration::Stage::linearization) != calibration::StageProgress::done) return {};
   return {again_};
 }
@@ -122,8 +121,6 @@ std::optional<double> LinearizePage::progress() const {
 }
 
 std::optional<Banner> LinearizePage::banner() const {
-  if (isMeasuring() && session_.isScreenMissing()) return missingScreen();
-  if (isMeasuring() && session_.isCameraSilent()) return missingCamera();
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
   if (isMeasuring() || !isStale()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),
@@ -181,17 +178,21 @@ void LinearizePage::measure(bool again) {
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(work.path, calibration::CalibrationFolder::Access::write);
-    if (again) {
-      pipeline::CalibrateSettings settings = pipeline::settingsOf(folder);
-      ++settings.linearization.seed;
-      pipeline::setShotsAside(folder, calibration::Stage::linearization);
-      changeSettings(folder, settings);
-    }
+    if (again) pipeline::measureAgain(folder, calibration::Stage::linearization);
     Progress measuring =
         progress.part(0.8, RELUCENT_MESSAGE("stage.measuring-response", "Measuring the response"));
     pipeline::measureLinearization(folder, rig, room, measuring);
   });
   tellResult();
+}
+
+/// The curves of before, with all that followed from them.
+void LinearizePage::returnToEarlier() {
+  try {
+    session_.returnToEarlier(calibration::Stage::linearization);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
+  }
 }
 
 void LinearizePage::finish() {

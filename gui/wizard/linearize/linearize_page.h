@@ -55,12 +55,13 @@ class LinearizePage : public DevicePage {
  private:
   void keepLevels(int levels);
   void measure(bool again);
+  void returnToEarlier();
   void look();
   void ended();
 
   bool isStale() const;
 
-  PageCommand *next_, *measure_, *stop_, *again_, *retry_, *goOn_;
+  PageCommand *next_, *measure_, *stop_, *again_, *return_, *retry_, *goOn_;
   DeviceLease lease_;
   RoomQuestion room_;
   Job job_;  // ends before what its work uses

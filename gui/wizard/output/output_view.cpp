@@ -189,6 +189,7 @@ class OutputStage : public QWidget {
     photo_ = new ImageView;
     photo_->setObjectName("photograph-view");
     photo_->setLink(&link_);
+    connect(&page_.session(), &Session::opened, &link_, &ViewLink::reset);
     photo_->setAccessibleName(
         OutputPage::tr("What was wanted at the left of the divider, the photograph at the right"));
     photo_->setEmptyText(OutputPage::tr("No verification photograph has been taken."));

@@ -86,8 +86,8 @@ void PreviewPage::enter() {
 void PreviewPage::prepare() {
   if (!session_.isOpen() || job_.isRunning() || !session_.areDevicesFree()) return;
   const transport::ThresholdSettings& cut = session_.settings().threshold;
-  std::string wanted = fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept,
-                                   session_.result(calibration::Stage::acquisition)->stored);
+  std::string wanted =
+      fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept, session_.measurement());
   if (wanted == preparedFor_) return;
   preparedFor_ = wanted;
   engine_ = nullptr;

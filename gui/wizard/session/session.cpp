@@ -11,6 +11,7 @@
 #include "relucent/base/error.h"
 #include "relucent/calibration/results.h"
 #include "relucent/devices/check/test_exposure.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -40,12 +41,16 @@ struct ProjectorSize {
 
 }  // namespace
 
-rig::Rig& SessionDevices::open(Progress& progress) {
-  std::scoped_lock lock(guard_);
+/// Contract: guard_ is held.
+rig::Rig& SessionDevices::opened(Progress& progress) {
   if (!opened_) {
     Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
                                      RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
     pipeline::OpenedRig opened = pipeline::openRig(settings_, cache_, screens_, opening);
+    // What is simulated answers at once.
+    if (!std::holds_alternative<venue::VenueSettings>(settings_))
+      for (std::unique_ptr<rig::Camera>& camera : opened.rig.cameras)
+        camera = std::make_unique<PatientCamera>(std::move(camera), waiting_);
     opened.rig = rig::watched(std::move(opened.rig), live_);
     {
       std::scoped_lock instant(screenGuard_);
@@ -54,9 +59,29 @@ rig::Rig& SessionDevices::open(Progress& progress) {
     }
     opened_ = std::move(opened);
   }
+  return opened_->rig;
+}
+
+rig::Rig& SessionDevices::open(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  rig::Rig& rig = opened(progress);
   // A camera that was turned away is looked through again.
   if (hasScreen() && !proof_.isSeen) prove(progress);
-  return opened_->rig;
+  return rig;
+}
+
+rig::Rig& SessionDevices::openUnproved(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  return opened(progress);
+}
+
+void SessionDevices::lookFirst(const Progress& progress) {
+  std::scoped_lock lock(guard_);
+  require(opened_ && hasScreen(), "only an open screen is looked at first");
+  devices::LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  std::ignore = devices::testExposure(*opened_->rig.projectors.front(), *opened_->rig.cameras.front(),
+                                      settling, devices::sleepFor, progress);
 }
 
 void SessionDevices::prove(Progress& progress) {
@@ -146,15 +171,16 @@ Session::Session(fs::path cache, QObject* parent)
       cache_(std::move(cache)),
       live_(std::make_shared<LiveRig>()),
       reading_(
-          [this](std::shared_ptr<const transport::Acquisition> acquisition) {
-            acquisition_ = std::move(acquisition);
+          [this](Read read) {
+            if (read.measurement != acquired_) return;  // there is a newer one
+            acquisition_ = std::move(read.acquisition);
             Q_EMIT acquisitionChanged();
           },
           [this](const Failure& failure) {
             readFailure_ = failure;
             Q_EMIT acquisitionChanged();
           }) {
-  silence_.setInterval(500);
+  silence_.setInterval(250);
   connect(&silence_, &QTimer::timeout, this, &Session::listenForCamera);
 }
 
@@ -212,6 +238,17 @@ std::unique_ptr<devices::ScreenProjector> Session::openScreen(const pipeline::Sc
                                            });
 }
 
+/// What was read of a measurement that is no longer the one is let go of.
+void Session::tellSteps() {
+  const bool isOld = !acquired_.empty() && acquired_ != measurement();
+  if (isOld) {
+    acquisition_ = nullptr;
+    acquired_.clear();
+  }
+  Q_EMIT stepsChanged();
+  if (isOld) Q_EMIT acquisitionChanged();
+}
+
 void Session::changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write) {
   devices_ = nullptr;  // nobody else is let to a camera that is held
   {
@@ -226,7 +263,7 @@ void Session::changeDevices(const std::function<void(calibration::CalibrationFol
     look(folder);
   }
   makeDevices();
-  Q_EMIT stepsChanged();
+  tellSteps();
 }
 
 void Session::changeRig(const pipeline::RigSettings& rig) {
@@ -263,11 +300,13 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),
                                                 calibration::resultOf(folder, stage)};
+  for (calibration::Stage stage : {calibration::Stage::linearization, calibration::Stage::acquisition})
+    stages_[static_cast<std::size_t>(stage)].mayReturn = pipeline::mayReturnToEarlier(folder, stage);
 }
 
 void Session::reload() {
   look(calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::read));
-  Q_EMIT stepsChanged();
+  tellSteps();
 }
 
 bool Session::isSimulated() const {
@@ -351,12 +390,16 @@ void Session::change(const std::function<void(calibration::CalibrationFolder&)>&
     write(folder);
     look(folder);
   }
-  Q_EMIT stepsChanged();
+  tellSteps();
 }
 
 void Session::changeSettings(const pipeline::CalibrateSettings& settings) {
   change(
       [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeSettings(folder, settings); });
+}
+
+void Session::returnToEarlier(calibration::Stage stage) {
+  change([stage](calibration::CalibrationFolder& folder) { pipeline::returnToEarlier(folder, stage); });
 }
 
 void Session::keepPhotographs(pipeline::KeptPhotographs kept) {
@@ -367,14 +410,19 @@ void Session::changePixels(const reduction::PixelUse& use) {
   change([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changePixels(folder, use); });
 }
 
+std::string Session::measurement() const {
+  const std::optional<calibration::StageResult>& stored = result(calibration::Stage::acquisition);
+  return stored ? stored->stored + ' ' + stored->folder.string() : std::string();
+}
+
 void Session::wantAcquisition() {
   const std::optional<calibration::StageResult>& stored = result(calibration::Stage::acquisition);
-  if (!stored || stored->stored == acquired_) return;
-  acquired_ = stored->stored;
+  if (!stored || measurement() == acquired_) return;
+  acquired_ = measurement();
   acquisition_ = nullptr;
   readFailure_.reset();
-  reading_.ask([stored = *stored]() -> std::shared_ptr<const transport::Acquisition> {
-    return std::make_shared<transport::Acquisition>(calibration::loadAcquisition(stored));
+  reading_.ask([name = acquired_, stored = *stored]() -> Read {
+    return {name, std::make_shared<transport::Acquisition>(calibration::loadAcquisition(stored))};
   });
 }
 
@@ -405,6 +453,7 @@ DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {
   require(areDevicesFree(), "the devices are in use");
   devicesUser_ = step;
   deviceWork_ = work;
+  if (devices_) devices_->patience().wait();
   silence_.start();
   Q_EMIT devicesChanged();
   return DeviceLease(*this);
@@ -417,13 +466,23 @@ QString Session::whyLocked(const StepName& step) const {
 
 void Session::listenForCamera() {
   const bool isSilent = live_->isCameraSilent();
-  if (std::exchange(cameraSilent_, isSilent) != isSilent) Q_EMIT devicesChanged();
+  const std::optional<Failure> failure = isSilent ? devices_->patience().failure() : std::nullopt;
+  const QString why = failure ? failure->what : QString();
+  const bool isNews = cameraSilent_ != isSilent || cameraFailure_ != why;
+  cameraSilent_ = isSilent;
+  cameraFailure_ = why;
+  if (isNews) Q_EMIT devicesChanged();
+}
+
+void Session::giveUpCamera() {
+  if (isCameraSilent()) devices_->patience().giveUp();
 }
 
 void Session::takeBackDevices() {
   devicesUser_.reset();
   silence_.stop();
   cameraSilent_ = false;
+  cameraFailure_.clear();
   if (devices_) devices_->rest();
 }
 

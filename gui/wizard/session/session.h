@@ -12,6 +12,7 @@
 
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
+#include "jobs/patient_camera.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
@@ -46,6 +47,11 @@ class SessionDevices {
   /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
   /// as openRig() and requireSeen().
   rig::Rig& open(Progress& progress);
+  /// The same before anybody knows what the camera sees: for a first look through it.
+  rig::Rig& openUnproved(Progress& progress);
+  /// A first look through the camera of an open screen: white, at the exposures that are tried until one
+  /// suits.
+  void lookFirst(const Progress& progress);
   /// Of an open screen: how long a picture takes, waited for from now on, and how steady its light is.
   /// Called on a worker's thread.  Throws: as measureLatency() and checkLight().
   pipeline::RigCheck check(Progress& progress);
@@ -53,6 +59,8 @@ class SessionDevices {
   bool hasScreen() const { return std::holds_alternative<pipeline::ScreenRigSettings>(settings_); }
   /// As it was measured earlier, seconds.
   void setLatency(double seconds);
+  /// Photographs are waited for, or no longer. From any thread.
+  CameraPatience& patience() const { return *waiting_; }
   /// Leaves the projector's screen to others until the next pattern.
   void rest();
   LiveRig& live() const { return *live_; }
@@ -60,11 +68,13 @@ class SessionDevices {
  private:
   std::shared_ptr<devices::ScreenControl> screen() const;
   double unmeasuredLatency() const;
+  rig::Rig& opened(Progress& progress);
   void prove(Progress& progress);
 
   pipeline::RigSettings settings_;
   std::filesystem::path cache_;
   std::shared_ptr<LiveRig> live_;
+  std::shared_ptr<CameraPatience> waiting_ = std::make_shared<CameraPatience>();
   pipeline::ScreenOpener screens_;
   CheckPatience patience_;
   std::mutex guard_;
@@ -167,13 +177,22 @@ class Session : public QObject {
   /// Something was measured that belongs to these devices.
   bool isMeasured() const { return result(calibration::Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
+  /// A stage is being measured again, and has an earlier result to go back to.
+  bool mayReturnToEarlier(calibration::Stage stage) const {
+    return stages_[static_cast<std::size_t>(stage)].mayReturn;
+  }
+  /// See pipeline/measured_again.h. Throws: Error{disk}.
+  void returnToEarlier(calibration::Stage stage);
   /// Looks at the folder again, after some work wrote into it.
   void reload();
 
   std::shared_ptr<SessionDevices> devices() const { return devices_; }
   LiveRig& live() const { return *live_; }
 
-  /// What acquisition measured, with all of T; none until it has been read.
+  /// Which measurement of the light transport is used: another one has another name. Empty: there is none.
+  std::string measurement() const;
+  /// What acquisition measured, with all of T; none until it has been read, and from when it is measured anew
+  /// until that is read.
   std::shared_ptr<const transport::Acquisition> acquisition() const { return acquisition_; }
   /// Reads it on another thread, once; acquisitionChanged() tells.
   void wantAcquisition();
@@ -196,6 +215,12 @@ class Session : public QObject {
 
   /// A photograph does not come.
   bool isCameraSilent() const { return cameraSilent_; }
+  /// Why, as far as its driver knows, in a sentence; empty: nobody knows.
+  QString cameraFailure() const { return cameraFailure_; }
+  /// Work that waits for a device: the projector's screen or the camera.
+  bool isDeviceLost() const { return isScreenMissing() || isCameraSilent(); }
+  /// Nobody waits any longer for a camera that does not answer: the measurement ends with what is there.
+  void giveUpCamera();
 
   /// Since the calibration was opened; none before it was measured.
   const std::optional<RoomLight>& roomLight() const { return roomLight_; }
@@ -230,8 +255,10 @@ class Session : public QObject {
   struct StageState {
     calibration::StageProgress progress = calibration::StageProgress::open;
     std::optional<calibration::StageResult> result;
+    bool mayReturn = false;
   };
   void look(const calibration::CalibrationFolder& folder);
+  void tellSteps();
   /// Writes into the calibration and looks at it again.
   void change(const std::function<void(calibration::CalibrationFolder&)>& write);
   /// The same with the devices closed meanwhile and opened again.
@@ -253,17 +280,22 @@ class Session : public QObject {
   std::shared_ptr<LiveRig> live_;
   std::shared_ptr<SessionDevices> devices_;
   std::shared_ptr<const transport::Acquisition> acquisition_;
-  std::string acquired_;  // when the result was stored that `acquisition_` is or will be
+  std::string acquired_;  // the measurement that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false, cameraSilent_ = false;
+  QString cameraFailure_;
   QTimer silence_;  // runs while somebody uses the devices
   std::optional<RoomLight> roomLight_;
   CheckPatience patience_;
-  Latest<std::shared_ptr<const transport::Acquisition>> reading_;
+  struct Read {
+    std::string measurement;
+    std::shared_ptr<const transport::Acquisition> acquisition;
+  };
+  Latest<Read> reading_;
 };
 
 /// What the job of a measuring stage needs, without the session: it runs on another thread.

@@ -84,10 +84,16 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
   connect(&session_, &Session::devicesChanged, this, &ThresholdPage::tellStatus);
   for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
     connect(&session_, signal, this, [this] {
+      if (isLookedAt_) session_.wantAcquisition();
       adopt();
       tellAll();
     });
   updateCommands();
+}
+
+void ThresholdPage::enter() {
+  isLookedAt_ = true;
+  session_.wantAcquisition();
 }
 
 void ThresholdPage::adopt() {

@@ -28,7 +28,8 @@ class ThresholdPage : public DevicePage {
   QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
-  void enter() override { session_.wantAcquisition(); }
+  void enter() override;
+  void leave() override { isLookedAt_ = false; }
 
   std::shared_ptr<const transport::Acquisition> acquisition() const { return session_.acquisition(); }
   /// Of everything that was measured; none while it is being read.
@@ -82,7 +83,7 @@ class ThresholdPage : public DevicePage {
   PageCommand *accept_, *goOnMeasuring_;
   std::shared_ptr<const transport::Acquisition> adopted_;
   transport::ThresholdSettings cut_;
-  bool shareOfRow_ = false;
+  bool shareOfRow_ = false, isLookedAt_ = false;
   float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
   std::optional<transport::TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;

@@ -52,7 +52,11 @@ QWidget* stageOf(ThresholdPage& model) {
   column->addWidget(card, 4);
   QObject::connect(histogram, &CutHistogram::cutMoved, &model, &ThresholdPage::setAbsolute);
   auto refresh = [&model, histogram] {
-    if (!model.whole()) return;
+    if (!model.whole()) {
+      // Those of another measurement say nothing of this one.
+      histogram->setBars({});
+      return histogram->setCutText({});
+    }
     charts::Axis axis = axisOf(model.whole()->histogram);
     axis.title = ThresholdPage::tr("Transport value, camera signal a second").toStdString();
     histogram->setAxis(axis);
@@ -128,6 +132,8 @@ QWidget* inspectorOf(ThresholdPage& model) {
                                      numberText(static_cast<double>(model.whole()->connections))));
       leaves->setValue(countText(kept.leaves));
       memory->setValue(bytesText(kept.bytes));
+    } else {
+      for (ValueRow* row : {light, connections, leaves, memory}) row->setValue({});
     }
     bool known = model.picked() && model.footprint();
     for (QWidget* widget : std::initializer_list<QWidget*>{picked, litBy, strongest, direct, elsewhere})

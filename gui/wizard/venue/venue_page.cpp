@@ -141,6 +141,11 @@ std::optional<Banner> VenuePage::banner() const {
                 tr("Plug it in, or say which screen the projector is now."), changeScreen_};
 }
 
+QString VenuePage::otherVenue() const {
+  const bool isNew = mode_ == Mode::rehearse || mode_ == Mode::script || mode_ == Mode::devices;
+  return isNew ? (venueName_.isEmpty() ? title() : venueName_) : QString();
+}
+
 bool VenuePage::goBack() {
   if (mode_ == Mode::start) return false;
   setMode(Mode::start);

@@ -52,6 +52,7 @@ class VenuePage : public PageModel {
   std::optional<Banner> banner() const override;
   bool goBack() override;
   bool canGoBack() const override { return mode_ != Mode::start; }
+  QString otherVenue() const override;
   bool usesInspector() const override { return mode_ != Mode::start; }
 
   Mode mode() const { return mode_; }

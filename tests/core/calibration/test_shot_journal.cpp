@@ -12,11 +12,13 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
 #include "relucent/base/random.h"
+#include "relucent/calibration/earlier_shots.h"
 #include "relucent/calibration/shot_journal.h"
 using namespace relucent;
 using namespace relucent::calibration;
@@ -68,6 +70,12 @@ bool identical(const Shot& a, const Shot& b) {
          std::equal(a.frames.begin(), a.frames.end(), b.frames.begin(), b.frames.end(), sameExposure);
 }
 
+std::set<fs::path> filesIn(const fs::path& folder) {
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.insert(entry.path());
+  return files;
+}
+
 fs::path onlyFileIn(const fs::path& folder) {
   return fs::directory_iterator(folder)->path();
 }
@@ -85,6 +93,29 @@ class TestShotJournal : public QObject {
   void init() {
     temporary_ = QTemporaryDir();
     folder_ = fs::path(temporary_.path().toStdString()) / "shots";
+  }
+
+  /// Law: what earlier sessions took is from shot to shot, of those that are found, whatever lies between two
+  /// sessions, however often they are found, and without this session's own.
+  void earlierSessionsAreTimedByTheirShots() {
+    using namespace std::chrono_literals;
+    ShotJournal journal(folder_);
+    const fs::file_time_type first = fs::file_time_type::clock::now() - 3h;
+    const std::vector<std::chrono::seconds> kept{0s, 10s, 20s, 3620s, 3640s, 3641s};
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const std::set<fs::path> before = filesIn(folder_);
+      journal.keep(shotOf(static_cast<int>(i)));
+      for (const fs::path& file : filesIn(folder_))
+        if (!before.contains(file)) fs::last_write_time(file, first + kept[i]);
+    }
+    EarlierShots earlier(journal);
+    QCOMPARE(earlier.seconds(), 0.0);
+    for (int round = 0; round < 2; ++round)
+      for (int number = 0; number < 5; ++number) QVERIFY(earlier.find(shotOf(number).id, fingerprint));
+    QCOMPARE(earlier.seconds(), 40.0);
+    earlier.keep(shotOf(6));
+    QVERIFY(earlier.find(shotOf(6).id, fingerprint) && !earlier.find({"acquisition", 7}, fingerprint));
+    QCOMPARE(earlier.seconds(), 40.0);
   }
 
   void findsWhatWasKept_data() {

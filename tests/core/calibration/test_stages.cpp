@@ -135,6 +135,37 @@ class TestStages : public QObject {
     }
   }
 
+  /// Law: what follows from a measurement that was stopped early is out of date once that has gone on, and
+  /// the measurement itself is not.
+  void whatFollowsFromACoarseMeasurementIsOutOfDateOnceItIsFine() {
+    CalibrationFolder folder = CalibrationFolder::create(path() / "coarse", Json::object(), Json::object());
+    const auto measure = [&folder](const Json& values) {
+      folder.store(Stage::acquisition, fingerprintOf(folder, Stage::acquisition), values);
+    };
+    const auto decide = [&folder] {
+      storeDecision(folder, ThresholdResult());
+      storeDecision(folder, ClusteringResult());
+      storeDecision(folder, ContentResult());
+      storeInverse(folder, {});
+    };
+    const auto stand = [&folder](StageProgress expected) {
+      for (Stage stage : {Stage::threshold, Stage::clustering, Stage::content, Stage::inverse})
+        if (progressOf(folder, stage) != expected) return false;
+      return progressOf(folder, Stage::acquisition) == StageProgress::done;
+    };
+    const Json cost{{"seconds", 1.0}, {"patterns", 90}, {"exposures", 180}};
+    measure({{"stopped_at", 8}});
+    decide();
+    QVERIFY(stand(StageProgress::done));
+    measure({{"stopped_at", 8}, {"cost", cost}});  // further, though not to the next level
+    QVERIFY(stand(StageProgress::stale));
+    decide();
+    measure({{"stopped_at", 0}, {"cost", cost}});
+    QVERIFY(stand(StageProgress::stale));
+    decide();
+    QVERIFY(stand(StageProgress::done));
+  }
+
   void aStageThatWasNeverDoneHasNoResult() {
     const CalibrationFolder folder =
         CalibrationFolder::create(path() / "new", Json::object(), Json::object());

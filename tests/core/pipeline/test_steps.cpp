@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Stages one by one, and what somebody decides between them.
-#include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/measuring.h"
 
 #include <QTemporaryDir>
 #include <QTest>
+#include <set>
 
 #include "relucent/base/error.h"
+#include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measured_venue.h"
-#include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/settings_json.h"
+#include "relucent/pipeline/stored_settings.h"
 
 using namespace relucent;
 using namespace relucent::acquisition;
@@ -212,6 +215,38 @@ class TestSteps : public QObject {
     QCOMPARE(left, 0);
     QVERIFY(!fs::is_empty(folder.shotFolder() / "earlier-1"));
     QVERIFY(!fs::exists(folder.shotFolder() / "earlier-2"));
+  }
+
+  /// Law: measuring again and back is as if nothing had been: results, settings and photographs.
+  void measuringAgainIsTakenBack() {
+    Progress quiet;
+    CalibrationFolder folder = beginCalibration(path("again"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    const auto shots = [&folder] {
+      std::set<std::string> names;
+      for (const auto& entry : fs::directory_iterator(folder.shotFolder()))
+        if (entry.is_regular_file()) names.insert(entry.path().filename().string());
+      return names;
+    };
+    measureLinearization(folder, devices.rig, quiet);
+    const std::set<std::string> first = shots();
+    const std::string settings = folder.settings().dump();
+    QVERIFY(!first.empty() && !mayReturnToEarlier(folder, Stage::linearization));
+    for (int times : {1, 2}) {
+      for (int again = 0; again < times; ++again) measureAgain(folder, Stage::linearization);
+      QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::stale && shots().empty());
+      writeFileAtomically(folder.shotFolder() / "linearization-000000-ff.shot", "new");
+      QVERIFY(mayReturnToEarlier(folder, Stage::linearization));
+      returnToEarlier(folder, Stage::linearization);
+      QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
+      QVERIFY(shots() == first);
+      QCOMPARE(folder.settings().dump(), settings);
+      QVERIFY(!mayReturnToEarlier(folder, Stage::linearization));
+    }
+    // With its own result it is not to be taken back.
+    measureAgain(folder, Stage::linearization);
+    measureLinearization(folder, devices.rig, quiet);
+    QVERIFY(!mayReturnToEarlier(folder, Stage::linearization));
   }
 
   void wrongSettingsBeginNothing() {

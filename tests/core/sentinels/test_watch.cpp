@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "relucent/base/error.h"
+#include "relucent/rig/device_given_up.h"
 #include "relucent/sentinels/watch.h"
 #include "support/scripted_rig.h"
 
@@ -17,7 +18,7 @@ using namespace relucent::test;
 
 namespace {
 
-/// Sees `roomLight` besides, radiance.
+/// Sees `roomLight` besides, radiance; below nothing it is given up.
 class LitCamera : public Camera {
  public:
   LitCamera(std::unique_ptr<Camera> camera, std::shared_ptr<const double> roomLight)
@@ -26,6 +27,8 @@ class LitCamera : public Camera {
   Size size() const override { return camera_->size(); }
   ExposureRange exposures() const override { return camera_->exposures(); }
   RawFrame capture(const CaptureRequest& request) override {
+    if (*roomLight_ < 0.0)
+      throw DeviceGivenUp(ErrorKind::device, Message::plain("gone"), Message::plain("wait"), name());
     RawFrame frame = camera_->capture(request);
     for (float& value : frame.signal.data())
       value = std::min(1.0f, value + static_cast<float>(request.seconds * *roomLight_));
@@ -139,6 +142,21 @@ class TestWatch : public QObject {
     // What was accepted is expected from then on.
     if (answer == Answer::skip) QVERIFY(!venue.checkWith(1.0));
     QCOMPARE(asked, 1);
+  }
+
+  /// Law: a device that is given up ends a measurement with what is confirmed, whoever is there to ask.
+  void aDeviceThatIsGivenUpEndsItWithWhatIsSafe() {
+    int asked = 0;
+    WatchedVenue venue([&asked](const Alarm&) {
+      ++asked;
+      return Answer::retry;
+    });
+    QVERIFY(!venue.begin());
+    QVERIFY(!venue.checkWith(0.0));
+    const int confirmed = venue.watch.confirmed();
+    QVERIFY(venue.checkWith(-1.0) == Interruption::keepAndStop);
+    QVERIFY(venue.watch.confirmed() == confirmed && asked == 0);
+    QVERIFY(!venue.checkWith(0.0));
   }
 
   void withNobodyToAskItIsAnError() {

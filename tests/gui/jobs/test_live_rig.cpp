@@ -65,6 +65,31 @@ class TestLiveRig : public QObject {
     QCOMPARE(live.photographs(), 1);
   }
 
+  /// Law: slow cameras are waited for longer; one photograph that was held up makes none slow.
+  void slowCamerasAreWaitedForLonger() {
+    using namespace std::chrono_literals;
+    const auto take = [](LiveRig& live, std::chrono::milliseconds lasts) {
+      live.beforePhotographing(0, {{"stage", 3}, 0, 0.0});
+      QTest::qSleep(static_cast<int>(lasts.count()));
+      live.afterPhotographing(0);
+      live.photographed(0, {{"stage", 3}, 0, 0.0}, lit(0.1f));
+    };
+    const auto isSilentAfter = [](LiveRig& live, std::chrono::milliseconds time) {
+      const auto now = LiveRig::Clock::now();
+      live.beforePhotographing(0, {{"stage", 4}, 0, 0.0});
+      const bool silent = live.isCameraSilent(now + time);
+      live.afterPhotographing(0);
+      return silent;
+    };
+    LiveRig slow(0), heldUp(0);
+    for (int i = 0; i < 3; ++i) take(slow, 250ms);
+    take(heldUp, 0ms);
+    take(heldUp, 250ms);
+    QVERIFY(!isSilentAfter(slow, 3400ms) && isSilentAfter(slow, 4500ms));
+    QVERIFY(isSilentAfter(heldUp, 3400ms));
+    QVERIFY((slow.lastShot() == ShotId{"stage", 3}));
+  }
+
   void everyCamerasPhotographIsTold() {
     LiveRig live(0);
     QSignalSpy seen(&live, &LiveRig::seen);

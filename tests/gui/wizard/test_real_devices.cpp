@@ -25,6 +25,7 @@
 #include "support/screen_light.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
+#include "wizard/frame/wizard.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/session/other_screens.h"
 #include "wizard/venue/venue_page.h"
@@ -363,6 +364,64 @@ class TestRealDevices : public QObject {
     QCOMPARE(mayLightUp(), QStringList());
   }
 
+  /// Law: a camera that is unplugged while it measures is said within five seconds, the same on every page;
+  /// it goes on by itself when it is back; and whoever does not wait keeps what is measured, at once.
+  void aLostCameraIsSaidAndWaitedForOrNot() {
+    CalibrateSettings settings = simulatedSettings();
+    settings.rig = devices();
+    Session session(cache());
+    session.setPatience({4, 8});
+    session.begin(root() / "lost", settings);
+    session.setRoomClear(true);
+    LinearizePage linearize(session);
+    AcquirePage acquire(session);
+    Wizard wizard(session);
+    wizard.add(linearize);
+    wizard.add(acquire);
+    QSignalSpy failed(&acquire, &PageModel::failed);
+    linearize.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::linearization) == StageProgress::done, 60000);
+    QTRY_VERIFY(session.areDevicesFree());
+    session.live().setLeastInterval(60);
+    acquire.primary()->trigger();
+    const auto loseCamera = [&] {
+      QElapsedTimer since;
+      room_->camera().unplug();
+      since.start();
+      QTRY_VERIFY_WITH_TIMEOUT(session.isCameraSilent(), 20000);
+      qInfo("noticed after %.1f s", 1e-3 * static_cast<double>(since.elapsed()));
+      QVERIFY(since.elapsed() < 5000);
+    };
+    // A level has been confirmed: there is something to keep.
+    QTRY_VERIFY_WITH_TIMEOUT(acquire.trace().growth().levels.size() > 2, 60000);
+    loseCamera();
+    const PatternCount count = acquire.patterns();
+    for (std::size_t page : {std::size_t{0}, std::size_t{1}}) {
+      QVERIFY(wizard.go(page));
+      const std::optional<Banner> banner = wizard.banner();
+      QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
+      QCOMPARE(banner->command->text(), AcquirePage::tr("Stop and keep"));
+    }
+    QVERIFY(wizard.statusOf(1).isHeldUp && acquire.isHeldUp());
+    room_->camera().plug();
+    QTRY_VERIFY_WITH_TIMEOUT(!session.isCameraSilent() && acquire.patterns().taken > count.taken + 2, 30000);
+    QVERIFY(!wizard.banner() && !wizard.statusOf(1).isHeldUp && acquire.isMeasuring());
+
+    loseCamera();
+    QElapsedTimer since;
+    since.start();
+    wizard.banner()->command->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), 30000);
+    qInfo("kept after %.1f s", 1e-3 * static_cast<double>(since.elapsed()));
+    QVERIFY(failed.isEmpty() && acquire.isDone() && acquire.stoppedAt() > 0);
+    QCOMPARE(acquire.status().state, StepState::coarse);
+    room_->camera().plug();
+    session.live().setLeastInterval(0);
+    acquire.banner()->command->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), 60000);
+    QCOMPARE(acquire.stoppedAt(), 0);
+  }
+
   /// As a person does it, page by page.
   void theWizardCalibratesWithThem() {
     if (wantedSizes().projector.width > 64) QSKIP("a test of the pages, not of size");
@@ -400,10 +459,20 @@ class TestRealDevices : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!camera.cameras().cameras.empty(), 10000);
     const ListedCamera& found = camera.cameras().cameras.front();
     QVERIFY2(found.usable, english(found.problem).c_str());
+    QElapsedTimer since;
+    since.start();
     camera.chooseCamera(found.address, wantedSizes().camera);
+    // A picture comes first.
+    QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value(), 30000);
+    qInfo("first picture after %.1f s", 1e-3 * static_cast<double>(since.elapsed()));
+    QVERIFY(camera.isChecking() && !camera.check() && camera.progress().has_value());
+    QVERIFY(!camera.primary()->isEnabled());
     QTRY_VERIFY_WITH_TIMEOUT(camera.look().has_value() && camera.check().has_value(), 30000);
     for (const CheckVerdict& verdict : verdictsOf(*camera.check()))
       qInfo("%s", english(messageOf(verdict)).c_str());
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.isChecking(), 30000);
+    qInfo("checked after %.1f s", 1e-3 * static_cast<double>(since.elapsed()));
+    QVERIFY(!camera.progress());
     QVERIFY(camera.check()->proof.isSeen && !camera.check()->proof.sight.mirrored);
     QVERIFY(camera.primary()->isEnabled());
     camera.primary()->trigger();

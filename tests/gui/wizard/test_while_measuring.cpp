@@ -6,8 +6,11 @@
 
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
+#include "wizard/cluster/cluster_page.h"
+#include "wizard/frame/step_rail.h"
 #include "wizard/frame/wizard.h"
 #include "wizard/linearize/linearize_page.h"
+#include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
 #include "wizard/venue/venue_page.h"
 
@@ -107,15 +110,8 @@ class TestWhileMeasuring : public QObject {
     Wizard wizard(*session_);
     wizard.add(acquire);
     wizard.add(threshold);
-    const QMetaObject::Connection stopping =
-        connect(&acquire.trace(), &AcquisitionTrace::changed, &acquire, [&acquire] {
-          if (acquire.isMeasuring() && !acquire.isStopping() && !acquire.trace().growth().levels.empty())
-            acquire.stopAndKeep();
-        });
-    acquire.primary()->trigger();
-    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
-    disconnect(stopping);
-    QVERIFY(acquire.stoppedAt() > 1 && wizard.go(1));
+    measureUntilStopped(acquire);
+    QVERIFY(wizard.go(1));
     // Coarse blocks differ from the test patterns by themselves: nothing need have moved.
     QCOMPARE(acquire.findings().size(), 1);
     QVERIFY2(acquire.findings().front().contains(QString::number(acquire.stoppedAt())),
@@ -138,8 +134,119 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(acquire.stoppedAt() == 0 && !acquire.banner());
     session_->wantAcquisition();
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value() && threshold.primary()->isEnabled(), patience);
+    // It was chosen by coarser light.
+    QCOMPARE(threshold.status().state, StepState::outOfDate);
+    QVERIFY(threshold.banner().has_value());
+    threshold.primary()->trigger();
     QCOMPARE(threshold.status().state, StepState::done);
     QVERIFY(!threshold.banner());
+  }
+
+  /// Law: stopped early is a state of its own on every page and in the rail, with the way to go on; what
+  /// followed from it is out of date once it has gone on, and shows nothing of the coarse measurement.
+  void stoppedEarlyIsAStateOfItsOwnEverywhere() {
+    CalibrateSettings settings = simulated();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    AcquirePage acquire(*session_);
+    ThresholdPage threshold(*session_);
+    ClusterPage cluster(*session_);
+    PreviewPage preview(*session_);
+    Wizard wizard(*session_);
+    const std::vector<PageModel*> pages{&acquire, &threshold, &cluster, &preview};
+    for (PageModel* page : pages) wizard.add(*page);
+    StepRail rail(wizard, *session_);
+    const auto inRail = [&rail](int step) {
+      return rail.findChild<QAbstractButton*>(QString("step-%1").arg(step))->accessibleName();
+    };
+    measureUntilStopped(acquire);
+    session_->decide(ThresholdResult{.energyKept = 0.98});
+    session_->decide(ClusteringResult{.clusters = 12});
+    session_->decide(ContentResult{.reachable = 0.5});
+    for (int i = 0; i < 4; ++i) {
+      QCOMPARE(pages[static_cast<std::size_t>(i)]->status().state, StepState::coarse);
+      QVERIFY2(inRail(i + 1).contains(StepRail::tr("stopped early")), qPrintable(inRail(i + 1)));
+      const std::optional<Banner> banner = pages[static_cast<std::size_t>(i)]->banner();
+      QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
+      QVERIFY2(banner->sentence.contains(QString::number(acquire.stoppedAt())), qPrintable(banner->sentence));
+      QCOMPARE(banner->command->text(), AcquirePage::tr("Go on measuring"));
+    }
+    QVERIFY(wizard.go(1));
+    QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value(), patience);
+    QVERIFY(wizard.go(2));
+    QTRY_VERIFY_WITH_TIMEOUT(cluster.result() && !cluster.isComputing(), patience);
+    const std::shared_ptr<const ClusterResult> coarse = cluster.result();
+    const std::uint64_t leaves = threshold.kept()->leaves;
+
+    // Gone on with while Cluster is looked at.
+    acquire.banner()->command->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    QCOMPARE(acquire.status().state, StepState::done);
+    for (std::size_t i = 1; i < 4; ++i) QCOMPARE(pages[i]->status().state, StepState::outOfDate);
+    QVERIFY(!cluster.result() && !threshold.kept() && !threshold.whole());
+    QTRY_VERIFY_WITH_TIMEOUT(cluster.result() && !cluster.isComputing(), patience);
+    QVERIFY(cluster.result() != coarse);
+    QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value(), patience);
+    QVERIFY(threshold.kept()->leaves > leaves);
+    QVERIFY(wizard.go(1));
+    threshold.primary()->trigger();
+    QCOMPARE(threshold.status().state, StepState::done);
+  }
+
+  /// Law: measuring again is taken back as a whole: the earlier result stands, and what followed from it.
+  void measuringAgainIsTakenBack() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage acquire(*session_);
+    ThresholdPage threshold(*session_);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    session_->decide(ThresholdResult{.energyKept = 0.98});
+    const std::string measured = session_->measurement();
+    const auto commandNamed = [&acquire](const QString& text) -> PageCommand* {
+      for (PageCommand* command : acquire.secondary())
+        if (command->text() == text) return command;
+      return nullptr;
+    };
+    const QString back = AcquirePage::tr("Keep the earlier one");
+    for (bool isMeasuring : {true, false}) {
+      QVERIFY(!commandNamed(back));
+      commandNamed(AcquirePage::tr("Measure again"))->trigger();
+      QVERIFY(acquire.isMeasuring() && commandNamed(back)->isEnabled());
+      QTRY_VERIFY_WITH_TIMEOUT(acquire.photographs() > 3, patience);
+      if (!isMeasuring) {
+        acquire.finish();
+        QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+        QCOMPARE(acquire.status().state, StepState::outOfDate);
+        QCOMPARE(threshold.status().state, StepState::outOfDate);
+      }
+      commandNamed(back)->trigger();
+      QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+      QCOMPARE(acquire.status().state, StepState::done);
+      QCOMPARE(threshold.status().state, StepState::done);
+      QCOMPARE(session_->measurement(), measured);
+      QVERIFY(session_->areDevicesFree() && !acquire.banner());
+    }
+  }
+
+  /// Law: the rail says of a venue that is not begun yet nothing that belongs to the open one.
+  void theRailIsOfTheVenueThatIsShown() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    session_->decide(CameraCheckResult{{1.0}, std::nullopt, {}});
+    QSettings settings(folder_->filePath("settings.ini"), QSettings::IniFormat);
+    VenuePage venue(*session_, RecentVenues(settings));
+    CameraPage camera(*session_);
+    Wizard wizard(*session_);
+    wizard.add(venue);
+    wizard.add(camera);
+    StepRail rail(wizard, *session_);
+    auto* step = rail.findChild<QAbstractButton*>("step-2");
+    QVERIFY(step->isEnabled() && !step->accessibleDescription().isEmpty());
+    for (VenuePage::Mode mode : {VenuePage::Mode::rehearse, VenuePage::Mode::devices}) {
+      venue.setMode(mode);
+      QVERIFY(!step->isEnabled() && step->accessibleDescription().isEmpty());
+      venue.goBack();
+      QVERIFY(step->isEnabled() && !step->accessibleDescription().isEmpty());
+    }
   }
 
   /// Law: a photograph that does not come is said before anything fails.
@@ -154,17 +261,33 @@ class TestWhileMeasuring : public QObject {
     session_->begin(folder_->filePath("venue").toStdString(), settings);
     session_->setRoomClear(true);
     CameraPage camera(*session_);
+    Wizard wizard(*session_);
+    wizard.add(camera);
     QSignalSpy failed(&camera, &PageModel::failed);
     camera.enter();
-    QVERIFY(camera.isLooking() && !camera.banner() && !camera.status().isHeldUp);
-    QTRY_VERIFY_WITH_TIMEOUT(camera.status().isHeldUp, 20'000);
-    QVERIFY(camera.banner().has_value() && failed.isEmpty());
+    QVERIFY(camera.isLooking() && !wizard.banner() && !wizard.statusOf(0).isHeldUp);
+    QTRY_VERIFY_WITH_TIMEOUT(wizard.statusOf(0).isHeldUp, 20'000);
+    QVERIFY(wizard.banner().has_value() && failed.isEmpty());
+    QVERIFY(wizard.banner()->kind == Banner::Kind::amber);
+    // Nobody waits for its driver: the script sleeps on.
     camera.finish();
-    QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking(), patience);
-    QVERIFY(!session_->isCameraSilent() && !camera.banner());
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking(), 2'000);
+    QVERIFY(!session_->isCameraSilent() && !wizard.banner());
   }
 
  private:
+  static void measureUntilStopped(AcquirePage& acquire) {
+    const QMetaObject::Connection stopping =
+        connect(&acquire.trace(), &AcquisitionTrace::changed, &acquire, [&acquire] {
+          if (acquire.isMeasuring() && !acquire.isStopping() && !acquire.trace().growth().levels.empty())
+            acquire.stopAndKeep();
+        });
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    disconnect(stopping);
+    QVERIFY(acquire.stoppedAt() > 1);
+  }
+
   std::unique_ptr<QTemporaryDir> folder_;
   std::unique_ptr<Session> session_;
 };

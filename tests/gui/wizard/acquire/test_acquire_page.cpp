@@ -120,6 +120,68 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.floodlight().size(), (Size{40, 30}));
   }
 
+  /// Law: one count of patterns says how far it is: it never says that all is done while it measures, falls
+  /// where more patterns are needed than was expected, and stands still while it is paused, as the time does.
+  void progressIsOfThePatternsThatAreExpected() {
+    CalibrateSettings settings = simulated();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    AcquirePage page(*session_);
+    QVERIFY(!page.progress() && !page.secondsLeft());
+    bool isHonest = true;
+    double most = 0.0;
+    connect(&page, &AcquirePage::progressChanged, this, [&] {
+      const std::optional<double> progress = page.progress();
+      const PatternCount count = page.patterns();
+      if (!progress) return;
+      most = std::max(most, *progress);
+      isHonest = isHonest && *progress < 1.0 && count.taken <= count.expected &&
+                 page.status().result.contains(percentText(*progress));
+    });
+    page.primary()->trigger();
+    session_->live().setLeastInterval(20);
+    QTRY_VERIFY_WITH_TIMEOUT(page.secondsLeft() && !page.trace().growth().levels.empty(), patience);
+    page.pause();
+    QVERIFY(page.isHeldUp());
+    // What was shown last is still photographed.
+    QTest::qWait(500);
+    const double share = page.progress().value(), seconds = page.secondsLeft().value();
+    const PatternCount count = page.patterns();
+    QVERIFY(share > 0.0 && seconds > 0.0 && count.taken > 0);
+    QTest::qWait(1200);
+    QCOMPARE(page.progress().value(), share);
+    QCOMPARE(page.secondsLeft().value(), seconds);
+    // A level turns out to need more.
+    AcquisitionTrace::Growth growth = page.trace().growth();
+    growth.levels.back() += 400;
+    const_cast<AcquisitionTrace&>(page.trace()).grew(growth.levels, growth.through);
+    QVERIFY(page.patterns().expected > count.expected + 300 && page.progress().value() < share);
+    QVERIFY(page.secondsLeft().value() > seconds);
+    session_->live().setLeastInterval(0);
+    page.resume();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(isHonest && page.isDone() && !page.progress());
+    QVERIFY2(most > 0.8, qPrintable(QString::number(most)));
+  }
+
+  /// Law: bars are of the measurement that the page is about; another's come back with its settings.
+  void barsAreOfThisMeasurement() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage page(*session_);
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.isDone(), patience);
+    const auto known = [&page] {
+      const std::vector<BlockLevel> levels = page.levels();
+      return std::ranges::count_if(levels, [](const BlockLevel& level) { return level.isKnown; });
+    };
+    const auto measured = known();
+    QVERIFY(measured > 0 && page.isTraceCurrent());
+    page.setFineness(Fineness::fine);
+    QVERIFY(known() == 0 && !page.levels().empty() && !page.isTraceCurrent());
+    page.undoStack().undo();
+    QVERIFY(known() == measured && page.isTraceCurrent());
+  }
+
   /// A picture grows sharper while it measures, and says so to those who cannot see it.
   void whatIsExpectedIsShownWhileItMeasures() {
     CalibrateSettings settings = simulated();

@@ -9,6 +9,7 @@
 
 #include "relucent/base/file.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/venue/venue.h"
 #include "views/number_text.h"

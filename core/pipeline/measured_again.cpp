@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/pipeline/measured_again.h"
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/pipeline/stored_settings.h"
+
+namespace relucent::pipeline {
+namespace fs = std::filesystem;
+namespace {
+
+using calibration::CalibrationFolder;
+using calibration::Json;
+using calibration::Stage;
+
+constexpr const char* asideName = "earlier-";
+constexpr int mostAgain = 100;  // times that one measures again without a result
+
+fs::path asideFolder(const fs::path& journal, int number) {
+  return journal / (asideName + std::to_string(number));
+}
+
+fs::path unusedFolder(const fs::path& journal) {
+  for (int number = 1;; ++number) {
+    fs::path folder = asideFolder(journal, number);
+    std::error_code code;
+    if (!fs::exists(folder, code)) return folder;
+  }
+}
+
+/// The folders of what was set aside, the newest first.
+std::vector<fs::path> asideFolders(const fs::path& journal) {
+  std::vector<std::pair<int, fs::path>> found;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(journal, code)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(asideName)) continue;
+    const char* digits = name.c_str() + std::string_view(asideName).size();
+    int number = 0;
+    if (std::from_chars(digits, name.c_str() + name.size(), number).ec == std::errc())
+      found.emplace_back(number, entry.path());
+  }
+  std::ranges::sort(found, std::greater());
+  std::vector<fs::path> folders;
+  for (auto& [number, folder] : found) folders.push_back(std::move(folder));
+  return folders;
+}
+
+std::vector<fs::path> shotsOf(Stage stage, const fs::path& folder) {
+  const std::string begin = fmt::format("{}-", nameOf(stage));
+  std::vector<fs::path> shots;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+    if (entry.is_regular_file(code) && entry.path().filename().string().starts_with(begin))
+      shots.push_back(entry.path());
+  return shots;
+}
+
+void move(const std::vector<fs::path>& shots, const fs::path& to) {
+  for (const fs::path& shot : shots) {
+    std::error_code code;
+    fs::rename(shot, to / shot.filename(), code);
+    if (code)
+      throw Error(ErrorKind::disk,
+                  RELUCENT_MESSAGE("calibration.cannot-move-photograph", "a photograph cannot be moved ({})")
+                      .with(code.message()),
+                  RELUCENT_MESSAGE("calibration.allow-writing-then-retry",
+                                   "check that the folder may be written to, then try again"),
+                  shot.string());
+  }
+}
+
+std::uint64_t seedOf(const CalibrationFolder& folder, Stage stage) {
+  const CalibrateSettings settings = settingsOf(folder);
+  return stage == Stage::linearization ? settings.linearization.seed : settings.acquisition.seed;
+}
+
+Json withSeed(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) {
+  Json settings = folder.settings();
+  settings[std::string(nameOf(stage))]["seed"] = seed;
+  return settings;
+}
+
+/// The settings that an earlier result was measured with, if they differ from those of now by their seed.
+std::optional<Json> earlierSettings(const CalibrationFolder& folder, Stage stage) {
+  const calibration::StageDescription& description = calibration::descriptionOf(stage);
+  if (folder.isCurrent(stage, calibration::fingerprintOf(folder, stage))) return std::nullopt;
+  const std::string inputs = calibration::fingerprintOf(folder, description.predecessor.value());
+  std::uint64_t seed = seedOf(folder, stage);
+  for (int again = 0; again < mostAgain && seed-- > 0; ++again) {
+    Json settings = withSeed(folder, stage, seed);
+    if (folder.isCurrent(stage, calibration::fingerprintAfter(inputs, description, settings)))
+      return settings;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void setShotsAside(const CalibrationFolder& folder, Stage stage) {
+  const std::vector<fs::path> shots = shotsOf(stage, folder.shotFolder());
+  if (shots.empty()) return;
+  const fs::path aside = unusedFolder(folder.shotFolder());
+  createFolder(aside);
+  move(shots, aside);
+}
+
+void measureAgain(CalibrationFolder& folder, Stage stage) {
+  setShotsAside(folder, stage);
+  folder.setSettings(withSeed(folder, stage, seedOf(folder, stage) + 1));
+}
+
+bool mayReturnToEarlier(const CalibrationFolder& folder, Stage stage) {
+  return earlierSettings(folder, stage).has_value();
+}
+
+void returnToEarlier(CalibrationFolder& folder, Stage stage) {
+  std::optional<Json> settings = earlierSettings(folder, stage);
+  if (!settings) return;
+  const std::vector<fs::path> before = asideFolders(folder.shotFolder());
+  setShotsAside(folder, stage);
+  for (const fs::path& aside : before)
+    if (const std::vector<fs::path> shots = shotsOf(stage, aside); !shots.empty()) {
+      move(shots, folder.shotFolder());
+      break;
+    }
+  folder.setSettings(*std::move(settings));
+}
+
+}  // namespace relucent::pipeline

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "relucent/calibration/calibration_folder.h"
+
+/// Measuring a stage again that has a result, and back to that result. Of linearization and acquisition.
+namespace relucent::pipeline {
+
+/// Takes a stage's photographs out of the journal into a folder beside it, so that running the stage again
+/// measures again. Its results stay. Throws: Error{disk}.
+void setShotsAside(const calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+/// The stage is to be measured again: with other patterns of the same kind, another seed, and without the
+/// photographs that there are, which are set aside. Its result stays, out of date, until there is a new one.
+/// Throws: Error{disk}.
+void measureAgain(calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+/// Whether measuring again was begun and has no result yet: there is an earlier one to go back to.
+bool mayReturnToEarlier(const calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+/// Takes measureAgain() back: the earlier result is current again, and what followed from it, and its
+/// photographs are in the journal. The new ones are set aside. Nothing where !mayReturnToEarlier().
+/// Throws: Error{disk}.
+void returnToEarlier(calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+}  // namespace relucent::pipeline

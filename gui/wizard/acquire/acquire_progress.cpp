@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// How far a measurement is, and how it is held up, ended or taken back.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "wizard/acquire/acquire_page.h"
+
+namespace relucent::gui {
+namespace {
+
+constexpr int photographsBeforeTime = 20;
+constexpr double mostBeforeTheEnd = 0.99;
+// Below so many patterns a forecast's time is of computing, not of patterns.
+constexpr int enoughPatterns = 5;
+
+}  // namespace
+
+std::optional<double> AcquirePage::progress() const {
+  if (!isMeasuring()) return std::nullopt;
+  const PatternCount count = patterns();
+  return std::min(mostBeforeTheEnd, static_cast<double>(count.taken) / std::max(1, count.expected));
+}
+
+int AcquirePage::photographs() const {
+  return isMeasuring() ? session_.live().photographs() - begunAt_ : 0;
+}
+
+PatternCount AcquirePage::patterns() const {
+  const AcquisitionTrace::Growth growth = trace_.growth();
+  // Of the tree alone, as far as it was read from the journal; with checks and references, once there is a
+  // new photograph, whose number counts them all.
+  int taken = growth.through;
+  if (growth.levels.size() > 1)
+    taken = std::accumulate(growth.levels.begin(), growth.levels.end() - 1, taken);
+  const rig::ShotId last = session_.live().lastShot();
+  if (photographs() > 0 && last.stage == nameOf(calibration::Stage::acquisition)) taken = last.number + 1;
+  return {taken, std::max(taken, patternsExpected())};
+}
+
+/// In all, by the levels that have begun. The finest goes on while that makes predictions better: before it
+/// has as many patterns as were expected of it, nobody takes it for complete.
+int AcquirePage::patternsExpected() const {
+  const Rasters projectors = session_.projectorRasters();
+  if (projectors.count() == 0) return 0;
+  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
+  const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
+  acquisition::AcquisitionState state{trace_.growth().levels};
+  if (!state.levels.empty()) {
+    const std::span before(state.levels.begin(), state.levels.end() - 1);
+    const auto expected = acquisition::levelPatterns(projectors, settings, before);
+    if (expected.size() == state.levels.size())
+      state.levels.back() =
+          std::max(state.levels.back(), static_cast<int>(std::lround(expected.back().likely)));
+  }
+  return acquisition::forecast({cameras, projectors, 1, 1.0}, settings, {}, state).shots;
+}
+
+void AcquirePage::expect(const WorkLeft& left) {
+  forecast_ = left;
+  if (left.shots >= enoughPatterns) secondsAPattern_ = left.seconds / left.shots;
+}
+
+std::optional<double> AcquirePage::secondsLeft() const {
+  if (!isMeasuring() || photographs() < photographsBeforeTime) return std::nullopt;
+  const PatternCount count = patterns();
+  if (count.taken >= count.expected || !(secondsAPattern_ > 0.0)) return std::nullopt;
+  return secondsAPattern_ * (count.expected - count.taken);
+}
+
+void AcquirePage::tick() {
+  const int count = session_.live().photographs();
+  // Smoothed over some seconds.
+  rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
+  lastCount_ = count;
+  tellProgress();
+}
+
+AcquirePage::Traced AcquirePage::traced() const {
+  return {session_.measurement(), session_.progress(calibration::Stage::acquisition),
+          session_.settings().acquisition.relativeThreshold};
+}
+
+bool AcquirePage::isTraceCurrent() const {
+  return isMeasuring() || traced() == traced_;
+}
+
+void AcquirePage::pause() {
+  session_.live().pause();
+  tellProgress();
+  tellStatus();
+}
+
+void AcquirePage::resume() {
+  session_.live().resume();
+  tellProgress();
+  tellStatus();
+}
+
+void AcquirePage::stopAndKeep() {
+  job_.stopAndKeep();
+  session_.giveUpCamera();
+  resume();
+}
+
+void AcquirePage::returnToEarlier() {
+  if (isMeasuring()) {
+    returns_ = true;
+    job_.cancel();
+    question_->setClosed(true);
+    return resume();
+  }
+  try {
+    session_.returnToEarlier(calibration::Stage::acquisition);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
+  }
+  countKept();
+  tellAll();
+}
+
+}  // namespace relucent::gui

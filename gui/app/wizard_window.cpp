@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/wizard_window.h"
 
+#include <QGuiApplication>
 #include <utility>
 
 #include "app/help_window.h"

@@ -3,7 +3,6 @@
 
 #include <QDateTime>
 #include <QImage>
-#include <algorithm>
 #include <functional>
 
 #include "jobs/job.h"
@@ -23,11 +22,7 @@ struct Proof {
   pipeline::ContentSettings content;
   std::string measured;
 
-  /// Within twice of what was predicted, or too close to the wanted picture for anybody to see a difference
-  /// (Delta E 00 of 1): nothing has moved.
-  bool isAsPredicted() const {
-    return figures.after.measured.deltaE <= std::max(2.0 * figures.after.predicted.deltaE, 1.0);
-  }
+  bool isAsPredicted() const { return pipeline::isAsPredicted(figures); }
 };
 
 /// What can be proved of a venue: by a photograph of the content, by photographs of the test patterns, and on

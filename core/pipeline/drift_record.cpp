@@ -12,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* fileName = "drift.json";
 constexpr std::array verdicts{acquisition::Verdict::stillGood, acquisition::Verdict::remeasure,
                               acquisition::Verdict::startAgain};
 
@@ -40,11 +39,11 @@ void saveDriftRecord(const DriftRecord& record, const fs::path& folder) {
                                {"error", record.error},
                                {"error_then", record.errorThen},
                                {"changed_share", record.changedShare}};
-  writeFileAtomically(folder / fileName, json.dump(2));
+  writeFileAtomically(folder / driftRecordName, json.dump(2));
 }
 
 std::optional<DriftRecord> loadDriftRecord(const fs::path& folder) {
-  const fs::path file = folder / fileName;
+  const fs::path file = folder / driftRecordName;
   if (!fs::exists(file)) return std::nullopt;
   try {
     const calibration::Json json = calibration::Json::parse(readFile(file));

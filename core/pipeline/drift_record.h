@@ -19,10 +19,12 @@ struct DriftRecord {
   double changedShare = 0.0;  // of the view
 };
 
-/// Writes drift.json into a folder, which is created. Throws: Error{disk}.
+inline constexpr const char* driftRecordName = "drift.json";
+
+/// Writes it into a folder, which is created. Throws: Error{disk}.
 void saveDriftRecord(const DriftRecord& record, const std::filesystem::path& folder);
 
-/// None where the folder holds no drift.json. Throws: Error{disk, format} if it cannot be read.
+/// None where the folder holds none. Throws: Error{disk, format} if it cannot be read.
 std::optional<DriftRecord> loadDriftRecord(const std::filesystem::path& folder);
 
 }  // namespace relucent::pipeline

@@ -5326,7 +5326,7 @@ projector %2</source>
     </message>
     <message>
         <source>Cut, camera signal a second</source>
-        <translation>القطع، إشارة الكاميرا في الثانية</translation>
+        <translation>حد القطع، إشارة الكاميرا في الثانية</translation>
     </message>
     <message>
         <source>Use picked pixel</source>
@@ -5338,7 +5338,7 @@ projector %2</source>
     </message>
     <message>
         <source>Suggested: three times the noise of the measurement.</source>
-        <translation>المقترح: ثلاثة أضعاف تشويش القياس.</translation>
+        <translation>المقترح: ثلاثة أمثال ضجيج القياس.</translation>
     </message>
     <message>
         <source>Suggested: keeps nearly all of the light.</source>

@@ -5210,7 +5210,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Cut, camera signal a second</source>
-        <translation>Schnitt, Kamerasignal pro Sekunde</translation>
+        <translation>Schnitt, Kamerasignal je Sekunde</translation>
     </message>
     <message>
         <source>Use picked pixel</source>

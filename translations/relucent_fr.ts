@@ -4458,7 +4458,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>La caméra ou le projecteur a bougé. Replacez la caméra, ou visez et mesurez de nouveau.</translation>
+        <translation>La caméra ou le projecteur a bougé. Replacez la caméra, ou visez et remesurez.</translation>
     </message>
     <message>
         <source>the processor</source>
@@ -5210,7 +5210,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Cut, camera signal a second</source>
-        <translation>Coupe, signal de caméra par seconde</translation>
+        <translation>Seuil, signal caméra par seconde</translation>
     </message>
     <message>
         <source>Use picked pixel</source>

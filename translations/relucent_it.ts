@@ -5214,7 +5214,7 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Use picked pixel</source>
-        <translation>Usa il pixel scelto</translation>
+        <translation>Usa il pixel selezionato</translation>
     </message>
     <message>
         <source>For each camera pixel</source>

@@ -5181,11 +5181,11 @@ projector %2</source>
     </message>
     <message>
         <source>Cut, camera signal a second</source>
-        <translation>カット、毎秒のカメラ信号</translation>
+        <translation>カット位置（1 秒あたりのカメラ信号）</translation>
     </message>
     <message>
         <source>Use picked pixel</source>
-        <translation>選んだ画素を使う</translation>
+        <translation>選択した画素を使う</translation>
     </message>
     <message>
         <source>For each camera pixel</source>
@@ -5193,11 +5193,11 @@ projector %2</source>
     </message>
     <message>
         <source>Suggested: three times the noise of the measurement.</source>
-        <translation>おすすめ: 測定の雑音の 3 倍。</translation>
+        <translation>推奨値：測定ノイズの 3 倍。</translation>
     </message>
     <message>
         <source>Suggested: keeps nearly all of the light.</source>
-        <translation>おすすめ: 光をほぼすべて残します。</translation>
+        <translation>推奨値：光をほぼすべて残します。</translation>
     </message>
     <message>
         <source>%1 on average</source>

@@ -5181,11 +5181,11 @@ projector %2</source>
     </message>
     <message>
         <source>Cut, camera signal a second</source>
-        <translation>截断值，每秒相机信号</translation>
+        <translation>阈值，每秒相机信号</translation>
     </message>
     <message>
         <source>Use picked pixel</source>
-        <translation>用选中的像素</translation>
+        <translation>使用所选像素</translation>
     </message>
     <message>
         <source>For each camera pixel</source>

@@ -10,7 +10,7 @@
 namespace relucent::charts {
 
 /// Markers of a curve's points, so that curves differ not only in colour.
-enum class Marker { none, circle, square, triangle };
+enum class Marker { none, circle, square, triangle, diamond };
 
 struct Point {
   double x = 0.0, y = 0.0;

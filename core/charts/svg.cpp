@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace relucent::charts {
 namespace {
@@ -14,8 +15,8 @@ constexpr double numberHeight = 14.0, digitWidth = 7.0;  // of letters 11 pixels
 
 std::string open(std::string_view style, Extent extent, const std::string& title) {
   return fmt::format(
-      R"(<svg class="{}" viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><title>{}</title>)", style,
-      extent.width, extent.height, escaped(title), escaped(title));
+      R"(<svg xmlns="http://www.w3.org/2000/svg" class="{}" viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><title>{}</title>)",
+      style, extent.width, extent.height, escaped(title), escaped(title));
 }
 
 std::string text(std::string_view style, Point at, std::string_view anchor, std::string_view content) {
@@ -48,6 +49,11 @@ std::string markerSvg(const Curve& curve, Point at) {
       return fmt::format(R"(<path class="{} point" d="M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z"/>)",
                          curve.style, at.x, at.y - r - 0.5, at.x + r + 0.5, at.y + r - 0.5, at.x - r - 0.5,
                          at.y + r - 0.5);
+    case Marker::diamond:
+      return fmt::format(
+          R"(<path class="{} point" d="M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z"/>)",
+          curve.style, at.x, at.y - r - 1.0, at.x + r + 1.0, at.y, at.x, at.y + r + 1.0, at.x - r - 1.0,
+          at.y);
   }
   return {};
 }
@@ -135,10 +141,11 @@ class Drawn {
 
   std::string legend() const {
     std::string svg;
-    double y = plot_.top + 12.0;
+    const PlotArea area = legendArea();
+    const double x = area.left;
+    double y = area.top + 12.0;
     for (const Curve& curve : chart_.curves) {
       if (curve.name.empty()) continue;
-      double x = plot_.left + 20.0;
       svg += curve.filled ? rectangle(curve.style, {x + 6.0, y - 6.0}, {14.0, 12.0})
                           : line(curve.style, {x, y}, {x + 26.0, y}) + markerSvg(curve, {x + 13.0, y});
       svg += text("legend", {x + 36.0, y + 4.0}, "start", curve.name);
@@ -150,6 +157,50 @@ class Drawn {
  private:
   double right() const { return plot_.left + plot_.width; }
   double bottom() const { return plot_.top + plot_.height; }
+
+  /// In the corner where least of the curves is in its way: upper left, if none is better.
+  PlotArea legendArea() const {
+    constexpr double row = 22.0, beforeName = 36.0, margin = 20.0;
+    PlotArea least{0.0, 0.0, 0.0, 0.0};
+    for (const Curve& curve : chart_.curves) {
+      if (curve.name.empty()) continue;
+      least.width = std::max(least.width, beforeName + widthOf(curve.name));
+      least.height += row;
+    }
+    const double farLeft = plot_.left + margin, farRight = right() - least.width - margin;
+    std::size_t hidden = std::numeric_limits<std::size_t>::max();
+    for (double top : {plot_.top, bottom() - least.height - 4.0})
+      for (double left : {farLeft, std::max(farLeft, farRight)}) {
+        const PlotArea area{left, top, least.width, least.height};
+        const std::size_t behind = pointsIn(area);
+        if (behind >= hidden) continue;
+        hidden = behind;
+        least.left = left;
+        least.top = top;
+      }
+    return least;
+  }
+
+  /// Of the curves, between their values too.
+  std::size_t pointsIn(const PlotArea& area) const {
+    constexpr int between = 16;
+    auto isIn = [&](Point at) {
+      return at.x > area.left - 8.0 && at.x < area.left + area.width + 8.0 && at.y > area.top - 8.0 &&
+             at.y < area.top + area.height + 8.0;
+    };
+    std::size_t count = 0;
+    for (const Curve& curve : chart_.curves) {
+      for (const Point& value : curve.points) count += isIn(placeOf(value)) ? 1 : 0;
+      for (std::size_t i = 1; i < curve.line.size(); ++i) {
+        const Point from = placeOf(curve.line[i - 1]), to = placeOf(curve.line[i]);
+        for (int k = 0; k < between; ++k) {
+          const double share = static_cast<double>(k) / between;
+          count += isIn({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)}) ? 1 : 0;
+        }
+      }
+    }
+    return count;
+  }
 
   /// Along x; up to rounding.
   bool isWithin(Point value) const {

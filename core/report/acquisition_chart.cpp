@@ -53,7 +53,7 @@ std::string acquisitionChart(const pipeline::AcquisitionBenchResult& result) {
   chart.y = {1e99, 0.0, false, "PSNR of refined, dB"};
   constexpr std::array styles{"amber", "blue", "green", "red"};
   constexpr std::array markers{charts::Marker::circle, charts::Marker::square, charts::Marker::triangle,
-                               charts::Marker::none};
+                               charts::Marker::diamond};
   for (const auto& [mode, thresholds] : trials) {
     std::vector<charts::Point> points;
     for (const auto& [threshold, trial] : thresholds) {

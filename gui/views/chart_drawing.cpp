@@ -48,7 +48,7 @@ std::string styleSheet() {
 }  // namespace
 
 QString tickTextOf(const charts::Axis& axis, const charts::Tick& tick) {
-  if (axis.logarithmic) return powerOfTen(static_cast<int>(std::lround(std::log10(tick.value))));
+  if (axis.isOverDecades()) return powerOfTen(static_cast<int>(std::lround(std::log10(tick.value))));
   return decimalText(tick.value, tick.decimals);
 }
 

@@ -19,7 +19,9 @@ class TestAxis : public QObject {
     QTest::newRow("small") << 1.0001 << 1.0002 << false;
     QTest::newRow("large") << 0.0 << 3.2e9 << false;
     QTest::newRow("decades") << 1e-6 << 1.0 << true;
-    QTest::newRow("part of a decade") << 2.0 << 900.0 << true;
+    QTest::newRow("more than two decades") << 2.0 << 900.0 << true;
+    QTest::newRow("less than two decades") << 130.0 << 8000.0 << true;
+    QTest::newRow("part of a decade") << 0.02 << 0.07 << true;
   }
 
   void valueAndPlaceAreInverse_data() { axes_data(); }
@@ -57,6 +59,17 @@ class TestAxis : public QObject {
   void anEmptyAxisHasNoTicks() {
     QVERIFY((Axis{1.0, 1.0}.ticks(5).empty()));
     QVERIFY((Axis{0.0, 1.0}.ticks(0).empty()));
+  }
+
+  void numbersWithinDecades() {
+    const Axis axis{130.0, 8000.0, true, {}};
+    QStringList numbers;
+    for (const Tick& tick : axis.ticks(7)) numbers << QString::fromStdString(englishTickText(axis, tick));
+    QCOMPARE(numbers, (QStringList{"200", "500", "1000", "2000", "5000"}));
+    const Axis small{0.02, 0.07, true, {}};
+    numbers.clear();
+    for (const Tick& tick : small.ticks(7)) numbers << QString::fromStdString(englishTickText(small, tick));
+    QCOMPARE(numbers, (QStringList{"0.02", "0.05"}));
   }
 
   void numbersAreRound() {

@@ -123,6 +123,27 @@ class TestSvg : public QObject {
     QCOMPARE(names, QStringList({"Red", "Blue"}));
   }
 
+  void theLegendStandsWhereNoCurveIs_data() {
+    QTest::addColumn<double>("from");
+    QTest::addColumn<double>("to");
+    QTest::newRow("rising") << 0.1 << 0.9;
+    QTest::newRow("falling") << 0.9 << 0.1;
+    QTest::newRow("above") << 0.95 << 0.95;
+    QTest::newRow("below") << 0.05 << 0.05;
+  }
+  void theLegendStandsWhereNoCurveIs() {
+    QFETCH(double, from);
+    QFETCH(double, to);
+    Chart chart{"", {0.0, 1.0}, {0.0, 1.0}};
+    chart.curves = {{"Name", "red", Marker::none, {{0.0, from}, {1.0, to}}, {}}};
+    const Drawing drawing{{400, 300}};
+    const PlotArea plot = plotOf(chart, drawing);
+    const Element name = named(elementsOf(svgOf(chart, drawing)), "text", "legend").at(0);
+    const double x = (number(name, "x") - plot.left) / plot.width;
+    const double curve = plot.top + plot.height * (1.0 - (from + x * (to - from)));
+    QVERIFY(std::abs(number(name, "y") - curve) > 14.0);
+  }
+
   void numbersAreWrittenAsAsked() {
     Drawing drawing{{470, 300}, {}, [](const Axis&, const Tick&) { return std::string("7"); }};
     for (const Element& tick : named(elementsOf(svgOf(fullChart(), drawing)), "text", "number"))

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "relucent/base/tbb_tasks.h"
 #include "relucent/pipeline/outlook.h"
 #include "relucent/sentinels/observer.h"
 

@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 مليون</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 مليار</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -190,6 +201,10 @@
     <message>
         <source>Measured</source>
         <translation>تم القياس</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>انقطع القياس</translation>
     </message>
 </context>
 <context>
@@ -275,6 +290,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>ملء الشاشة، حفظ</translation>
     </message>
 </context>
 <context>
@@ -572,8 +591,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>ملف بيان المعايرة تالف</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>الملف الذي يصف الموقع تالف</translation>
     </message>
 </context>
 <context>
@@ -2837,6 +2856,10 @@
         <source>Ends near %1. %2</source>
         <translation>ينتهي نحو ⁨%1⁩. ⁨%2⁩</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>أعد الكاميرا إلى مكانها</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3248,6 +3271,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>زيادة بكسلات الكاميرا على بكسلات جهاز العرض لا تُظهر شيئًا إضافيًا. أما الصور التي تثبت النتيجة فتبقى بحجمها.</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>علّم ما هو حاد</translation>
     </message>
 </context>
 <context>
@@ -3909,6 +3936,18 @@
         <source>What is measured is safe.</source>
         <translation>كل ما تم قياسه آمن.</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>مستوى الأسود</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>التباين</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>⁨%1⁩ من الضوء الكامل</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3970,6 +4009,137 @@ projector %2</source>
     <message>
         <source>%1 across, %2 down</source>
         <translation>أفقيًا %1، رأسيًا %2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>مطابق</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>أدر الكاميرا إلى اليمين وإلى الأسفل.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>أدر الكاميرا إلى اليمين وإلى الأعلى.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>أدر الكاميرا إلى اليسار وإلى الأسفل.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>أدر الكاميرا إلى اليسار وإلى الأعلى.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>أدر الكاميرا إلى اليمين.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>أدر الكاميرا إلى اليسار.</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>أدر الكاميرا إلى الأسفل.</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>أدر الكاميرا إلى الأعلى.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>أمِل الكاميرا باتجاه عقارب الساعة.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>أمِل الكاميرا عكس عقارب الساعة.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>أعد الكاميرا إلى مكانها</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>ما رأته الكاميرا وما تراه الآن</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>يعرض جهاز العرض الضوء الكامل. على يسار الخط ما رأته الكاميرا عند قياس الموقع، وعلى يمينه ما تراه الآن.</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>جانبيًا</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>أعلى وأسفل</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>الميل</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>إغلاق</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>فتح الأجهزة</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>تم القياس</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>الآن</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>⁨%1⁩ px إلى اليمين</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>⁨%1⁩ px إلى اليسار</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>⁨%1⁩ px إلى الأسفل</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>⁨%1⁩ px إلى الأعلى</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>⁨%1°⁩</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>مشاهدة صورة الكاميرا</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>تنظر الكاميرا إلى حيث كانت تنظر.</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>ثبّتها وانظر مرة أخرى ثم أغلق هذه النافذة.</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>يبيّن السهم الاتجاه. إن كان جهاز العرض هو الذي تحرك فحرّك صورته في الاتجاه المعاكس.</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>ما يُرى ليس المنظر الذي جرى قياسه.</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>أدر الكاميرا حتى يتشابه النصفان. إن كانا متشابهين فقد تغيّر الضوء أو السطح.</translation>
     </message>
 </context>
 <context>
@@ -4231,20 +4401,12 @@ projector %2</source>
         <translation>صورة ثابتة، على ⁨%1⁩</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>زمن الإطار</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>على جهاز العرض الآن</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>ما يعرضه جهاز العرض</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>استمر في ضغط A لرؤية الأصل، ومفتاح المسافة يجمّد، والمفتاح B يسوّد.</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4410,10 +4572,6 @@ projector %2</source>
         <translation>تغيّر شيء منذ القياس. أعد القياس ثم ثبّت.</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>الكاميرا أو جهاز العرض في مكان آخر. صوّب من جديد ثم أعد القياس.</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>التثبيت رغم ذلك</translation>
     </message>
@@ -4432,6 +4590,50 @@ projector %2</source>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>لم يُفقد شيء. أعد توصيلها، فيعود العرض تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>تحرك منظر الكاميرا ⁨%1⁩ px جانبيًا و⁨%2⁩ px رأسيًا.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>أعد الكاميرا إلى مكانها</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>يعرض الضوء الكامل ويبيّن إلى أين تُدار الكاميرا لتنظر إلى حيث كانت تنظر.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>تحرك منظر الكاميرا ⁨%1⁩ px. أعدها إلى مكانها ثم صوّر مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>الكاميرا أو جهاز العرض في مكان آخر. أعد الكاميرا إلى مكانها أو وجّهها وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>الحد لـ⁨%1⁩ إطارًا في الثانية: ⁨%2⁩ ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>المعالج</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A الأصل، المسافة تجمّد، B أسود</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>لوحة الاختبار التالية (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>أرقام فوق الصورة (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>أبقِ A مضغوطًا للأصل، المسافة تجمّد، B يسوّد، T يعرض لوحات الاختبار، O الأرقام.</translation>
     </message>
 </context>
 <context>
@@ -4752,6 +4954,18 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>ما قيس أخشن من أن يُوضع عليه محتوى. تابع القياس.</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>كل شيء يمكن بلوغه</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>المظلَّل: ⁨%1⁩ يبقى داكنًا جدًا</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>لا ملاحظة</translation>
     </message>
 </context>
 <context>
@@ -5099,10 +5313,6 @@ projector %2</source>
         <translation>الضوء</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>الكتل المخزّنة</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>الذاكرة</translation>
     </message>
@@ -5156,6 +5366,30 @@ projector %2</source>
             <numerusform>%n بكسلًا</numerusform>
             <numerusform>%n بكسل</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>حد القطع، إشارة الكاميرا في الثانية</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>استخدم البكسل المختار</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>لكل بكسل كاميرا</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>المقترح: ثلاثة أمثال ضجيج القياس.</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>المقترح: يُبقي الضوء كله تقريبًا.</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>⁨%1⁩ في المتوسط</translation>
     </message>
 </context>
 <context>
@@ -5771,6 +6005,14 @@ projector %2</source>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>إخلاء القرص مما لا يحتاج إليه ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>استئناف</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>استئناف ⁨%1⁩</translation>
     </message>
 </context>
 <context>

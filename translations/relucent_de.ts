@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 Mio.</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 Mrd.</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -186,6 +197,10 @@
     <message>
         <source>Measured</source>
         <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>Vermessen wurde unterbrochen</translation>
     </message>
 </context>
 <context>
@@ -271,6 +286,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>Ganzer Bildschirm, speichern</translation>
     </message>
 </context>
 <context>
@@ -564,8 +583,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>das Manifest der Kalibrierung ist beschädigt</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>die Datei, die den Ort beschreibt, ist beschädigt</translation>
     </message>
 </context>
 <context>
@@ -2769,6 +2788,10 @@
         <source>Ends near %1. %2</source>
         <translation>Ende gegen %1. %2</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Kamera zurückschieben</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3176,6 +3199,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>Mehr Kamerapixel als Projektorpixel zeigen nicht mehr. Die Fotos, die das Ergebnis belegen, bleiben so groß, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>Scharfes markieren</translation>
     </message>
 </context>
 <context>
@@ -3805,6 +3832,18 @@
         <source>What is measured is safe.</source>
         <translation>Das Gemessene ist sicher.</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>Schwarzwert</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>Kontrast</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>%1 des vollen Lichts</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3866,6 +3905,137 @@ Projektor %2</translation>
     <message>
         <source>%1 across, %2 down</source>
         <translation>%1 →, %2 ↓</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>stimmt</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>Drehen Sie die Kamera nach rechts unten.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>Drehen Sie die Kamera nach rechts oben.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>Drehen Sie die Kamera nach links unten.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>Drehen Sie die Kamera nach links oben.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>Drehen Sie die Kamera nach rechts.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>Drehen Sie die Kamera nach links.</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>Drehen Sie die Kamera nach unten.</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>Drehen Sie die Kamera nach oben.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>Neigen Sie die Kamera im Uhrzeigersinn.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>Neigen Sie die Kamera gegen den Uhrzeigersinn.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Kamera zurückschieben</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>Was die Kamera sah und was sie jetzt sieht</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>Der Projektor zeigt volles Licht. Links der Linie steht, was die Kamera beim Vermessen sah, rechts, was sie jetzt sieht.</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>Seitlich</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>Auf und ab</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Neigung</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Öffnen der Geräte</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Gemessen</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>Jetzt</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>%1 px nach rechts</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>%1 px nach links</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>%1 px nach unten</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>%1 px nach oben</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Blick durch die Kamera</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>Die Kamera blickt dorthin, wohin sie blickte.</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>Stellen Sie sie fest, sehen Sie noch einmal hin und schließen Sie dieses Fenster.</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>Der Pfeil zeigt, wohin. Wurde der Projektor angestoßen, bewegen Sie dessen Bild in die andere Richtung.</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>Zu sehen ist nicht die Ansicht, die vermessen wurde.</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>Drehen Sie die Kamera, bis beide Hälften gleich aussehen. Tun sie das schon, hat sich das Licht oder die Fläche geändert.</translation>
     </message>
 </context>
 <context>
@@ -4127,20 +4297,12 @@ Projektor %2</translation>
         <translation>Standbild, auf %1</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>Bildzeit</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>Jetzt am Projektor</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>Was der Projektor zeigt</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>A halten für das Original, Leertaste friert ein, B macht schwarz.</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4302,10 +4464,6 @@ Projektor %2</translation>
         <translation>Seit der Messung hat sich etwas verändert. Messen Sie neu, installieren Sie dann.</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>Kamera oder Projektor stehen anders. Richten Sie neu aus, messen Sie dann neu.</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>Trotzdem installieren</translation>
     </message>
@@ -4324,6 +4482,50 @@ Projektor %2</translation>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>Nichts ist verloren. Schließen Sie ihn wieder an: Die Show kommt von selbst zurück.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>Die Ansicht der Kamera hat sich um %1 px seitlich und %2 px auf oder ab verschoben.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Kamera zurückschieben</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>Zeigt volles Licht und wohin die Kamera zu drehen ist, damit sie blickt wie zuvor.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>Die Ansicht der Kamera ist um %1 px verschoben. Schieben Sie sie zurück und fotografieren Sie erneut.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>Kamera oder Projektor stehen anders. Schieben Sie die Kamera zurück oder richten Sie sie aus und messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>Grenze für %1 Bilder pro Sekunde: %2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>dem Prozessor</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A Original, Leertaste hält an, B schwarz</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>Nächstes Testbild (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>Zahlen über dem Bild (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>A halten für das Original, Leertaste hält an, B macht schwarz, T zeigt Testbilder, O Zahlen.</translation>
     </message>
 </context>
 <context>
@@ -4644,6 +4846,18 @@ Projektor %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Was gemessen wurde, ist zu grob, um Inhalte zu platzieren. Messen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>Alles ist erreichbar</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>Schraffiert: %1 bleibt zu dunkel</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>keine Anmerkung</translation>
     </message>
 </context>
 <context>
@@ -4987,10 +5201,6 @@ Projektor %2</translation>
         <translation>Licht</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>Gespeicherte Blöcke</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>Arbeitsspeicher</translation>
     </message>
@@ -5040,6 +5250,30 @@ Projektor %2</translation>
             <numerusform>%n Pixel</numerusform>
             <numerusform>%n Pixel</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>Schnitt, Kamerasignal je Sekunde</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>Gewähltes Pixel nehmen</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>Für jedes Kamerapixel</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>Vorschlag: das Dreifache des Rauschens der Messung.</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>Vorschlag: behält fast alles Licht.</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>%1 im Mittel</translation>
     </message>
 </context>
 <context>
@@ -5643,6 +5877,14 @@ Projektor %2</translation>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Laufwerk von dem befreien, was %1 nicht braucht</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Fortsetzen</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>%1 fortsetzen</translation>
     </message>
 </context>
 <context>

@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 millones</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 mil millones</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -186,6 +197,10 @@
     <message>
         <source>Measured</source>
         <translation>Medido</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>La medición se interrumpió</translation>
     </message>
 </context>
 <context>
@@ -271,6 +286,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>Pantalla completa, guardar</translation>
     </message>
 </context>
 <context>
@@ -564,8 +583,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>el manifiesto de la calibración está dañado</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>el archivo que describe el lugar está dañado</translation>
     </message>
 </context>
 <context>
@@ -2769,6 +2788,10 @@
         <source>Ends near %1. %2</source>
         <translation>Termina hacia las %1. %2</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Recolocar la cámara</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3176,6 +3199,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>Más píxeles de cámara que de proyector no muestran nada más. Las fotografías que prueban el resultado conservan su tamaño.</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>Marcar lo nítido</translation>
     </message>
 </context>
 <context>
@@ -3805,6 +3832,18 @@
         <source>What is measured is safe.</source>
         <translation>Lo medido está a salvo.</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>Nivel de negro</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>Contraste</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>%1 de la luz plena</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3866,6 +3905,137 @@ proyector %2</translation>
     <message>
         <source>%1 across, %2 down</source>
         <translation>%1 →, %2 ↓</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>encaja</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>Gire la cámara a la derecha y hacia abajo.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>Gire la cámara a la derecha y hacia arriba.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>Gire la cámara a la izquierda y hacia abajo.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>Gire la cámara a la izquierda y hacia arriba.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>Gire la cámara a la derecha.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>Gire la cámara a la izquierda.</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>Gire la cámara hacia abajo.</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>Gire la cámara hacia arriba.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>Incline la cámara en el sentido de las agujas del reloj.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>Incline la cámara en sentido contrario a las agujas del reloj.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Recolocar la cámara</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>Lo que la cámara veía y lo que ve ahora</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>El proyector muestra luz plena. A la izquierda de la línea está lo que la cámara veía al medir el lugar; a la derecha, lo que ve ahora.</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>De lado</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>Arriba y abajo</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Inclinación</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Abriendo los dispositivos</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Medido</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>Ahora</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>%1 px a la derecha</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>%1 px a la izquierda</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>%1 px hacia abajo</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>%1 px hacia arriba</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Mirando por la cámara</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>La cámara mira adonde miraba.</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>Fíjela, mire otra vez y cierre esta ventana.</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>La flecha indica hacia dónde. Si lo que se movió fue el proyector, desplace su imagen en sentido contrario.</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>Lo que se ve no es la vista que se midió.</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>Gire la cámara hasta que ambas mitades se parezcan. Si ya se parecen, ha cambiado la luz o la superficie.</translation>
     </message>
 </context>
 <context>
@@ -4127,20 +4297,12 @@ proyector %2</translation>
         <translation>imagen fija, en %1</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>Por fotograma</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>Ahora en el proyector</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>Lo que muestra el proyector</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>Mantenga A para ver el original, Espacio congela, B pone en negro.</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4302,10 +4464,6 @@ proyector %2</translation>
         <translation>Algo ha cambiado desde la medición. Mida de nuevo y luego instale.</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>La cámara o el proyector están en otro sitio. Oriente de nuevo y luego mida de nuevo.</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>Instalar de todos modos</translation>
     </message>
@@ -4324,6 +4482,50 @@ proyector %2</translation>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>No se ha perdido nada. Vuelva a conectarla: el show vuelve por sí solo.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vista de la cámara se ha desplazado %1 px de lado y %2 px arriba o abajo.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Recolocar la cámara</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>Muestra luz plena y hacia dónde girar la cámara para que mire adonde miraba.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>La vista de la cámara se ha movido %1 px. Recolóquela y fotografíe de nuevo.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>Límite para %1 imágenes por segundo: %2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>el procesador</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A original, espacio congela, B negro</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>Siguiente carta de prueba (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>Cifras sobre la imagen (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Mantenga A para ver el original, espacio congela, B lo pone en negro, T muestra cartas de prueba, O cifras.</translation>
     </message>
 </context>
 <context>
@@ -4644,6 +4846,18 @@ proyector %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Lo medido es demasiado basto para colocar contenido. Siga midiendo.</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>Se alcanza todo</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>Rayado: %1 queda demasiado oscuro</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>sin nota</translation>
     </message>
 </context>
 <context>
@@ -4987,10 +5201,6 @@ proyector %2</translation>
         <translation>Luz</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>Bloques guardados</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>Memoria</translation>
     </message>
@@ -5040,6 +5250,30 @@ proyector %2</translation>
             <numerusform>%n píxel</numerusform>
             <numerusform>%n píxeles</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>Corte, señal de cámara por segundo</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>Usar el píxel elegido</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>Por píxel de cámara</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>Sugerencia: el triple del ruido de la medición.</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>Sugerencia: conserva casi toda la luz.</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>%1 de media</translation>
     </message>
 </context>
 <context>
@@ -5643,6 +5877,14 @@ proyector %2</translation>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Liberar el disco de lo que %1 no necesita</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Reanudar</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>Reanudar %1</translation>
     </message>
 </context>
 <context>

@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 millions</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 milliards</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -186,6 +197,10 @@
     <message>
         <source>Measured</source>
         <translation>Mesuré</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>La mesure a été interrompue</translation>
     </message>
 </context>
 <context>
@@ -271,6 +286,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>Plein écran, enregistrer</translation>
     </message>
 </context>
 <context>
@@ -564,8 +583,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>le manifeste de la calibration est endommagé</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>le fichier qui décrit le lieu est endommagé</translation>
     </message>
 </context>
 <context>
@@ -2759,7 +2778,7 @@
     </message>
     <message>
         <source>%1; lit: %2 of the view</source>
-        <translation>%1 ; éclairé : %2 du champ</translation>
+        <translation>%1&#xa0;; éclairé&#xa0;: %2 du champ</translation>
     </message>
     <message>
         <source>About %1 left</source>
@@ -2768,6 +2787,10 @@
     <message>
         <source>Ends near %1. %2</source>
         <translation>Fin vers %1. %2</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Replacer la caméra</translation>
     </message>
 </context>
 <context>
@@ -3176,6 +3199,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>Plus de pixels de caméra que de projecteur ne montrent rien de plus. Les photos qui prouvent le résultat gardent leur taille.</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>Marquer ce qui est net</translation>
     </message>
 </context>
 <context>
@@ -3805,6 +3832,18 @@
         <source>What is measured is safe.</source>
         <translation>Ce qui est mesuré est en sécurité.</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>Niveau de noir</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>Contraste</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>%1 de la pleine lumière</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3866,6 +3905,137 @@ projecteur %2</translation>
     <message>
         <source>%1 across, %2 down</source>
         <translation>%1 →, %2 ↓</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>juste</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>Tournez la caméra vers la droite et le bas.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>Tournez la caméra vers la droite et le haut.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>Tournez la caméra vers la gauche et le bas.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>Tournez la caméra vers la gauche et le haut.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>Tournez la caméra vers la droite.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>Tournez la caméra vers la gauche.</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>Tournez la caméra vers le bas.</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>Tournez la caméra vers le haut.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>Inclinez la caméra dans le sens des aiguilles d’une montre.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>Inclinez la caméra dans le sens inverse des aiguilles d’une montre.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Replacer la caméra</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>Ce que la caméra voyait et ce qu’elle voit maintenant</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>Le projecteur éclaire à pleine lumière. À gauche de la ligne, ce que la caméra voyait lors de la mesure&#x202f;; à droite, ce qu’elle voit maintenant.</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>Sur le côté</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>Haut et bas</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Inclinaison</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Ouverture des appareils</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Mesuré</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>Maintenant</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>%1 px vers la droite</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>%1 px vers la gauche</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>%1 px vers le bas</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>%1 px vers le haut</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Vue caméra en direct</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>La caméra regarde où elle regardait.</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>Fixez-la, regardez encore une fois et fermez cette fenêtre.</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>La flèche indique où. Si c’est le projecteur qui a bougé, déplacez son image dans l’autre sens.</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>Ce que l’on voit n’est pas la vue mesurée.</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>Tournez la caméra jusqu’à ce que les deux moitiés se ressemblent. Si c’est déjà le cas, la lumière ou la surface a changé.</translation>
     </message>
 </context>
 <context>
@@ -4127,20 +4297,12 @@ projecteur %2</translation>
         <translation>image fixe, sur %1</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>Temps par image</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>Projeté maintenant</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>Ce que le projecteur affiche</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>Maintenez A pour l’original, Espace fige, B passe au noir.</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4302,10 +4464,6 @@ projecteur %2</translation>
         <translation>Quelque chose a changé depuis la mesure. Remesurez, puis installez.</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>La caméra ou le projecteur ne sont plus en place. Réalignez-les, puis remesurez.</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>Installer quand même</translation>
     </message>
@@ -4324,6 +4482,50 @@ projecteur %2</translation>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>Rien n’est perdu. Rebranchez-le : la diffusion revient d’elle-même.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vue de la caméra s’est décalée de %1 px sur le côté et de %2 px en hauteur.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Replacer la caméra</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>Affiche la pleine lumière et où tourner la caméra pour qu’elle regarde où elle regardait.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>La vue de la caméra a bougé de %1 px. Replacez-la, puis photographiez de nouveau.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>La caméra ou le projecteur a bougé. Replacez la caméra, ou visez et remesurez.</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>Limite pour %1 images par seconde : %2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>le processeur</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A original, espace fige, B noir</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>Mire suivante (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>Chiffres sur l’image (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Maintenez A pour l’original, espace fige, B met en noir, T affiche des mires, O des chiffres.</translation>
     </message>
 </context>
 <context>
@@ -4644,6 +4846,18 @@ projecteur %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>La mesure est trop grossière pour placer un contenu. Continuez la mesure.</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>Tout est accessible</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>Hachuré&#x202f;: %1 reste trop sombre</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>sans remarque</translation>
     </message>
 </context>
 <context>
@@ -4987,10 +5201,6 @@ projecteur %2</translation>
         <translation>Lumière</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>Blocs stockés</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>Mémoire</translation>
     </message>
@@ -5040,6 +5250,30 @@ projecteur %2</translation>
             <numerusform>%n pixel</numerusform>
             <numerusform>%n pixels</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>Seuil, signal caméra par seconde</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>Prendre le pixel choisi</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>Par pixel de caméra</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>Conseil&#x202f;: trois fois le bruit de la mesure.</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>Conseil&#x202f;: garde presque toute la lumière.</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>%1 en moyenne</translation>
     </message>
 </context>
 <context>
@@ -5643,6 +5877,14 @@ projecteur %2</translation>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Libérer le disque de ce dont %1 n’a pas besoin</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Reprendre</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>Reprendre %1</translation>
     </message>
 </context>
 <context>

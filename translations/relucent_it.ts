@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 milioni</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 miliardi</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -186,6 +197,10 @@
     <message>
         <source>Measured</source>
         <translation>Misurato</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>La misurazione è stata interrotta</translation>
     </message>
 </context>
 <context>
@@ -271,6 +286,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>Schermo intero, salva</translation>
     </message>
 </context>
 <context>
@@ -564,8 +583,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>il manifest della calibrazione è danneggiato</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>il file che descrive il luogo è danneggiato</translation>
     </message>
 </context>
 <context>
@@ -2769,6 +2788,10 @@
         <source>Ends near %1. %2</source>
         <translation>Finisce verso le %1. %2</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Rimetti a posto la fotocamera</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3176,6 +3199,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>Più pixel della fotocamera che del proiettore non mostrano nulla di più. Le foto che provano il risultato restano grandi come sono.</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>Segna ciò che è nitido</translation>
     </message>
 </context>
 <context>
@@ -3805,6 +3832,18 @@
         <source>What is measured is safe.</source>
         <translation>Quanto misurato è al sicuro.</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>Livello del nero</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>Contrasto</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>%1 della luce piena</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3866,6 +3905,137 @@ proiettore %2</translation>
     <message>
         <source>%1 across, %2 down</source>
         <translation>%1 →, %2 ↓</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>a posto</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>Ruotare la fotocamera a destra e in basso.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>Ruotare la fotocamera a destra e in alto.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>Ruotare la fotocamera a sinistra e in basso.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>Ruotare la fotocamera a sinistra e in alto.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>Ruotare la fotocamera a destra.</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>Ruotare la fotocamera a sinistra.</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>Ruotare la fotocamera in basso.</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>Ruotare la fotocamera in alto.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>Inclinare la fotocamera in senso orario.</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>Inclinare la fotocamera in senso antiorario.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Rimetti a posto la fotocamera</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>Ciò che la fotocamera vedeva e ciò che vede ora</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>Il proiettore mostra luce piena. A sinistra della linea c’è ciò che la fotocamera vedeva durante la misurazione, a destra ciò che vede ora.</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>Di lato</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>Su e giù</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Inclinazione</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>Apertura dei dispositivi</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>Misurato</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>Ora</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>%1 px a destra</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>%1 px a sinistra</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>%1 px in basso</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>%1 px in alto</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>Osservazione con la fotocamera</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>La fotocamera guarda dove guardava.</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>Fissarla, guardare ancora una volta e chiudere questa finestra.</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>La freccia indica dove. Se invece è stato urtato il proiettore, spostarne l’immagine nell’altro verso.</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>Ciò che si vede non è la vista che è stata misurata.</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>Ruotare la fotocamera finché le due metà si somigliano. Se si somigliano già, è cambiata la luce o la superficie.</translation>
     </message>
 </context>
 <context>
@@ -4127,20 +4297,12 @@ proiettore %2</translation>
         <translation>immagine fissa, su %1</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>Tempo per fotogramma</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>Ora sul proiettore</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>Ciò che mostra il proiettore</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>Tenere premuto A per l’originale, Spazio congela, B rende tutto nero.</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4302,10 +4464,6 @@ proiettore %2</translation>
         <translation>Qualcosa è cambiato dalla misura. Misurare di nuovo, poi installare.</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>Fotocamera o proiettore sono altrove. Puntare di nuovo, poi misurare di nuovo.</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>Installa comunque</translation>
     </message>
@@ -4324,6 +4482,50 @@ proiettore %2</translation>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>Nulla è perduto. Ricollegarlo: lo show torna da solo.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vista della fotocamera si è spostata di %1 px di lato e %2 px in altezza.</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>Rimetti a posto la fotocamera</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>Mostra luce piena e dove ruotare la fotocamera perché guardi dove guardava.</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>La vista della fotocamera si è spostata di %1 px. Rimetterla a posto, poi fotografare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>La fotocamera o il proiettore sono altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>Limite per %1 immagini al secondo: %2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>il processore</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A originale, spazio ferma, B nero</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>Prossima carta di test (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>Cifre sull’immagine (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>Tenere A per l’originale, spazio ferma, B rende nero, T mostra carte di test, O cifre.</translation>
     </message>
 </context>
 <context>
@@ -4644,6 +4846,18 @@ proiettore %2</translation>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>Ciò che è misurato è troppo grossolano per collocare contenuti. Continuare la misura.</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>Tutto è raggiungibile</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>Tratteggiato: %1 resta troppo scuro</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>nessuna nota</translation>
     </message>
 </context>
 <context>
@@ -4987,10 +5201,6 @@ proiettore %2</translation>
         <translation>Luce</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>Blocchi memorizzati</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>Memoria</translation>
     </message>
@@ -5040,6 +5250,30 @@ proiettore %2</translation>
             <numerusform>%n pixel</numerusform>
             <numerusform>%n pixel</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>Taglio, segnale della fotocamera al secondo</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>Usa il pixel selezionato</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>Per pixel della fotocamera</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>Suggerito: tre volte il rumore della misurazione.</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>Suggerito: conserva quasi tutta la luce.</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>%1 in media</translation>
     </message>
 </context>
 <context>
@@ -5643,6 +5877,14 @@ proiettore %2</translation>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Liberare il disco da ciò che non serve a %1</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Riprendi</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>Riprendi %1</translation>
     </message>
 </context>
 <context>

@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 百万</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 十億</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -185,6 +196,10 @@
     <message>
         <source>Measured</source>
         <translation>測定済み</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>測定は中断されました</translation>
     </message>
 </context>
 <context>
@@ -270,6 +285,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>全画面、保存</translation>
     </message>
 </context>
 <context>
@@ -562,8 +581,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校正データのマニフェストが破損しています</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>会場を記述するファイルが壊れています</translation>
     </message>
 </context>
 <context>
@@ -2752,6 +2771,10 @@
         <source>Ends near %1. %2</source>
         <translation>%1 頃に終了。%2</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>カメラを元に戻す</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3158,6 +3181,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>プロジェクターより多いカメラ画素があっても、得られるものは増えません。結果を確かめる写真は元の大きさのままです。</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>鮮明な所に印</translation>
     </message>
 </context>
 <context>
@@ -3779,6 +3806,18 @@
         <source>What is measured is safe.</source>
         <translation>測定済みのデータは無事です。</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>黒レベル</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>コントラスト</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>全光の %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3840,6 +3879,137 @@ projector %2</source>
     <message>
         <source>%1 across, %2 down</source>
         <translation>横：%1、縦：%2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>一致</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>カメラを右下へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>カメラを右上へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>カメラを左下へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>カメラを左上へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>カメラを右へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>カメラを左へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>カメラを下へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>カメラを上へ向けてください。</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>カメラを時計回りに傾けてください。</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>カメラを反時計回りに傾けてください。</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>カメラを元に戻す</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>カメラが以前見ていたものと今見ているもの</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>プロジェクターは全光を投影しています。線の左は測定時にカメラが見ていたもの、右は今見ているものです。</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>左右</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>上下</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>傾き</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>機器への接続</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>測定済み</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>今</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>右へ %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>左へ %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>下へ %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>上へ %1 px</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>ライブビュー</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>カメラは元の向きを向いています。</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>固定してもう一度確かめ、このウィンドウを閉じてください。</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>矢印が向きを示します。プロジェクターが動いた場合は、その映像を逆向きに動かしてください。</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>見えているのは測定したときの眺めではありません。</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>左右が同じに見えるまでカメラを動かしてください。すでに同じなら、光か面が変わっています。</translation>
     </message>
 </context>
 <context>
@@ -4101,20 +4271,12 @@ projector %2</source>
         <translation>静止画、%1 で実行</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>フレーム時間</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>現在の投影</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>プロジェクターの表示内容</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>A キー長押しで元画像、Space で静止、B で黒表示。</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4275,10 +4437,6 @@ projector %2</source>
         <translation>測定後に何かが変化しています。測定し直してから登録してください。</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>カメラかプロジェクターの位置が変わっています。向きを合わせ直し、測定し直してください。</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>それでも登録</translation>
     </message>
@@ -4297,6 +4455,50 @@ projector %2</source>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>何も失われていません。接続し直すと、ショーは自動的に戻ります。</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>カメラの視野が左右に %1 px、上下に %2 px ずれました。</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>カメラを元に戻す</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>全光を投影し、元の向きに戻すにはカメラをどちらへ向けるかを示します。</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>カメラの視野が %1 px ずれました。元に戻して、もう一度撮影してください。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測り直してください。</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>毎秒 %1 フレームの上限: %2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>プロセッサー</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A で元の映像、スペースで静止、B で黒</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>次のテストチャート (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>映像に数値を重ねる (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>A を押している間は元の映像、スペースで静止、B で黒、T でテストチャート、O で数値。</translation>
     </message>
 </context>
 <context>
@@ -4617,6 +4819,18 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>測定が粗すぎて、コンテンツを配置できません。測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>すべて届きます</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>斜線: %1 は暗すぎるまま</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>注記なし</translation>
     </message>
 </context>
 <context>
@@ -4959,10 +5173,6 @@ projector %2</source>
         <translation>光</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>保存ブロック</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>メモリ</translation>
     </message>
@@ -5011,6 +5221,30 @@ projector %2</source>
         <translation>
             <numerusform>%n 画素</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>カット位置（1 秒あたりのカメラ信号）</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>選択した画素を使う</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>カメラ画素ごと</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>推奨値：測定ノイズの 3 倍。</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>推奨値：光をほぼすべて残します。</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>平均 %1</translation>
     </message>
 </context>
 <context>
@@ -5611,6 +5845,14 @@ projector %2</source>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>%1 に要らないものをディスクから削除します</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>再開</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>%1 を再開</translation>
     </message>
 </context>
 <context>

@@ -136,6 +136,17 @@
     </message>
 </context>
 <context>
+    <name>NumberText</name>
+    <message>
+        <source>%1 million</source>
+        <translation>%1 百万</translation>
+    </message>
+    <message>
+        <source>%1 billion</source>
+        <translation>%1 十亿</translation>
+    </message>
+</context>
+<context>
     <name>Overlay</name>
     <message>
         <source>%1 frames a second, %2 ms a frame, %3 of %4 late</source>
@@ -185,6 +196,10 @@
     <message>
         <source>Measured</source>
         <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Acquire was interrupted</source>
+        <translation>测量被中断</translation>
     </message>
 </context>
 <context>
@@ -270,6 +285,10 @@
     <message>
         <source>OpenEXR (*.exr)</source>
         <translation>OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Whole screen, save</source>
+        <translation>全屏、保存</translation>
     </message>
 </context>
 <context>
@@ -562,8 +581,8 @@
 <context>
     <name>calibration.manifest-damaged</name>
     <message>
-        <source>the calibration&apos;s manifest is damaged</source>
-        <translation>校准数据的清单文件已损坏</translation>
+        <source>the file that describes the venue is damaged</source>
+        <translation>描述场地的文件已损坏</translation>
     </message>
 </context>
 <context>
@@ -2752,6 +2771,10 @@
         <source>Ends near %1. %2</source>
         <translation>约 %1 结束。%2</translation>
     </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>把相机推回原位</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3158,6 +3181,10 @@
     <message>
         <source>More camera pixels than projector pixels show nothing more. The photographs that prove the result stay as large as they are.</source>
         <translation>相机像素多于投影机像素并不会显示更多内容。用来验证结果的照片保持原有大小。</translation>
+    </message>
+    <message>
+        <source>Mark what is sharp</source>
+        <translation>标出清晰处</translation>
     </message>
 </context>
 <context>
@@ -3779,6 +3806,18 @@
         <source>What is measured is safe.</source>
         <translation>已测得的数据是安全的。</translation>
     </message>
+    <message>
+        <source>Black level</source>
+        <translation>黑电平</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>对比度</translation>
+    </message>
+    <message>
+        <source>%1 of full light</source>
+        <translation>全光的 %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -3840,6 +3879,137 @@ projector %2</source>
     <message>
         <source>%1 across, %2 down</source>
         <translation>横向：%1，纵向：%2</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NudgeDialog</name>
+    <message>
+        <source>fits</source>
+        <translation>吻合</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and down.</source>
+        <translation>把相机转向右下方。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right and up.</source>
+        <translation>把相机转向右上方。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and down.</source>
+        <translation>把相机转向左下方。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left and up.</source>
+        <translation>把相机转向左上方。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the right.</source>
+        <translation>把相机向右转。</translation>
+    </message>
+    <message>
+        <source>Turn the camera to the left.</source>
+        <translation>把相机向左转。</translation>
+    </message>
+    <message>
+        <source>Turn the camera down.</source>
+        <translation>把相机向下转。</translation>
+    </message>
+    <message>
+        <source>Turn the camera up.</source>
+        <translation>把相机向上转。</translation>
+    </message>
+    <message>
+        <source>Tilt the camera clockwise.</source>
+        <translation>把相机顺时针倾斜。</translation>
+    </message>
+    <message>
+        <source>Tilt the camera anticlockwise.</source>
+        <translation>把相机逆时针倾斜。</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>把相机推回原位</translation>
+    </message>
+    <message>
+        <source>What the camera saw, and what it sees now</source>
+        <translation>相机原来看到的和现在看到的</translation>
+    </message>
+    <message>
+        <source>The projector shows full light. Left of the line stands what the camera saw when the venue was measured, right of it what it sees now.</source>
+        <translation>投影机显示全光。线的左边是测量时相机看到的，右边是现在看到的。</translation>
+    </message>
+    <message>
+        <source>Sideways</source>
+        <translation>左右</translation>
+    </message>
+    <message>
+        <source>Up and down</source>
+        <translation>上下</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>倾斜</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Opening the devices</source>
+        <translation>正在打开设备</translation>
+    </message>
+    <message>
+        <source>Measured</source>
+        <translation>已测量</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>现在</translation>
+    </message>
+    <message>
+        <source>%1 px to the right</source>
+        <translation>向右 %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px to the left</source>
+        <translation>向左 %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px down</source>
+        <translation>向下 %1 px</translation>
+    </message>
+    <message>
+        <source>%1 px up</source>
+        <translation>向上 %1 px</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>Looking through the camera</source>
+        <translation>正在查看相机画面</translation>
+    </message>
+    <message>
+        <source>The camera looks where it looked.</source>
+        <translation>相机朝向与原来一致。</translation>
+    </message>
+    <message>
+        <source>Fasten it, look once more, and close this window.</source>
+        <translation>固定好，再看一次，然后关闭此窗口。</translation>
+    </message>
+    <message>
+        <source>The arrow shows where. If the projector was bumped instead, move its picture the other way.</source>
+        <translation>箭头指示方向。如果被碰动的是投影机，请把它的画面朝相反方向移动。</translation>
+    </message>
+    <message>
+        <source>What is seen is not the view that was measured.</source>
+        <translation>看到的不是测量时的画面。</translation>
+    </message>
+    <message>
+        <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
+        <translation>转动相机直到两半看起来一样。如果已经一样，则是光线或表面变了。</translation>
     </message>
 </context>
 <context>
@@ -4101,20 +4271,12 @@ projector %2</source>
         <translation>静态图片，运行于 %1</translation>
     </message>
     <message>
-        <source>Frame time</source>
-        <translation>帧时间</translation>
-    </message>
-    <message>
         <source>On the projector now</source>
         <translation>投影机当前画面</translation>
     </message>
     <message>
         <source>What the projector shows</source>
         <translation>投影机显示的内容</translation>
-    </message>
-    <message>
-        <source>Hold A for the original, space freezes, B makes it black.</source>
-        <translation>按住 A 看原图，空格键定格，B 为黑场。</translation>
     </message>
     <message>
         <source>The output is closed. Nothing is projected.</source>
@@ -4275,10 +4437,6 @@ projector %2</source>
         <translation>测量后有变化。请重新测量，然后安装。</translation>
     </message>
     <message>
-        <source>Camera or projector stand elsewhere. Aim again, then measure again.</source>
-        <translation>相机或投影机已移位。请重新对准，然后重新测量。</translation>
-    </message>
-    <message>
         <source>Install anyway</source>
         <translation>仍然安装</translation>
     </message>
@@ -4297,6 +4455,50 @@ projector %2</source>
     <message>
         <source>Nothing is lost. Plug it in again: the show comes back by itself.</source>
         <translation>没有丢失任何内容。重新接上后，节目会自动恢复。</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>相机视野左右移动了 %1 px，上下移动了 %2 px。</translation>
+    </message>
+    <message>
+        <source>Push the camera back</source>
+        <translation>把相机推回原位</translation>
+    </message>
+    <message>
+        <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
+        <translation>显示全光，并指出相机应转向何处才能回到原来的视野。</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
+        <translation>相机视野移动了 %1 px。请推回原位后重新拍照。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
+        <translation>相机或投影机换了位置。请把相机推回原位，或重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>Limit for %1 frames a second: %2 ms</source>
+        <translation>每秒 %1 帧的上限：%2 ms</translation>
+    </message>
+    <message>
+        <source>the processor</source>
+        <translation>处理器</translation>
+    </message>
+    <message>
+        <source>A original, space freezes, B black</source>
+        <translation>A 原图，空格定格，B 黑屏</translation>
+    </message>
+    <message>
+        <source>Next test chart (T)</source>
+        <translation>下一个测试图卡 (T)</translation>
+    </message>
+    <message>
+        <source>Figures over the picture (O)</source>
+        <translation>在画面上显示数值 (O)</translation>
+    </message>
+    <message>
+        <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
+        <translation>按住 A 显示原图，空格定格，B 变黑，T 显示测试图卡，O 显示数值。</translation>
     </message>
 </context>
 <context>
@@ -4617,6 +4819,18 @@ projector %2</source>
     <message>
         <source>What was measured is too coarse to place content. Go on measuring.</source>
         <translation>测量过于粗略，无法放置内容。请继续测量。</translation>
+    </message>
+    <message>
+        <source>All of it can be reached</source>
+        <translation>全部可达</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 stays too dark</source>
+        <translation>阴影线：%1 仍然太暗</translation>
+    </message>
+    <message>
+        <source>no note</source>
+        <translation>无备注</translation>
     </message>
 </context>
 <context>
@@ -4959,10 +5173,6 @@ projector %2</source>
         <translation>光量</translation>
     </message>
     <message>
-        <source>Stored blocks</source>
-        <translation>存储块</translation>
-    </message>
-    <message>
         <source>Memory</source>
         <translation>内存</translation>
     </message>
@@ -5011,6 +5221,30 @@ projector %2</source>
         <translation>
             <numerusform>%n 个像素</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Cut, camera signal a second</source>
+        <translation>阈值，每秒相机信号</translation>
+    </message>
+    <message>
+        <source>Use picked pixel</source>
+        <translation>使用所选像素</translation>
+    </message>
+    <message>
+        <source>For each camera pixel</source>
+        <translation>每个相机像素</translation>
+    </message>
+    <message>
+        <source>Suggested: three times the noise of the measurement.</source>
+        <translation>建议：测量噪声的三倍。</translation>
+    </message>
+    <message>
+        <source>Suggested: keeps nearly all of the light.</source>
+        <translation>建议：几乎保留全部光。</translation>
+    </message>
+    <message>
+        <source>%1 on average</source>
+        <translation>平均 %1</translation>
     </message>
 </context>
 <context>
@@ -5611,6 +5845,14 @@ projector %2</source>
     <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>清除磁盘上 %1 不需要的内容</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Resume %1</source>
+        <translation>继续 %1</translation>
     </message>
 </context>
 <context>

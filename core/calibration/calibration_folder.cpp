@@ -97,15 +97,15 @@ Error damaged(const fs::path& manifest, const Message& what) {
 Json readManifest(const fs::path& file) {
   Json manifest = Json::parse(readFile(file), nullptr, false);
   if (manifest.is_discarded() || !manifest.is_object())
-    throw damaged(file,
-                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
+                                         "the file that describes the venue is damaged"));
   if (manifest.value("format", Json()) != formatName)
     throw damaged(file,
                   RELUCENT_MESSAGE("calibration.not-a-calibration", "this is not a calibration of Relucent"));
   Json written = manifest.value("version", Json());
   if (!written.is_number_integer())
-    throw damaged(file,
-                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
+                                         "the file that describes the venue is damaged"));
   if (written.get<int>() > CalibrationFolder::version)
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("calibration.of-newer-version",
@@ -129,8 +129,8 @@ Json readManifest(const fs::path& file) {
                  return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
                });
   if (!whole)
-    throw damaged(file,
-                  RELUCENT_MESSAGE("calibration.manifest-damaged", "the calibration's manifest is damaged"));
+    throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
+                                         "the file that describes the venue is damaged"));
   return manifest;
 }
 

@@ -60,7 +60,13 @@ std::string textOf(const pipeline::ProveResult& result) {
         name, proved.measured.psnr, proved.measured.deltaE, proved.predicted.psnr, proved.predicted.deltaE,
         100.0 * proved.surprise);
   };
-  return line("Before:", result.before) + line("After:", result.after) +
+  const std::string moved =
+      result.moved.explains && !pipeline::isAsPredicted(result)
+          ? fmt::format(
+                "The camera's view is shifted by {:.1f}, {:.1f} pixels and turned by {:.1f} degrees.\n",
+                result.moved.x, result.moved.y, result.moved.degrees)
+          : "";
+  return line("Before:", result.before) + line("After:", result.after) + moved +
          fmt::format(
              "dB where it can be reached, which is {:.1f} % of the picture; colour error (CIEDE2000) over "
              "all of it; {} photographs in {:.0f} s.\n",

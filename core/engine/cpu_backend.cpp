@@ -28,17 +28,17 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       windows_(engine.inverse.view()),
       patchSums_(engine.transport, engine.venue.transport.layout().count()),
       scratch_(std::thread::hardware_concurrency() + 1,
-               (stepColumn + sumColumn) * engine.transport.mostColumns()) {
+               stepColumn * (engine.transport.mostColumns() + leavesTogether)) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
   std::size_t cameraPixels = engine.venue.usable.size();
-  wanted_.resize(3 * cameraPixels);
-  held_.resize(3 * cameraPixels);
+  wanted_.resize(3 * cameraPixels + 1);  // four values can be read at once wherever three are
+  held_.resize(3 * cameraPixels + 1);
   placed_.resize(3 * cameraPixels);
   weight_.resize(cameraPixels);
   unmixed_.resize(4 * cameraPixels);
   std::size_t nodes = engine.venue.transport.layout().count();
-  nodes_.resize(3 * nodes + 1);  // four values can be read at once wherever three are
+  nodes_.resize(3 * nodes + 1);  // the same
   adjoint_.resize(3 * nodes);
   part_.resize(3 * nodes);
   waiting_.resize(PatchSums::placeFloats * patchSums_.places());

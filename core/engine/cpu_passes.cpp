@@ -10,12 +10,11 @@ namespace relucent::engine {
 
 PatchRows CpuBackend::rowsOf(const TransportPatch& patch) const noexcept {
   const PackedTransport& transport = engine_.transport;
-  return {patch.rowBegin,
-          patch.rowEnd,
-          transport.pixels().data(),
-          transport.leafStart().data(),
-          transport.leaves().data(),
-          transport.mixing().data()};
+  return {{transport.squares().data() + patch.squareBegin, patch.squareEnd - patch.squareBegin},
+          transport.rows().data(),
+          transport.rows().data() + transport.rows().size(),
+          transport.groups().data(),
+          transport.leaves().data()};
 }
 
 CameraArrays CpuBackend::cameraArrays(const float* wanted) noexcept {

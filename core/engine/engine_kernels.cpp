@@ -70,65 +70,136 @@ RELUCENT_KERNEL void windowOf(const inverse::WindowArrays& windows, std::size_t 
   }
 }
 
-// Leaves taken at once: sums that need not wait for each other.
-constexpr std::size_t together = 4;
-
-/// What a row sees of its columns' light, before mixing.
+/// What a run of leaves sees of its columns' light, before mixing.
 RELUCENT_KERNEL Floats seenBy(const PackedLeaf* leaf, const PackedLeaf* end, const float* columns) {
-  Floats sum[together] = {};
-  for (; leaf + together <= end; leaf += together)
+  Floats sum[leavesTogether] = {};  // which need not wait for each other
+  for (; leaf < end; leaf += leavesTogether)
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < together; ++k)
+    for (std::size_t k = 0; k < leavesTogether; ++k)
       sum[k] += lanesOf(leaf[k]) * load(columns + stepColumn * leaf[k].column);
-  for (; leaf < end; ++leaf) sum[0] += lanesOf(*leaf) * load(columns + stepColumn * leaf->column);
   return lanesToCodes * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
 }
 
-/// Adds what a row sends back to its columns' sums, which lie `stride` floats apart. As the columns of a row
+/// Adds what a run sends back to its columns' sums, which lie `stride` floats apart. As the columns of a run
 /// differ, some sums are read before those before them are written.
 template <std::size_t stride>
 RELUCENT_KERNEL void sendBack(const PackedLeaf* leaf, const PackedLeaf* end, Floats down, float* sums) {
-  for (; leaf + together <= end; leaf += together) {
-    Floats sum[together];
+  for (; leaf < end; leaf += leavesTogether) {
+    Floats sum[leavesTogether];
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < together; ++k)
+    for (std::size_t k = 0; k < leavesTogether; ++k)
       sum[k] = load(sums + stride * leaf[k].column) + lanesOf(leaf[k]) * down;
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < together; ++k)
+    for (std::size_t k = 0; k < leavesTogether; ++k)
       std::memcpy(sums + stride * leaf[k].column, &sum[k], sizeof sum[k]);
-  }
-  for (; leaf < end; ++leaf) {
-    const Floats sum = load(sums + stride * leaf->column) + lanesOf(*leaf) * down;
-    std::memcpy(sums + stride * leaf->column, &sum, sizeof sum);
   }
 }
 
-/// A row's light on its way back: through the transpose of its mixing `m`.
-RELUCENT_KERNEL Floats unmixedBack(const float* m, const float* light) {
-  return lanesToCodes * Floats{m[0] * light[0] + m[3] * light[1] + m[6] * light[2],
-                               m[1] * light[0] + m[4] * light[1] + m[7] * light[2],
-                               m[2] * light[0] + m[5] * light[1] + m[8] * light[2], 0.0f};
+RELUCENT_KERNEL Floats loadThree(const float* from) {
+  return Floats{from[0], from[1], from[2], 0.0f};
+}
+
+/// A mixing's rows; the fourth lanes hold anything.
+struct Mixing {
+  Floats row[3];
+};
+
+/// Reads three floats more than the mixing has.
+RELUCENT_KERNEL Mixing mixingAt(const float* from) {
+  return {{load(from), load(from + 3), load(from + 6)}};
+}
+
+RELUCENT_KERNEL Floats allLanes(float value) {
+  return Floats{value, value, value, value};
+}
+
+RELUCENT_KERNEL Floats mixed(const Mixing& m, Floats light) {
+  const Floats low = __builtin_shufflevector(m.row[0], m.row[1], 0, 4, 1, 5);
+  const Floats high = __builtin_shufflevector(m.row[0], m.row[1], 2, 6, 3, 7);
+  return allLanes(light[0]) * __builtin_shufflevector(low, m.row[2], 0, 1, 4, 7) +
+         allLanes(light[1]) * __builtin_shufflevector(low, m.row[2], 2, 3, 5, 7) +
+         allLanes(light[2]) * __builtin_shufflevector(high, m.row[2], 0, 1, 6, 7);
+}
+
+/// Light on its way back: through the transpose of a mixing. The fourth lane is 0.
+RELUCENT_KERNEL Floats unmixedBack(const Mixing& m, Floats light) {
+  constexpr Integers threeLanes{-1, -1, -1, 0};
+  const Floats back =
+      allLanes(light[0]) * m.row[0] + allLanes(light[1]) * m.row[1] + allLanes(light[2]) * m.row[2];
+  return reinterpret_cast<Floats>(reinterpret_cast<Integers>(back) & threeLanes);
+}
+
+/// What the groups of a square see with their parents, and the sums of what their rows send back.
+struct GroupLight {
+  static constexpr std::size_t most = 1 + 4 + 16;  // of 64, 16 and 4 camera pixels
+  Floats seen[most], back[most];
+};
+
+RELUCENT_KERNEL void lightGroups(const PatchRows& patch, const PackedSquare& square, const float* columns,
+                                 GroupLight& light) {
+  for (std::size_t i = 0; i < square.groupEnd - square.groupBegin; ++i) {
+    const PackedGroup& group = patch.group[square.groupBegin + i];
+    light.seen[i] = group.scale * seenBy(patch.leaf + group.leafBegin, patch.leaf + group.leafEnd, columns);
+    if (group.parent != PackedGroup::none) light.seen[i] += light.seen[group.parent - square.groupBegin];
+    light.back[i] = Floats{};
+  }
+}
+
+/// Passes on what groups have got from their rows, the narrow ones first.
+template <std::size_t stride>
+RELUCENT_KERNEL void sendGroupsBack(const PatchRows& patch, const PackedSquare& square, float* sums,
+                                    GroupLight& light) {
+  for (std::size_t i = square.groupEnd - square.groupBegin; i-- > 0;) {
+    const PackedGroup& group = patch.group[square.groupBegin + i];
+    if (group.parent != PackedGroup::none) light.back[group.parent - square.groupBegin] += light.back[i];
+    sendBack<stride>(patch.leaf + group.leafBegin, patch.leaf + group.leafEnd,
+                     lanesToCodes * group.scale * light.back[i], sums);
+  }
+}
+
+/// Through a row's leaves and to its group.
+template <std::size_t stride>
+RELUCENT_KERNEL void sendRowBack(const PatchRows& patch, const PackedSquare& square, const PackedRow& row,
+                                 const Mixing& own, const Mixing& shared, Floats light, float* sums,
+                                 GroupLight& groups) {
+  if (row.group != PackedGroup::none)
+    groups.back[row.group - square.groupBegin] += unmixedBack(shared, light);
+  sendBack<stride>(patch.leaf + row.leafBegin, patch.leaf + row.leafEnd,
+                   lanesToCodes * unmixedBack(own, light), sums);
+}
+
+// Rows ahead of which values of camera pixels are fetched: they lie in squares, which no processor foresees.
+constexpr std::size_t fetchedAhead = 16;
+
+template <bool correct>
+RELUCENT_KERNEL void fetch(const CameraArrays& camera, std::size_t pixel) {
+  __builtin_prefetch(camera.weight + pixel);
+  __builtin_prefetch(camera.wanted + 3 * pixel);
+  if constexpr (correct) {
+    __builtin_prefetch(camera.unmix + 9 * pixel);
+    __builtin_prefetch(camera.unmixed + 4 * pixel, 1);
+  }
 }
 
 template <bool correct>
-RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera, float* columns) {
-  for (std::size_t row = rows.rowBegin; row < rows.rowEnd; ++row) {
-    const PackedLeaf* const begin = rows.leaf + rows.leafStart[row];
-    const PackedLeaf* const end = rows.leaf + rows.leafStart[row + 1];
-    const std::size_t pixel = rows.pixel[row];
+RELUCENT_KERNEL void passOverSquare(const PatchRows& patch, const PackedSquare& square,
+                                    const CameraArrays& camera, float* columns) {
+  GroupLight groups;
+  lightGroups(patch, square, columns, groups);
+  for (const PackedRow* row = patch.row + square.rowBegin; row != patch.row + square.rowEnd; ++row) {
+    // The last rows of T fetch the first ones again.
+    fetch<correct>(camera, row + fetchedAhead < patch.rowEnd ? row[fetchedAhead].pixel : patch.row->pixel);
+    const std::size_t pixel = row->pixel;
     const float weight = camera.weight[pixel];
     if (!(weight > 0.0f)) {
       if constexpr (correct) std::memset(camera.unmixed + 4 * pixel, 0, 4 * sizeof(float));
       continue;
     }
 
-    const Floats seen = seenBy(begin, end, columns);
-    const float* m = rows.mixing + 9 * row;
-    const float* wanted = camera.wanted + 3 * pixel;
-    float residual[3];
-    for (std::size_t c = 0; c < 3; ++c)
-      residual[c] =
-          weight * (wanted[c] - (m[3 * c] * seen[0] + m[3 * c + 1] * seen[1] + m[3 * c + 2] * seen[2]));
+    const Mixing own = mixingAt(row->own.data()), shared = mixingAt(row->shared.data());
+    Floats seen = mixed(own, seenBy(patch.leaf + row->leafBegin, patch.leaf + row->leafEnd, columns));
+    if (row->group != PackedGroup::none) seen += mixed(shared, groups.seen[row->group - square.groupBegin]);
+    const Floats residual = weight * (load(camera.wanted + 3 * pixel) - seen);
     if constexpr (correct) {
       const float* u = camera.unmix + 9 * pixel;
       float* unmixed = camera.unmixed + 4 * pixel;
@@ -136,16 +207,28 @@ RELUCENT_KERNEL void passOver(const PatchRows& rows, const CameraArrays& camera,
         unmixed[c] = u[3 * c] * residual[0] + u[3 * c + 1] * residual[1] + u[3 * c + 2] * residual[2];
       unmixed[3] = 0.0f;
     }
-    sendBack<stepColumn>(begin, end, unmixedBack(m, residual), columns + 4);
+    sendRowBack<stepColumn>(patch, square, *row, own, shared, residual, columns + 4, groups);
   }
+  sendGroupsBack<stepColumn>(patch, square, columns + 4, groups);
 }
 
-RELUCENT_KERNEL void boundOf(const PatchRows& rows, const CameraArrays& camera, float weight, float* sums) {
-  for (std::size_t row = rows.rowBegin; row < rows.rowEnd; ++row) {
-    const std::size_t pixel = rows.pixel[row];
-    if (camera.weight[pixel] != weight) continue;
-    sendBack<sumColumn>(rows.leaf + rows.leafStart[row], rows.leaf + rows.leafStart[row + 1],
-                        unmixedBack(rows.mixing + 9 * row, camera.lit + 3 * pixel), sums);
+template <bool correct>
+RELUCENT_KERNEL void passOver(const PatchRows& patch, const CameraArrays& camera, float* columns) {
+  for (const PackedSquare& square : patch.squares) passOverSquare<correct>(patch, square, camera, columns);
+}
+
+RELUCENT_KERNEL void boundOf(const PatchRows& patch, const CameraArrays& camera, float weight, float* sums) {
+  for (const PackedSquare& square : patch.squares) {
+    GroupLight groups;
+    bool isAnyLit = false;  // mostly none is
+    for (const PackedRow* row = patch.row + square.rowBegin; row != patch.row + square.rowEnd; ++row) {
+      if (camera.weight[row->pixel] != weight) continue;
+      if (!isAnyLit) std::memset(groups.back, 0, sizeof groups.back);
+      isAnyLit = true;
+      sendRowBack<sumColumn>(patch, square, *row, mixingAt(row->own.data()), mixingAt(row->shared.data()),
+                             loadThree(camera.lit + 3 * std::size_t{row->pixel}), sums, groups);
+    }
+    if (isAnyLit) sendGroupsBack<sumColumn>(patch, square, sums, groups);
   }
 }
 
@@ -198,19 +281,19 @@ RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* par
                                bool clamped, float* values) {                                                \
     windowOf(windows, tile, unmixed, clamped, values);                                                       \
   }                                                                                                          \
-  __VA_ARGS__ void step##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {            \
-    passOver<false>(rows, camera, columns);                                                                  \
+  __VA_ARGS__ void step##set(const PatchRows& patch, const CameraArrays& camera, float* columns) {           \
+    passOver<false>(patch, camera, columns);                                                                 \
   }                                                                                                          \
-  __VA_ARGS__ void correct##set(const PatchRows& rows, const CameraArrays& camera, float* columns) {         \
-    passOver<true>(rows, camera, columns);                                                                   \
+  __VA_ARGS__ void correct##set(const PatchRows& patch, const CameraArrays& camera, float* columns) {        \
+    passOver<true>(patch, camera, columns);                                                                  \
   }                                                                                                          \
   __VA_ARGS__ std::size_t update##set(float* p, const float* c, const float* back, float length,             \
                                       std::size_t count) {                                                   \
     return updateAll(p, c, back, length, count);                                                             \
   }                                                                                                          \
-  __VA_ARGS__ void bound##set(const PatchRows& rows, const CameraArrays& camera, float weight,               \
+  __VA_ARGS__ void bound##set(const PatchRows& patch, const CameraArrays& camera, float weight,              \
                               float* sums) {                                                                 \
-    boundOf(rows, camera, weight, sums);                                                                     \
+    boundOf(patch, camera, weight, sums);                                                                    \
   }                                                                                                          \
   __VA_ARGS__ void reciprocal##set(float* c, const float* bound, const float* part, float share,             \
                                    float partShare, float least, std::size_t count) {                        \

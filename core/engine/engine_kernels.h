@@ -12,20 +12,20 @@ namespace relucent::engine {
 
 /// Inputs and outputs of a pass over T per camera pixel. Arrays over all camera pixels.
 struct CameraArrays {
-  const float* wanted = nullptr;  // 3: the target, minus black
+  const float* wanted = nullptr;  // 3: the target, minus black; and one value behind the last
   const float* weight = nullptr;  // 1
   const float* lit = nullptr;     // 3: the signal with all free projector pixels at full drive
   const float* unmix = nullptr;   // 3x3, row-major
   float* unmixed = nullptr;       // 4: the weighted residual through `unmix`, and a zero
 };
 
-/// The rows of one patch. The leaves of a row differ in their columns.
+/// The squares of one patch, with the rows, groups and leaves of all of T. The leaves of a group, and those
+/// of a row, differ in their columns.
 struct PatchRows {
-  std::uint32_t rowBegin = 0, rowEnd = 0;
-  const std::uint32_t* pixel = nullptr;
-  const std::uint32_t* leafStart = nullptr;
+  std::span<const PackedSquare> squares;
+  const PackedRow *row = nullptr, *rowEnd = nullptr;
+  const PackedGroup* group = nullptr;
   const PackedLeaf* leaf = nullptr;
-  const float* mixing = nullptr;
 };
 
 /// Floats per column in a pass over T, and in one that only sums.
@@ -45,11 +45,11 @@ struct EngineKernels {
   ///   r = weight (wanted - T light),   sums += T^T r
   /// `columns`: 8 floats a column, light and adjoint sums together, because they are needed together:
   /// projector value 3, unused; sum 3, 0.
-  void (*step)(const PatchRows& rows, const CameraArrays& camera, float* columns);
+  void (*step)(const PatchRows& patch, const CameraArrays& camera, float* columns);
   /// The same, and `unmixed` is written.
-  void (*correct)(const PatchRows& rows, const CameraArrays& camera, float* columns);
+  void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);
   /// sums += T^T lit, only for rows whose weight is `weight`. 4 floats a column: sum 3, 0.
-  void (*bound)(const PatchRows& rows, const CameraArrays& camera, float weight, float* sums);
+  void (*bound)(const PatchRows& patch, const CameraArrays& camera, float weight, float* sums);
   /// p <- clamp(p + length c back); returns the number of visibly clipped values.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
   /// c <- 1 / d,  d = share bound + partShare part, where that exceeds `least` and the rounding error of the

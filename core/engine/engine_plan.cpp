@@ -35,7 +35,7 @@ std::vector<Message> problems(const EngineSettings& settings) {
   if (settings.bits != 8 && settings.bits != 10)
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("engine.projector-bits-unsupported", "a projector takes 8 or 10 bits"));
-  if (settings.patchSide < 8 || settings.patchSide > 256)
+  if (settings.packing.patchSide < 8 || settings.packing.patchSide > 256)
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("engine.patch-side-out-of-range",
                                  "the patches of the light transport must be 8 to 256 camera pixels wide"));
@@ -72,7 +72,7 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
   return {venue,
           inverse,
           settings,
-          PackedTransport(transport, settings.patchSide),
+          PackedTransport(transport, settings.packing),
           compensation::brightestCorrespondence(transport, compensation::seesProjection(venue),
                                                 compensation::DirectLightSettings{}),
           compensation::meanColourMixing(venue),

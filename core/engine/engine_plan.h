@@ -21,7 +21,7 @@ struct EngineSettings {
   int bits = 8;                         // of the projectors' input: 8 or 10
   Dither dither = Dither::blueNoise;
   compensation::CompensatorSettings compensator;  // the correction of the windows, and the steps behind it
-  int patchSide = 64;  // of T's patches, in camera pixels, so that their nodes fit the cache
+  PackingSettings packing;
 };
 std::vector<Message> problems(const EngineSettings& settings);
 

@@ -3,48 +3,81 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "relucent/transport/transport_matrix.h"
 
 namespace relucent::engine {
 
-/// A leaf of T as read in every frame, 8 bytes: a camera pixel's factor for each projector channel of a node,
-/// and the node's position in its patch's list. As four 16-bit lanes, so that one load suffices; code that
-/// multiplies all lanes must multiply the fourth by zero.
+/// A leaf of T as read in every frame, 8 bytes: a factor for each projector channel of a node, and the node's
+/// position in its patch's list. As four 16-bit lanes, so that one load suffices; code that multiplies all
+/// lanes must multiply the fourth by zero.
 struct PackedLeaf {
   std::array<std::int16_t, 3> code{};
   std::uint16_t column = 0;
 };
 
-/// A compact set of camera pixels whose leaves touch at most 65536 nodes. Nodes are numbered within the
+/// Leaves are read four at a time. What fills up a run has codes 0 and the columns behind those of its patch.
+inline constexpr std::size_t leavesTogether = 4;
+
+/// Leaves that neighbouring camera pixels share: a square of at most 8x8 of them.
+struct PackedGroup {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t leafBegin = 0, leafEnd = 0;
+  std::uint32_t parent = none;             // the group around it, which comes before it
+  float scale = 0.0f;                      // of its codes
+  std::uint32_t rowBegin = 0, rowEnd = 0;  // its camera pixels
+};
+
+/// A camera pixel's own leaves, and what it makes of the light of its group.
+struct PackedRow {
+  std::array<float, 9> own{}, shared{};  // mixings, row-major; `own` times the scale of the codes
+  float nothing = 0.0f;                  // read behind the last row of `shared`
+  std::uint32_t pixel = 0;
+  std::uint32_t leafBegin = 0, leafEnd = 0;
+  std::uint32_t group = PackedGroup::none;
+};
+
+/// At most 8x8 camera pixels with the groups that they are in.
+struct PackedSquare {
+  std::uint32_t groupBegin = 0, groupEnd = 0;  // of PackedTransport::groups()
+  std::uint32_t rowBegin = 0, rowEnd = 0;      // of PackedTransport::rows()
+};
+
+/// A compact set of camera pixels whose leaves touch at most 65535 nodes. Nodes are numbered within the
 /// patch, in ascending order of their index in the NodeLayout.
 struct TransportPatch {
-  std::uint32_t rowBegin = 0, rowEnd = 0;        // of PackedTransport's rows
+  std::uint32_t squareBegin = 0, squareEnd = 0;  // of PackedTransport::squares()
+  std::uint32_t groupBegin = 0, groupEnd = 0;    // of all its squares
+  std::uint32_t rowBegin = 0, rowEnd = 0;
   std::uint32_t columnBegin = 0, columnEnd = 0;  // of PackedTransport::nodes()
 };
 
-/// T for the real-time engine, in a third of the memory.
-///   T_ij = B_i diag(t_ij)
-/// B_i is camera pixel i's mixing (the row sum of T); the nodes that it sees differ by one factor per
-/// projector channel: t_ijc = <B_ic, T_ijc> / |B_ic|^2 over the columns c, the least-squares fit. The factors
-/// of a row sum to one, so the flood image is preserved. Immutable.
-/// Source: core/engine/README.md.
+struct PackingSettings {
+  int patchSide = 64;  // of the squares that patches are made from, camera pixels, at most
+  // What a leaf may be off by, as a share of the camera pixel's light, so that others need not be kept; 0:
+  // nothing.
+  float tolerance = 0.005f;
+};
+
+/// T for the real-time engine, in an eighth of the memory of its blocks.
+///   (T p)_i = N_i sum_near t_ij v_j + F_i (sum_far t_ij v_j + light of i's group),    v = node values of p
+///   light of a group = sum t_gj v_j + light of its parent
+/// N_i and F_i are the mixings of camera pixel i's near and far light, see rowLight(); far light arrives
+/// alike at neighbouring camera pixels, see shareLight(). Leaves are within `tolerance`; the sums of rows are
+/// T's, so that the flood image is preserved. Immutable. Source: core/engine/README.md.
 class PackedTransport {
  public:
   PackedTransport() = default;
-  /// `patchSide`: side in camera pixels of the squares that patches are made from, at most.
   /// A camera pixel that sees more than 65535 nodes keeps the brightest, scaled up to its row sum.
-  PackedTransport(const transport::TransportMatrix& transport, int patchSide);
+  PackedTransport(const transport::TransportMatrix& transport, const PackingSettings& settings);
 
   const std::vector<TransportPatch>& patches() const { return patches_; }
-  /// The camera pixel of every row.
-  const std::vector<std::uint32_t>& pixels() const { return pixel_; }
-  /// Leaves of row r: [leafStart()[r], leafStart()[r + 1]).
-  const std::vector<std::uint32_t>& leafStart() const { return leafStart_; }
+  const std::vector<PackedSquare>& squares() const { return square_; }
+  const std::vector<PackedRow>& rows() const { return row_; }
+  const std::vector<PackedGroup>& groups() const { return group_; }
   const std::vector<PackedLeaf>& leaves() const { return leaf_; }
-  /// B_i times the scale of the row's codes: 9 a row, row-major.
-  const std::vector<float>& mixing() const { return mixing_; }
   /// The nodes of all patches' lists.
   const std::vector<std::uint32_t>& nodes() const { return node_; }
   /// Bytes that a product reads.
@@ -53,11 +86,14 @@ class PackedTransport {
   std::size_t mostColumns() const;
 
  private:
+  struct Patch;
+  void append(const Patch& patch);
+
   std::vector<TransportPatch> patches_;
-  std::vector<std::uint32_t> pixel_;
-  std::vector<std::uint32_t> leafStart_{0};
+  std::vector<PackedSquare> square_;
+  std::vector<PackedRow> row_;
+  std::vector<PackedGroup> group_;
   std::vector<PackedLeaf> leaf_;
-  std::vector<float> mixing_;
   std::vector<std::uint32_t> node_;
 };
 

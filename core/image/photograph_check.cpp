@@ -73,4 +73,20 @@ double sharpness(const Image& signal, const Region& region) {
   return (differences / static_cast<double>(pairs)) / (squares / static_cast<double>(pixels));
 }
 
+std::vector<std::uint8_t> focusPeaks(const Image& signal, double limit, double dark) {
+  require(signal.channels() == 3, "a photograph has three channels, not {}", signal.channels());
+  const Image brightness = luminance(signal);
+  const Size size = signal.size();
+  std::vector<std::uint8_t> peaks(size.count(), 0);
+  for (int y = 0; y + 1 < size.height; ++y)
+    for (int x = 0; x + 1 < size.width; ++x) {
+      const auto here = static_cast<double>(brightness.at(x, y, 0));
+      const double across = static_cast<double>(brightness.at(x + 1, y, 0)) - here,
+                   down = static_cast<double>(brightness.at(x, y + 1, 0)) - here;
+      const bool isSharp = std::hypot(across, down) > limit * here;
+      if (here > dark && isSharp) peaks[indexOf(size, {x, y})] = 1;
+    }
+  return peaks;
+}
+
 }  // namespace relucent::image

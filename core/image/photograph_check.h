@@ -42,4 +42,9 @@ double tooBrightWithin(const PhotographCheck& check, Size size, const Region& re
 /// Source: Tenengrad family of focus measures; Pertuz, Puig & Garcia 2013.
 double sharpness(const Image& signal, const Region& region);
 
+/// Where a photograph is sharp: 1 where the brightness of neighbours differs by a share of their own,
+///   |grad L| > limit * L,   L = luminance
+/// and neither is too dark to tell. One value a pixel.
+std::vector<std::uint8_t> focusPeaks(const Image& signal, double limit = 0.2, double dark = 0.02);
+
 }  // namespace relucent::image

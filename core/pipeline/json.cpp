@@ -109,9 +109,17 @@ calibration::Json toJson(const ProveResult& result) {
                              {"delta_e_measured", proved.measured.deltaE},
                              {"surprise", proved.surprise}};
   };
-  return {{"method", nameOf(result.method)},   {"before", projection(result.before)},
-          {"after", projection(result.after)}, {"reachable", result.reachable},
-          {"exposures", result.exposures},     {"seconds", result.seconds},
+  return {{"method", nameOf(result.method)},
+          {"before", projection(result.before)},
+          {"after", projection(result.after)},
+          {"reachable", result.reachable},
+          {"moved",
+           {{"x", result.moved.x},
+            {"y", result.moved.y},
+            {"degrees", result.moved.degrees},
+            {"explains", result.moved.explains}}},
+          {"exposures", result.exposures},
+          {"seconds", result.seconds},
           {"files", pathsToJson(result.files)}};
 }
 

@@ -29,6 +29,17 @@ ProvedProjection projectionFrom(const calibration::Json& json) {
   return {errorFrom(json.at("predicted")), errorFrom(json.at("measured")), json.at("surprise").get<double>()};
 }
 
+calibration::Json toJson(const sentinels::Movement& moved) {
+  return {{"x", moved.x}, {"y", moved.y}, {"degrees", moved.degrees}, {"explains", moved.explains}};
+}
+/// Records of earlier versions have none.
+sentinels::Movement movementFrom(const calibration::Json& json) {
+  if (!json.contains("moved")) return {};
+  const calibration::Json& moved = json.at("moved");
+  return {moved.at("x").get<double>(), moved.at("y").get<double>(), moved.at("degrees").get<double>(),
+          moved.at("explains").get<bool>()};
+}
+
 calibration::Json toJson(const ContentSettings& content) {
   CalibrateSettings settings;
   settings.content = content;
@@ -49,7 +60,8 @@ void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
                                {"method", record.figures.method},
                                {"before", toJson(record.figures.before)},
                                {"after", toJson(record.figures.after)},
-                               {"reachable", record.figures.reachable}};
+                               {"reachable", record.figures.reachable},
+                               {"moved", toJson(record.figures.moved)}};
   writeFileAtomically(folder / fileName, json.dump(2));
 }
 
@@ -65,6 +77,7 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     record.figures.before = projectionFrom(json.at("before"));
     record.figures.after = projectionFrom(json.at("after"));
     record.figures.reachable = json.at("reachable").get<double>();
+    record.figures.moved = movementFrom(json);
     return record;
   } catch (const calibration::Json::exception& cause) {
     throw Error(ErrorKind::format,

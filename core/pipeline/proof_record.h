@@ -15,7 +15,7 @@ struct ProofRecord {
   std::string taken;        // ISO 8601, UTC
   std::string measurement;  // when the light transport was measured that it belongs to
   ContentSettings content;
-  ProveResult figures;  // method, before, after, reachable
+  ProveResult figures;  // method, before, after, reachable, moved
 };
 
 /// Writes proof.json into a folder. Throws: Error{disk}.

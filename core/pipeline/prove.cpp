@@ -15,6 +15,7 @@
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/photography/photographer.h"
+#include "relucent/pipeline/aim.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection.h"
@@ -32,6 +33,7 @@ struct Photographed {
   CameraStack camera;  // radiance
   image::Image deltaE;
   image::Image whole;  // radiance, see wholePhotograph()
+  sentinels::Movement moved;
 };
 
 PictureError errorOf(const compensation::Prediction& seen) {
@@ -112,6 +114,9 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
   result.camera = frame.radiance;
   result.error.surprise = surpriseOf(frame.radiance, predicted.camera, target);
   result.error.predicted = errorOf(predicted);
+  result.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, 0),
+                           image::imageFromStack(frame.radiance, cameras, 0))
+                     .movement;
   compensation::Prediction seen = compensation::compared(std::move(frame.radiance), target, cameras);
   result.error.measured = errorOf(seen);
   result.deltaE = std::move(seen.deltaE);
@@ -239,6 +244,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   photographing.report(1.0);
   result.before = before.error;
   result.after = after.error;
+  result.moved = before.moved;
   result.seconds = watch.seconds();
   result.exposures = shots.exposures();
   result.files = writePictures(settings.out, target, transport.cameras(), before, after);
@@ -253,6 +259,10 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
 }
 
 }  // namespace
+
+bool isAsPredicted(const ProveResult& result) {
+  return result.after.measured.deltaE <= std::max(2.0 * result.after.predicted.deltaE, 1.0);
+}
 
 ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,
                              Progress& progress) {

@@ -11,6 +11,7 @@
 #include "relucent/compensation/target.h"
 #include "relucent/pipeline/rig_settings.h"
 #include "relucent/rig/rig.h"
+#include "relucent/sentinels/movement.h"
 
 namespace relucent::pipeline {
 
@@ -45,10 +46,16 @@ struct ProveResult {
   ProvedProjection before;  // the content as it is, in its place: method none
   ProvedProjection after;   // compensated, or what was shown
   double reachable = 0.0;   // share of the content's camera pixels
+  /// Of the first camera's view since the venue was measured; says nothing unless it explains.
+  sentinels::Movement moved{};
   int exposures = 0;
   double seconds = 0.0;  // of photographing
   std::vector<std::filesystem::path> files;
 };
+
+/// Within twice of what was predicted, or too close to the wanted picture for anybody to see a difference
+/// (Delta E 00 of 1): nothing has moved.
+bool isAsPredicted(const ProveResult& result);
 
 /// The verification shot: projects a picture as it is and compensated, photographs both with the
 /// calibration's devices, and compares the photographs with what was wanted and with what T predicts.

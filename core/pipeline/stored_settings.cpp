@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/stored_settings.h"
 
-#include <fmt/format.h>
-
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
 #include "relucent/pipeline/settings_json.h"
@@ -16,13 +14,6 @@ constexpr const char* movedScreen = "screen";
 /// There, how the cameras are reduced: for no person to read. calibration/stage.h names it too.
 constexpr const char* reductionSection = "reduction";
 constexpr const char* toBeChosen = "to be chosen";
-
-void flatten(const calibration::Json& json, const std::string& name, std::vector<StoredSetting>& list) {
-  if (json.is_object())
-    for (const auto& [key, value] : json.items()) flatten(value, name.empty() ? key : name + "." + key, list);
-  else
-    list.push_back({name, json.is_string() ? json.get<std::string>() : json.dump()});
-}
 
 }  // namespace
 
@@ -39,14 +30,6 @@ CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
     screenFromJson(folder.settings().at(movedScreen), *screen);
   stagesFromJson(folder.settings(), settings);
   return settings;
-}
-
-std::vector<StoredSetting> settingsListOf(const calibration::CalibrationFolder& folder) {
-  std::vector<StoredSetting> list;
-  calibration::Json asked = folder.settings();
-  asked.erase(reductionSection);
-  flatten(asked, "", list);
-  return list;
 }
 
 RigSettings measuredRigOf(const calibration::CalibrationFolder& folder) {

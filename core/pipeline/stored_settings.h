@@ -19,14 +19,6 @@ calibration::CalibrationFolder createCalibration(const std::filesystem::path& pa
 /// What a calibration was asked for, with the screen that it uses now. Throws: Error{format}.
 CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder);
 
-/// A setting as the manifest has it: "acquisition.relativeThreshold", "0.008".
-struct StoredSetting {
-  std::string name;
-  std::string value;
-};
-/// All of them, those of other versions too, for people to read.
-std::vector<StoredSetting> settingsListOf(const calibration::CalibrationFolder& folder);
-
 /// The devices as they were when the calibration was begun: the screen at its place of then.
 /// Throws: Error{format}.
 RigSettings measuredRigOf(const calibration::CalibrationFolder& folder);

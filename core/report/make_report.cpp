@@ -7,9 +7,12 @@
 #include "relucent/base/error.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
+#include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/standard_images.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/report.h"
 #include "relucent/report/support_bundle.h"
 
@@ -20,8 +23,10 @@ namespace {
 std::string venueSentence(const pipeline::RigSettings& rig) {
   if (const auto* imported = std::get_if<pipeline::ImportedRigSettings>(&rig))
     return fmt::format("Imported from {} photographs taken elsewhere", imported->pictures);
+  if (std::holds_alternative<pipeline::ReplayRigSettings>(rig)) return "Computed from recorded photographs";
+  if (std::holds_alternative<pipeline::CommandRigSettings>(rig)) return "Measured with external programs";
   const auto* simulated = std::get_if<venue::VenueSettings>(&rig);
-  if (simulated == nullptr) return "Measured with external programs";
+  if (simulated == nullptr) return "Measured in the venue";
   for (const venue::VenueDescription& venue : venue::venues())
     if (venue.name == simulated->name)
       return fmt::format("Simulated venue {}: {}", venue.name, venue.sentence);
@@ -91,22 +96,48 @@ double meanDeltaE(const fs::path& map) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// How the photograph was judged; what nobody kept, or of another measurement, is left open.
+void addJudgement(ReportVerification& verification, const fs::path& folder,
+                  const calibration::StageResult& acquired) {
+  const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
+  if (!record || record->measurement != acquired.stored) return;
+  verification.taken = record->taken;
+  verification.deltaEPredicted = record->figures.after.predicted.deltaE;
+  verification.isAsPredicted = pipeline::isAsPredicted(record->figures);
+}
+
 /// What proveCalibration() left in the calibration, unless the light transport was measured after that or
 /// something is missing.
-std::optional<ReportVerification> verificationIn(const fs::path& calibration, const fs::path& transport) {
+std::optional<ReportVerification> verificationIn(const fs::path& calibration,
+                                                 const calibration::StageResult& acquired) {
   fs::path folder = calibration / "verification", photograph = folder / "after.png";
   std::error_code missing;
   fs::file_time_type taken = fs::last_write_time(photograph, missing);
-  if (missing || taken < fs::last_write_time(transport, missing)) return std::nullopt;
+  if (missing || taken < fs::last_write_time(calibration::fileOf(acquired, "transport.npz"), missing))
+    return std::nullopt;
   try {
     auto read = [&](const char* name) { return image::readPicture(folder / name).encoded; };
     auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(taken));
-    return ReportVerification{read("target.png"),
-                              read("before.png"),
-                              read("after.png"),
-                              meanDeltaE(folder / "before_delta_e.exr"),
-                              meanDeltaE(folder / "after_delta_e.exr"),
-                              fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
+    ReportVerification verification{read("target.png"),
+                                    read("before.png"),
+                                    read("after.png"),
+                                    meanDeltaE(folder / "before_delta_e.exr"),
+                                    meanDeltaE(folder / "after_delta_e.exr"),
+                                    fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
+    addJudgement(verification, folder, acquired);
+    return verification;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// The last check for drift of this measurement.
+std::optional<ReportDrift> driftIn(const fs::path& calibration, const calibration::StageResult& acquired) {
+  try {
+    const auto record = pipeline::loadDriftRecord(calibration / "verification");
+    if (!record || record->measurement != acquired.stored) return std::nullopt;
+    return ReportDrift{record->verdict, record->error, record->errorThen, record->changedShare,
+                       record->checked};
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -142,10 +173,12 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.leavesPerLevel = leavesPerLevel(transport);
   data.ridge = measured.ridge;
   data.ridgeCurve = measured.ridgeCurve;
-  data.settings = pipeline::settingsListOf(folder);
+  data.settings = settingsInWords(pipeline::settingsOf(folder));
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
-  if (auto acquired = folder.latest(calibration::Stage::acquisition))
-    data.verification = verificationIn(folder.path(), calibration::fileOf(*acquired, "transport.npz"));
+  if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
+    data.verification = verificationIn(folder.path(), *acquired);
+    data.drift = driftIn(folder.path(), *acquired);
+  }
 
   Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {

@@ -15,36 +15,17 @@
 #include "relucent/report/measured_charts.h"
 #include "relucent/report/number_text.h"
 #include "relucent/report/pictures.h"
+#include "relucent/report/proof_sections.h"
 #include "relucent/report/templates.h"
 
 namespace relucent::report {
 namespace {
 
-using Data = kainjow::mustache::data;
+using Data = PageData;
 
 constexpr double deltaEScale = 20.0;     // right end of the error maps: far beyond what nobody could miss
 constexpr double leastReachable = 0.95;  // of a picture: the wizard places content so that more is in reach
 constexpr charts::Drawing chartDrawing{{470.0, 300.0}};
-
-Data named(const std::string& name, const std::string& value) {
-  Data item;
-  item.set("name", name);
-  item.set("value", value);
-  return item;
-}
-
-/// An sRGB-encoded picture with its caption; `below`: a legend between both.
-Data figure(const image::Image& encoded, const std::string& name, const std::string& caption,
-            const std::string& below = {}) {
-  Data item;
-  item.set("picture", pngDataUri(encoded));
-  item.set("width", std::to_string(encoded.width()));
-  item.set("height", std::to_string(encoded.height()));
-  item.set("name", name);
-  item.set("caption", caption);
-  item.set("below", below);
-  return item;
-}
 
 double meanOf(const image::Image& values) {
   double sum = 0.0;
@@ -67,32 +48,22 @@ Data cards(const ReportData& data) {
   Data list(Data::type::list);
   list << named("Photographs", grouped(static_cast<std::uint64_t>(std::max(0, result.exposures))))
        << named("Time", duration(seconds)) << named("Connections of light", grouped(result.connections))
-       << named("Pixels flagged", percent(result.flaggedShare));
+       << named("Unreliable pixels", percent(result.flaggedShare));
   if (data.evaluation) list << named("Can be reached", percent(data.evaluation->reachable));
   return list;
 }
 
-Data findings(const ReportData& data) {
-  Data list(Data::type::list);
-  for (const Message& finding : data.result.findings) list << Data(englishSentence(finding));
+/// What stands out, and what was proved.
+void setFindings(Data& page, const ReportData& data) {
+  Data warnings(Data::type::list), assurances(Data::type::list);
+  addVerdicts(data, warnings, assurances);
+  for (const Message& finding : data.result.findings) warnings << Data(englishSentence(finding));
   for (const ReportComparison& shown : data.comparisons)
     if (shown.reachable < leastReachable)
-      list << Data(fmt::format("{} of “{}” cannot be reached and stays darker than it should.",
-                               percent(1.0 - shown.reachable), shown.name));
-  return list;
-}
-
-Data verification(const ReportVerification& shown) {
-  Data figures(Data::type::list);
-  figures << figure(shown.wanted, "Wanted", "the picture as it should appear.")
-          << figure(shown.before, "Photograph, uncompensated",
-                    fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEBefore))
-          << figure(shown.after, "Photograph, compensated",
-                    fmt::format("mean colour error ΔE {:.1f}.", shown.deltaEAfter));
-  Data section;
-  section.set("taken", localTime(shown.taken));
-  section.set("figures", figures);
-  return section;
+      warnings << Data(fmt::format("{} of “{}” cannot be reached and stays darker than it should.",
+                                   percent(1.0 - shown.reachable), shown.name));
+  page.set("findings", warnings);
+  page.set("assurances", assurances);
 }
 
 Data comparison(const ReportComparison& shown) {
@@ -112,8 +83,7 @@ Data comparison(const ReportComparison& shown) {
   figures << figure(image::viewed(shown.wanted, shown.white), "Wanted", "the picture as it should appear.")
           << figure(image::viewed(shown.uncompensated, shown.white), "Uncompensated",
                     "only placed, " + how + ".")
-          << figure(image::viewed(shown.compensated, shown.white), "Compensated",
-                    fmt::format("method {}, {}.", nameOf(shown.method), how))
+          << figure(image::viewed(shown.compensated, shown.white), "Compensated", how + ".")
           << errors(before, "Error uncompensated") << errors(after, "Error compensated");
   Data section;
   section.set("name", shown.name);
@@ -229,7 +199,7 @@ std::string levelBars(const std::vector<std::uint64_t>& leavesPerLevel) {
     bars.push_back({level == 0 ? "single pixels" : fmt::format("{0} × {0}", 1ULL << level),
                     std::log10(1.0 + static_cast<double>(leavesPerLevel[level])),
                     grouped(leavesPerLevel[level]), level == 0});
-  return charts::svgOf(bars, "Stored blocks of the light transport by their size");
+  return charts::svgOf(bars, "Connections of light by the size of their blocks");
 }
 
 /// What was tried to find how strongly the inverse has to be damped.
@@ -276,7 +246,7 @@ void setSettingsAndTimes(Data& page, const ReportData& data) {
                    fmt::format("{:.0f} MB", static_cast<double>(result.peakMemoryBytes) / 1e6));
   page.set("costs", costs);
   Data rows(Data::type::list);
-  for (const pipeline::StoredSetting& setting : data.settings) rows << named(setting.name, setting.value);
+  for (const NamedText& setting : data.settings) rows << named(setting.name, setting.value);
   if (!rows.is_empty_list()) {
     Data settings;
     settings.set("rows", rows);
@@ -306,8 +276,8 @@ Data pageOf(const ReportData& data) {
   page.set("measured", localTime(data.measured));
   page.set("software", data.software);
   page.set("cards", cards(data));
-  page.set("findings", findings(data));
-  if (data.verification) page.set("verification", verification(*data.verification));
+  setFindings(page, data);
+  if (data.verification) page.set("verification", verificationSection(*data.verification));
   Data comparisons(Data::type::list);
   for (const ReportComparison& shown : data.comparisons) comparisons << comparison(shown);
   page.set("comparisons", comparisons);

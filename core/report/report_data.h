@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "relucent/acquisition/reverification.h"
 #include "relucent/compensation/ridge_choice.h"
 #include "relucent/image/image.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/evaluate.h"
-#include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/versions.h"
+#include "relucent/report/settings_words.h"
 
 namespace relucent::report {
 
@@ -35,7 +36,17 @@ struct ReportVerification {
   image::Image wanted, before, after;
   double deltaEBefore = 0.0;  // means over the content, CIEDE2000
   double deltaEAfter = 0.0;
-  std::string taken;  // when, ISO 8601
+  std::string taken;                        // when, ISO 8601
+  std::optional<double> deltaEPredicted{};  // of the compensated one; none: the record of that is lost
+  std::optional<bool> isAsPredicted{};      // pipeline/prove.h
+};
+
+/// The newest check for drift.
+struct ReportDrift {
+  acquisition::Verdict verdict = acquisition::Verdict::stillGood;
+  double error = 0.0, errorThen = 0.0;  // of the test patterns, relative: at the check, when T was measured
+  double changedShare = 0.0;            // of the view
+  std::string checked;                  // when, ISO 8601
 };
 
 /// Everything that a report shows. What is empty is left out.
@@ -59,7 +70,8 @@ struct ReportData {
   std::vector<ReportComparison> comparisons;
   std::optional<pipeline::EvaluateResult> evaluation;
   std::optional<ReportVerification> verification;
-  std::vector<pipeline::StoredSetting> settings;
+  std::optional<ReportDrift> drift;
+  std::vector<NamedText> settings;
   std::vector<pipeline::LibraryVersion> libraries;
 };
 

@@ -179,6 +179,16 @@ void OutputProjection::setFrozen(bool frozen) {
   Q_EMIT changed();
 }
 
+void OutputProjection::setOverlay(bool overlay) {
+  if (player_) player_->setOverlay(overlay);
+  Q_EMIT changed();
+}
+
+void OutputProjection::nextChart() {
+  if (player_) player_->handleKey(Qt::Key_T);
+  Q_EMIT changed();
+}
+
 void OutputProjection::setCompensated(bool compensated) {
   if (player_) player_->setCompensated(compensated);
   Q_EMIT changed();

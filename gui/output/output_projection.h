@@ -51,8 +51,15 @@ class OutputProjection : public QObject {
   bool isBlack() const { return player_ && player_->isBlack(); }
   bool isFrozen() const { return player_ && player_->isFrozen(); }
   bool isCompensated() const { return !player_ || player_->isCompensated(); }
+  /// Figures over the picture, on the projectors too.
+  bool hasOverlay() const { return player_ && player_->hasOverlay(); }
+  /// A test chart in place of the playlist.
+  bool showsChart() const { return player_ && player_->chart().has_value(); }
   void setBlack(bool black);
   void setFrozen(bool frozen);
+  void setOverlay(bool overlay);
+  /// The first one, another one, then the playlist again.
+  void nextChart();
   void setCompensated(bool compensated);
 
   PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }

@@ -6,6 +6,7 @@
 #include <QStyle>
 #include <algorithm>
 
+#include "theme/accessible_role.h"
 #include "theme/theme.h"
 
 namespace relucent::gui {
@@ -196,6 +197,7 @@ void Note::setText(const QString& sentence, const QString& more) {
 }
 
 Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent) {
+  setAccessibleRole(this, QAccessible::Grouping);
   for (qsizetype i = 0; i < texts.size(); ++i) {
     QPushButton* button = buttonOf(texts[i], "segment", this);
     button->setCheckable(true);

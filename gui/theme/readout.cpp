@@ -4,6 +4,7 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "theme/accessible_role.h"
 #include "theme/theme.h"
 
 namespace relucent::gui {
@@ -33,6 +34,7 @@ double widthOf(const QString& value) {
 }  // namespace
 
 Readout::Readout(const QString& what, QWidget* parent) : QWidget(parent), what_(what) {
+  setAccessibleRole(this, QAccessible::StaticText);
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
   setValue(QString::fromUtf8("–"));

@@ -5,7 +5,8 @@
 #include <QFontDatabase>
 #include <QPalette>
 #include <QStyle>
-#include <QStyleFactory>
+
+#include "theme/base_style.h"
 
 namespace relucent::gui {
 namespace {
@@ -48,7 +49,7 @@ Theme& Theme::instance() {
 
 void Theme::apply(Look look) {
   look_ = look;
-  QApplication::setStyle(QStyleFactory::create("Fusion"));
+  QApplication::setStyle(new BaseStyle);
   QApplication::setPalette(paletteOf(colours()));
   QApplication::setFont(typeOf(type::body));
   qApp->setStyleSheet(styleSheetOf(colours()));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "theme/accessible_role.h"
 #include "theme/theme.h"
 #include "views/chart_drawing.h"
 
@@ -17,6 +18,7 @@ CutHistogram::CutHistogram(charts::Axis x, const QString& countTitle, QWidget* p
       chart_{{}, std::move(x), {1.0, 10.0, true, countTitle.toStdString()}},
       cut_(std::numeric_limits<double>::quiet_NaN()) {
   setFocusPolicy(Qt::StrongFocus);
+  setAccessibleRole(this, QAccessible::Slider);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 

@@ -54,7 +54,13 @@ void ImageView::setDivider(double share) {
 }
 
 QRectF ImageView::frame() const {
-  return QRectF(rect()).adjusted(0, 0, scale_ && !picture_.isNull() ? -barWidth : 0.0, 0);
+  const bool hasBar = (scale_ || keepsRoom_) && !picture_.isNull();
+  return QRectF(rect()).adjusted(0, 0, hasBar ? -barWidth : 0.0, 0);
+}
+
+void ImageView::keepRoomForBar() {
+  keepsRoom_ = true;
+  refresh();
 }
 
 QRectF ImageView::barArea() const {

@@ -21,6 +21,8 @@ class ImageView : public PlaneView {
   void setOverlay(const QImage& overlay);
   /// A colour bar at the right; `percent`: its values are shares.
   void setScale(const ColourScale& scale, const QString& unit, bool percent);
+  /// Without a bar, too, its room stays free: beside a view that has one, pictures are of one size.
+  void keepRoomForBar();
   /// The picture to the right of a divider, for comparison.
   void setCompared(const QImage& right, const QString& leftText, const QString& rightText);
   double divider() const { return divider_; }
@@ -49,7 +51,7 @@ class ImageView : public PlaneView {
   QImage picture_, overlay_, compared_;
   QString leftText_, rightText_, unit_;
   std::optional<ColourScale> scale_;
-  bool percent_ = false, dividing_ = false;
+  bool percent_ = false, dividing_ = false, keepsRoom_ = false;
   double divider_ = 0.5;
 };
 

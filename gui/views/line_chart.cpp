@@ -3,6 +3,7 @@
 
 #include <QPainter>
 
+#include "theme/accessible_role.h"
 #include "theme/theme.h"
 #include "views/chart_drawing.h"
 
@@ -10,6 +11,7 @@ namespace relucent::gui {
 
 LineChart::LineChart(charts::Axis x, charts::Axis y, QWidget* parent)
     : QWidget(parent), chart_{{}, std::move(x), std::move(y)} {
+  setAccessibleRole(this, QAccessible::Chart);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }

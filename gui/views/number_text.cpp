@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "views/number_text.h"
 
+#include <QCoreApplication>
 #include <QGuiApplication>
 #include <QLocale>
 #include <cmath>
@@ -9,6 +10,10 @@
 
 namespace relucent::gui {
 namespace {
+
+struct Words {
+  Q_DECLARE_TR_FUNCTIONS(NumberText)
+};
 
 constexpr QChar isolate(0x2068), endOfIsolate(0x2069);
 
@@ -37,6 +42,15 @@ QString percentText(double share) {
 
 QString countText(std::uint64_t count) {
   return isolated(grouped(QString::number(count)));
+}
+
+QString largeText(std::uint64_t count) {
+  constexpr double million = 1e6, billion = 1e9;
+  const auto value = static_cast<double>(count);
+  if (value < million) return countText(count);
+  const bool isMillions = value < billion;
+  const QString digits = digitsOf(value / (isMillions ? million : billion));
+  return isolated((isMillions ? Words::tr("%1 million") : Words::tr("%1 billion")).arg(digits));
 }
 
 QString bytesText(std::uint64_t bytes) {

@@ -17,6 +17,8 @@ QString decimalText(double value, int decimals);
 QString percentText(double share);
 /// 21 480: grouped with narrow no-break spaces.
 QString countText(std::uint64_t count);
+/// 21 480, 30.1 million, 944 million, 2.1 billion: with a word where there are many digits.
+QString largeText(std::uint64_t count);
 /// "412 MB".
 QString bytesText(std::uint64_t bytes);
 /// "1/30 s", "0.25 s", "2 s".

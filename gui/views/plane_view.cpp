@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "theme/accessible_role.h"
 #include "theme/theme.h"
 #include "views/vtk_view.h"
 #include "views/whole_screen.h"
@@ -50,6 +51,7 @@ PlaneView::PlaneView(QWidget* parent) : QWidget(parent) {
   setMinimumSize(120, 90);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setFocusPolicy(Qt::StrongFocus);
+  setAccessibleRole(this, QAccessible::Graphic);
   setMouseTracking(true);
   setLink(&own_);
   connect(&Theme::instance(), &Theme::changed, this, [this] { refresh(); });

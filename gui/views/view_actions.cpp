@@ -19,6 +19,39 @@ struct Translated {
   Q_DECLARE_TR_FUNCTIONS(ViewActions)
 };
 
+QToolButton* menuButton(Icon icon, const QString& name) {
+  QToolButton* button = toolOf(icon, name);
+  button->setMenu(new QMenu(button));
+  button->setPopupMode(QToolButton::InstantPopup);
+  return button;
+}
+
+/// Entries of a button's menu that save the visible picture, and the values where there are any then.
+void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>& shown,
+               const std::function<void(const Failure&)>& failed) {
+  auto add = [&](const QString& text, const QString& title, const QString& filter, const QString& ending) {
+    QAction* action = button.menu()->addAction(text);
+    QObject::connect(action, &QAction::triggered, &card, [=, &button] {
+      QString path = QFileDialog::getSaveFileName(button.window(), title, {}, filter);
+      if (path.isEmpty()) return;
+      if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
+      try {
+        const ShownView now = shown();
+        saveView(now.view, now.values, path);
+      } catch (...) {
+        failed(failureOf(std::current_exception()));
+      }
+    });
+    return action;
+  };
+  add(Translated::tr("Picture as seen"), Translated::tr("Save the picture"),
+      Translated::tr("Pictures (*.png)"), ".png");
+  QAction* values = add(Translated::tr("Values"), Translated::tr("Save the values"),
+                        Translated::tr("OpenEXR (*.exr)"), ".exr");
+  QObject::connect(button.menu(), &QMenu::aboutToShow, &card,
+                   [values, shown] { values->setVisible(static_cast<bool>(shown().values.values)); });
+}
+
 }  // namespace
 
 void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
@@ -54,30 +87,23 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
   QToolButton* whole = toolOf(Icon::monitor, Translated::tr("Whole screen (F11)"));
   QObject::connect(whole, &QToolButton::clicked, &view, [&view] { view.setWholeScreen(true); });
   card.addAction(whole);
-
-  QToolButton* save = toolOf(Icon::save, Translated::tr("Save"));
-  auto* menu = new QMenu(save);
-  auto add = [&, save](const QString& text, const QString& title, const QString& filter,
-                       const QString& ending) {
-    QObject::connect(menu->addAction(text), &QAction::triggered, &view, [=, &view] {
-      QString path = QFileDialog::getSaveFileName(save->window(), title, {}, filter);
-      if (path.isEmpty()) return;
-      if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
-      try {
-        saveView(view, values, path);
-      } catch (...) {
-        failed(failureOf(std::current_exception()));
-      }
-    });
-  };
-  add(Translated::tr("Picture as seen"), Translated::tr("Save the picture"),
-      Translated::tr("Pictures (*.png)"), ".png");
-  if (values.values)
-    add(Translated::tr("Values"), Translated::tr("Save the values"), Translated::tr("OpenEXR (*.exr)"),
-        ".exr");
-  save->setMenu(menu);
-  save->setPopupMode(QToolButton::InstantPopup);
+  QToolButton* save = menuButton(Icon::save, Translated::tr("Save"));
+  addSaving(
+      card, *save,
+      [&view, values = std::move(values)] {
+        return ShownView{view, values};
+      },
+      failed);
   card.addAction(save);
+}
+
+void addViewMenu(Card& card, const std::function<ShownView()>& shown,
+                 const std::function<void(const Failure&)>& failed) {
+  QToolButton* button = menuButton(Icon::monitor, Translated::tr("Whole screen, save"));
+  QAction* whole = button->menu()->addAction(Translated::tr("Whole screen (F11)"));
+  QObject::connect(whole, &QAction::triggered, &card, [shown] { shown().view.setWholeScreen(true); });
+  addSaving(card, *button, shown, failed);
+  card.addAction(button);
 }
 
 }  // namespace relucent::gui

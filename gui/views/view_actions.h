@@ -22,6 +22,16 @@ struct ViewValues {
 void addViewActions(Card& card, PlaneView& view, ViewValues values,
                     std::function<void(const Failure&)> failed);
 
+/// One of several views in a card.
+struct ShownView {
+  PlaneView& view;
+  ViewValues values;
+};
+/// One button with all of that, for a card that shows one of several views at a time: `shown` says which one
+/// it is then.
+void addViewMenu(Card& card, const std::function<ShownView()>& shown,
+                 const std::function<void(const Failure&)>& failed);
+
 /// What the view shows, or its numbers, by the name's ending: .png or .exr.
 /// Throws: Error{input} for another ending or without numbers, Error{disk}.
 void saveView(PlaneView& view, const ViewValues& values, const QString& path);

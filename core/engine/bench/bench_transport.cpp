@@ -10,6 +10,8 @@ namespace relucent::engine {
 namespace {
 
 constexpr int footprint = 4, coarseLeaves = 36, finestCoarse = 4, coarseLevels = 3;
+// Camera pixels of so wide a square see the same nodes: light from afar arrives alike at neighbours.
+constexpr int square = 16;
 
 }  // namespace
 
@@ -33,14 +35,16 @@ transport::TransportMatrix benchTransport(Size projector, Size camera) {
         builder.add(row, indexOf(projector, {x, y}), block);
       }
     }
+    Random coarse{20071028, static_cast<std::uint64_t>(place.y / square * camera.width + place.x / square)};
     for (int i = 0; i < coarseLeaves; ++i) {
-      int level = finestCoarse + static_cast<int>(random.below(coarseLevels));
+      int level = finestCoarse + static_cast<int>(coarse.below(coarseLevels));
       Size grid = layout.gridSize(0, std::min(level, layout.levels() - 1));
       transport::Node node{0, std::min(level, layout.levels() - 1),
-                           static_cast<int>(random.below(static_cast<std::uint64_t>(grid.width))),
-                           static_cast<int>(random.below(static_cast<std::uint64_t>(grid.height)))};
+                           static_cast<int>(coarse.below(static_cast<std::uint64_t>(grid.width))),
+                           static_cast<int>(coarse.below(static_cast<std::uint64_t>(grid.height)))};
       builder.add(row, layout.index(node),
-                  transport::ColourBlock::Identity() * (0.004f * random.uniformFloat()));
+                  transport::ColourBlock::Identity() *
+                      (0.004f * (coarse.uniformFloat() + 0.02f * random.uniformFloat())));
     }
   }
   return transport::TransportMatrix(Rasters(camera), Rasters(projector), builder.build());

@@ -241,7 +241,7 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   const inverse::WindowInverse inverse =
       inverse::computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;
-  plan.patchSide = settings.patchSide;
+  plan.packing.patchSide = settings.patchSide;
   const std::vector<linearization::ProjectorResponse> responses(venue.transport.projectors().devices());
   const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
   const EngineContent content = prepareContent(engine, settings.content);

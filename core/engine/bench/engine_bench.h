@@ -18,7 +18,7 @@ struct EngineBenchSettings {
   Size content{1920, 1080};
   std::filesystem::path transport;  // a calibration's T instead of benchTransport()
   BackendChoice backend = BackendChoice::automatic;
-  int patchSide = EngineSettings().patchSide;
+  int patchSide = PackingSettings().patchSide;
   bool references = true;  // also time the products of the pipeline, Eigen and SciPy
   bool oneThread = false;  // of the processor: CPU seconds of one core, for shared machines
 };

@@ -34,20 +34,18 @@ Plane windowsPlane(const EngineVenue& engine, std::size_t channel) {
   return plane;
 }
 
-/// The packed T's channel, before mixing: camera pixels x nodes.
+/// T from a projector channel to the camera channel of its number: camera pixels x nodes.
 Plane transportPlane(const EngineVenue& engine, std::size_t channel) {
-  const PackedTransport& packed = engine.transport;
-  Plane plane(static_cast<Eigen::Index>(packed.pixels().size()),
-              static_cast<Eigen::Index>(engine.venue.transport.layout().count()));
+  const transport::BlockSparse& leaves = engine.venue.transport.leaves();
+  Plane plane(static_cast<Eigen::Index>(leaves.rows()), static_cast<Eigen::Index>(leaves.columns()));
   Eigen::VectorXi count(plane.rows());
-  for (std::size_t row = 0; row < packed.pixels().size(); ++row)
-    count[packed.pixels()[row]] = static_cast<int>(packed.leafStart()[row + 1] - packed.leafStart()[row]);
+  for (std::size_t row = 0; row < leaves.rows(); ++row)
+    count[static_cast<Eigen::Index>(row)] = static_cast<int>(leaves.rowBegin(row + 1) - leaves.rowBegin(row));
   plane.reserve(count);
-  for (const TransportPatch& patch : packed.patches())
-    for (std::size_t row = patch.rowBegin; row < patch.rowEnd; ++row)
-      for (std::size_t i = packed.leafStart()[row]; i < packed.leafStart()[row + 1]; ++i)
-        plane.insert(packed.pixels()[row], packed.nodes()[patch.columnBegin + packed.leaves()[i].column]) =
-            static_cast<float>(packed.leaves()[i].code[channel]);
+  const auto c = static_cast<Eigen::Index>(channel);
+  for (std::size_t row = 0; row < leaves.rows(); ++row)
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      plane.insert(static_cast<Eigen::Index>(row), leaves.column(entry)) = leaves.block(row, entry)(c, c);
   plane.makeCompressed();
   return plane;
 }

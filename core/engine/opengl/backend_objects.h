@@ -29,8 +29,11 @@ struct OpenGlBackend::Objects {
   void takeStep(float length) noexcept;
   void encode() noexcept;
   std::size_t transportBytes() const {
-    return forward.leaves.bytes() + forward.slices.bytes() + rows.bytes() + backward.leaves.bytes() +
-           backward.slices.bytes() + nodes.bytes() + nodeStart.bytes() + segments.bytes();
+    std::size_t bytes = rows.bytes() + groups.bytes() + groupBack.bytes() + nodes.bytes() +
+                        nodeStart.bytes() + segments.bytes();
+    for (const Slices* slices : {&forward, &groupForward, &backward})
+      bytes += slices->leaves.bytes() + slices->slices.bytes();
+    return bytes;
   }
 
   /// Part of a buffer that a shader can bind at once.
@@ -55,6 +58,9 @@ struct OpenGlBackend::Objects {
   GlProgram placing{shaders::place};
   GlProgram windows{shaders::windows}, windowsCorrected{shaders::windows, {"CORRECTION"}};
   GlProgram means{shaders::means}, gather{shaders::gather};
+  GlProgram groupForwardBoth{shaders::group_forward}, groupLightBoth{shaders::group_light};
+  GlProgram groupBackwardStep{shaders::group_backward},
+      groupBackwardCorrected{shaders::group_backward, {"CORRECTION"}};
   GlProgram forwardStep{shaders::forward}, forwardCorrected{shaders::forward, {"CORRECTION"}};
   GlProgram backwardStep{shaders::backward}, backwardCorrected{shaders::backward, {"CORRECTION"}};
   GlProgram sumStep{shaders::sum_nodes}, sumCorrected{shaders::sum_nodes, {"CORRECTION"}};
@@ -66,15 +72,16 @@ struct OpenGlBackend::Objects {
 
   GlBuffer tiles, windowRows, windowWeights;
   std::vector<Batch> tileBatches;
-  Slices forward, backward;
-  GlBuffer rows, nodes, nodeStart, segments, longNodes;
-  std::size_t columns = 0, longCount = 0, nodeCount = 0, cameraPixels = 0, projectorPixels = 0;
+  Slices forward, groupForward, backward;
+  GlBuffer rows, groups, groupBack, nodes, nodeStart, segments, longNodes;
+  std::size_t columns = 0, groupSlots = 0, longCount = 0, nodeCount = 0, cameraPixels = 0,
+              projectorPixels = 0;
   std::size_t freeValues = 0;
 
   // Six vectors a camera pixel, see common.glsl; `known` is the content of `camera`.
   std::vector<float> known;
   GlBuffer camera, wanted, unmixed, placed;
-  GlBuffer light, nodeLight, columnLight, back, segmentSums, sums;
+  GlBuffer light, nodeLight, columnLight, groupLight, back, segmentSums, sums;
   GlBuffer counters, brightnessParts, brightest, words, linearOfSrgb;
   GlBuffer frame, footprints, weights;
   std::vector<Encoder> encoders;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The adjoint: one segment an invocation, some of the leaves that a node has in one patch. Nobody else writes
 // its sum, so the order of additions is always the same.
-layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first row
+layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first place
 layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
 #ifdef CORRECTION
 layout(std430, binding = 2) readonly buffer Back { uvec4 back[]; };

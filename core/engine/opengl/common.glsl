@@ -52,6 +52,12 @@ vec3 unpackFloats(uvec2 code) {
 /// black and usable; flood; lit; nine of the unmixing matrix, row by row, and nothing.
 const uint cameraBlack = 0u, cameraFlood = 1u, cameraLit = 2u, cameraUnmix = 3u, cameraStride = 6u;
 
+const uint nothing = 0xffffffffu;
+
+/// What a row of T and a group of camera pixels are known by.
+const uint rowOwn = 1u, rowShared = 10u, rowGroup = 19u, rowBack = 20u, rowStride = 21u;
+const uint groupParent = 0u, groupPlace = 1u, groupRows = 2u, groupScale = 4u, groupStride = 5u;
+
 mat3 rowsOf(vec4 a, vec4 b, float last) {
   return transpose(mat3(a.xyz, vec3(a.w, b.xy), vec3(b.zw, last)));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One camera pixel an invocation: its residual W (wanted - T p), and what of that goes back to each node,
-// mixing included. With CORRECTION the light wanted is held to what there is, W T 1 goes back beside it, and
+// One camera pixel an invocation: its residual W (wanted - T p), and what of that goes back to its own leaves and
+// to its group, mixings included. With CORRECTION the light wanted is held to what there is, W T 1 goes back beside it, and
 // the residual is unmixed for the windows.
 layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first column
 layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
 layout(std430, binding = 2) readonly buffer ColumnLight { uvec2 columnLight[]; };
-layout(std430, binding = 3) readonly buffer Rows { uint row[]; };  // camera pixel, 9 of its mixing
+layout(std430, binding = 3) readonly buffer Rows { uint row[]; };
 layout(std430, binding = 4) readonly buffer Wanted { vec4 wanted[]; };
 #ifdef CORRECTION
 layout(std430, binding = 5) writeonly buffer Back { uvec4 back[]; };
@@ -18,6 +18,13 @@ layout(std430, binding = 5) writeonly buffer Back { uvec2 back[]; };
 layout(location = 0) uniform uint firstSlice;
 layout(location = 1) uniform uint slices;
 layout(location = 2) uniform uint leavesBefore;  // / 32: those of the slices before what is bound
+layout(location = 3) uniform uint columns;       // behind their light there is that of groups
+
+mat3 mixingAt(uint at) {  // its columns are the mixing's rows
+  mat3 mixing;
+  for (uint i = 0u; i < 3u; ++i, at += 3u) mixing[i] = uintBitsToFloat(uvec3(row[at], row[at + 1u], row[at + 2u]));
+  return mixing;
+}
 
 void main() {
   uint index = invocation() / 32u;
@@ -25,38 +32,43 @@ void main() {
   if (index >= slices) return;
   uvec2 here = slice[firstSlice + index];
   uint end = slice[firstSlice + index + 1u].x - leavesBefore;
-  vec3 seen = vec3(0.0);
+  uint slot = 32u * (firstSlice + index) + lane;
+  uint r = rowStride * slot;
+  vec3 own = vec3(0.0);
   for (uint k = here.x - leavesBefore; k < end; ++k) {
     uvec2 one = leaf[32u * k + lane];
-    seen += codesOf(one) * unpackLight(columnLight[here.y + placeOf(one)]);
+    own += codesOf(one) * unpackLight(columnLight[here.y + placeOf(one)]);
   }
 
-  uint slot = 32u * (firstSlice + index) + lane;
-  uint pixel = row[10u * slot];
-  if (pixel == 0xffffffffu) return;
-  mat3 mixing;  // its columns are the mixing's rows
-  for (uint i = 0u; i < 3u; ++i)
-    mixing[i] = uintBitsToFloat(
-        uvec3(row[10u * slot + 3u * i + 1u], row[10u * slot + 3u * i + 2u], row[10u * slot + 3u * i + 3u]));
+  uint pixel = row[r];
+  if (pixel == nothing) return;
+  uint to = row[r + rowBack];
   vec4 want = wanted[pixel];
   if (want.w == 0.0) {
 #ifdef CORRECTION
-    back[slot] = uvec4(0u);
+    back[to] = back[to + 1u] = uvec4(0u);
     unmixed[pixel] = vec4(0.0);
 #else
-    back[slot] = uvec2(0u);
+    back[to] = back[to + 1u] = uvec2(0u);
 #endif
     return;
   }
+  mat3 ownMixing = mixingAt(r + rowOwn), sharedMixing = mixingAt(r + rowShared);
+  vec3 seen = own * ownMixing;
+  uint group = row[r + rowGroup];
+  if (group != nothing) seen += unpackFloats(columnLight[columns + group]) * sharedMixing;
 #ifdef CORRECTION
   uint c = cameraStride * pixel;
   vec3 held = clamp(want.xyz, vec3(0.0), max(camera[c + cameraFlood].xyz, vec3(0.0)));
-  vec3 residual = want.w * (held - seen * mixing);
+  vec3 residual = want.w * (held - seen);
   vec3 lit = want.w * camera[c + cameraLit].xyz;
-  back[slot] = uvec4(packFloats(mixing * residual), packFloats(mixing * lit));
+  back[to] = uvec4(packFloats(ownMixing * residual), packFloats(ownMixing * lit));
+  back[to + 1u] = uvec4(packFloats(sharedMixing * residual), packFloats(sharedMixing * lit));
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
   unmixed[pixel] = vec4(unmix * residual, 0.0);
 #else
-  back[slot] = packFloats(mixing * (want.w * (want.xyz - seen * mixing)));
+  vec3 residual = want.w * (want.xyz - seen);
+  back[to] = packFloats(ownMixing * residual);
+  back[to + 1u] = packFloats(sharedMixing * residual);
 #endif
 }

@@ -100,8 +100,12 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
   nodeCount = engine.venue.transport.layout().count();
   const SlicedTransport sliced = slicedTransport(engine.transport, nodeCount);
   forward = Slices(sliced.forward);
+  groupForward = Slices(sliced.groupForward);
   backward = Slices(sliced.backward);
   rows = GlBuffer(sliced.rows);
+  groups = GlBuffer(sliced.groups);
+  groupBack = GlBuffer(sliced.groupBack);
+  groupSlots = sliced.groups.size();
   nodes = GlBuffer(engine.transport.nodes());
   nodeStart = GlBuffer(sliced.nodeStart);
   segments = GlBuffer(sliced.segments);
@@ -118,8 +122,9 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
   projectorPixels = engine.brightest.size();
   light = GlBuffer(vector * projectorPixels);
   nodeLight = GlBuffer(2 * sizeof(std::uint32_t) * nodeCount);
-  columnLight = GlBuffer(2 * sizeof(std::uint32_t) * columns);
-  back = GlBuffer(vector * sliced.rows.size());
+  columnLight = GlBuffer(2 * sizeof(std::uint32_t) * (columns + groupSlots));
+  groupLight = GlBuffer(vector * groupSlots);
+  back = GlBuffer(vector * sliced.backPlaces);
   segmentSums = GlBuffer(2 * vector * LeafSlices::lanes * sliced.backward.count());
   sums = GlBuffer(2 * vector * nodeCount);
   counters = GlBuffer(vector);

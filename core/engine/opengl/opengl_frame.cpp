@@ -66,10 +66,10 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
 }
 
 void OpenGlBackend::Objects::showPlaced() noexcept {
-  constexpr std::size_t groups = 64;
+  constexpr std::size_t parts = 64;
   bindAll({&brightnessParts, &camera, &wanted, &placed});
   brightness.set(0, cameraPixels);
-  brightness.run(groups * group);
+  brightness.run(parts * group);
   brightnessLast.run(group);
   bindAll({&brightest, &placed, &brightnessParts, &light});
   showing.set(0, projectorPixels);
@@ -134,8 +134,22 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
       program.run(LeafSlices::lanes * batch.count);
     }
   };
+  bindAll({&groupForward.slices, &groupForward.leaves, &columnLight, &groups, &groupLight});
+  overSlices(groupForwardBoth, groupForward);
+  bindAll({&groups, &groupLight, &columnLight});
+  groupLightBoth.set(0, groupSlots);
+  groupLightBoth.set(1, columns);
+  groupLightBoth.run(groupSlots);
+
+  const GlProgram& rowsForward = correction ? forwardCorrected : forwardStep;
   bindAll({&forward.slices, &forward.leaves, &columnLight, &rows, &wanted, &back, &camera, &unmixed});
-  overSlices(correction ? forwardCorrected : forwardStep, forward);
+  rowsForward.set(3, columns);
+  overSlices(rowsForward, forward);
+
+  const GlProgram& groupsBack = correction ? groupBackwardCorrected : groupBackwardStep;
+  bindAll({&groups, &groupBack, &back});
+  groupsBack.set(0, groupSlots);
+  groupsBack.run(groupSlots);
   bindAll({&backward.slices, &backward.leaves, &back, &segmentSums});
   overSlices(correction ? backwardCorrected : backwardStep, backward);
 

@@ -33,24 +33,29 @@ void append(LeafSlices& to, std::uint32_t base, std::vector<Run>& runs, const Le
   }
 }
 
+/// Leaves that get the same share of what goes back: a row's or a group's.
+struct Receiver {
+  std::uint32_t place = 0;  // in its patch's list
+  std::uint32_t begin = 0, end = 0;
+};
+
 /// A patch's leaves by columns.
 struct ByColumn {
   std::vector<std::uint32_t> start;  // of a column's leaves
-  std::vector<PackedLeaf> leaves;    // their column is the row's place in the patch
+  std::vector<PackedLeaf> leaves;    // their column is the place of what goes back to them
 
-  ByColumn(const PackedTransport& packed, const TransportPatch& patch,
-           const std::vector<std::uint32_t>& slotOfRow)
-      : start(patch.columnEnd - patch.columnBegin + 1, 0) {
-    const std::uint32_t begin = packed.leafStart()[patch.rowBegin], end = packed.leafStart()[patch.rowEnd];
-    for (std::uint32_t i = begin; i < end; ++i) ++start[packed.leaves()[i].column + 1u];
+  ByColumn(const PackedTransport& packed, std::size_t columns, const std::vector<Receiver>& receivers)
+      : start(columns + 1, 0) {
+    for (const Receiver& receiver : receivers)
+      for (std::uint32_t i = receiver.begin; i < receiver.end; ++i) ++start[packed.leaves()[i].column + 1u];
     std::partial_sum(start.begin(), start.end(), start.begin());
-    leaves.resize(end - begin);
+    leaves.resize(start.back());
     std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-    for (std::uint32_t row = patch.rowBegin; row < patch.rowEnd; ++row) {
-      for (std::uint32_t i = packed.leafStart()[row]; i < packed.leafStart()[row + 1]; ++i) {
+    for (const Receiver& receiver : receivers) {
+      for (std::uint32_t i = receiver.begin; i < receiver.end; ++i) {
         PackedLeaf leaf = packed.leaves()[i];
         std::uint32_t& to = next[leaf.column];
-        leaf.column = static_cast<std::uint16_t>(slotOfRow[row - patch.rowBegin]);
+        leaf.column = static_cast<std::uint16_t>(receiver.place);
         leaves[to++] = leaf;
       }
     }
@@ -67,50 +72,105 @@ struct ByColumn {
   }
 };
 
+/// Cuts the patches into slices, one after the other.
+class Slicer {
+ public:
+  Slicer(const PackedTransport& packed, std::size_t nodes)
+      : packed_(packed), nodes_(static_cast<std::uint32_t>(nodes)) {
+    result_.groupBack.resize(packed.rows().size());
+  }
+
+  void add(const TransportPatch& patch) {
+    const auto firstBack = static_cast<std::uint32_t>(result_.backPlaces);
+    std::vector<Receiver> receivers;
+    const std::vector<std::uint32_t> slotOfGroup = addGroups(patch, firstBack, receivers);
+    addRows(patch, firstBack, slotOfGroup, receivers);
+    const ByColumn columns(packed_, patch.columnEnd - patch.columnBegin, receivers);
+    std::vector<Run> segments = columns.segments();
+    append(result_.backward, firstBack, segments, [&](std::uint32_t i) { return columns.leaves[i]; });
+    for (const Run& segment : segments)
+      nodeOfSegment_.push_back(packed_.nodes()[patch.columnBegin + segment.owner]);
+    nodeOfSegment_.resize(lanes * result_.backward.slices.size(), nodes_);
+  }
+
+  SlicedTransport finish() {
+    for (LeafSlices* slices : {&result_.forward, &result_.groupForward, &result_.backward})
+      slices->slices.push_back({static_cast<std::uint32_t>(slices->leaves.size() / lanes), 0});
+    result_.nodeStart.assign(nodes_ + 1, 0);
+    for (std::uint32_t node : nodeOfSegment_)
+      if (node != nodes_) ++result_.nodeStart[node + 1];
+    std::partial_sum(result_.nodeStart.begin(), result_.nodeStart.end(), result_.nodeStart.begin());
+    result_.segments.resize(result_.nodeStart.back());
+    std::vector<std::uint32_t> next(result_.nodeStart.begin(), result_.nodeStart.end() - 1);
+    for (std::uint32_t segment = 0; segment < nodeOfSegment_.size(); ++segment)
+      if (nodeOfSegment_[segment] != nodes_) result_.segments[next[nodeOfSegment_[segment]]++] = segment;
+    for (std::uint32_t node = 0; node < nodes_; ++node)
+      if (result_.nodeStart[node + 1] - result_.nodeStart[node] >= SlicedTransport::longNode)
+        result_.longNodes.push_back(node);
+    return std::move(result_);
+  }
+
+ private:
+  /// Without what fills it up.
+  Run runOf(const TransportPatch& patch, std::uint32_t owner, std::uint32_t begin, std::uint32_t end) const {
+    while (end > begin && packed_.leaves()[end - 1].column >= patch.columnEnd - patch.columnBegin) --end;
+    return {owner, begin, end};
+  }
+
+  /// Returns the groups' slots.
+  std::vector<std::uint32_t> addGroups(const TransportPatch& patch, std::uint32_t firstBack,
+                                       std::vector<Receiver>& receivers) {
+    std::vector<Run> runs;
+    for (std::uint32_t i = patch.groupBegin; i < patch.groupEnd; ++i)
+      runs.push_back(runOf(patch, i, packed_.groups()[i].leafBegin, packed_.groups()[i].leafEnd));
+    const auto first = static_cast<std::uint32_t>(result_.groups.size());
+    append(result_.groupForward, patch.columnBegin, runs,
+           [&](std::uint32_t i) { return packed_.leaves()[i]; });
+    std::vector<std::uint32_t> slot(runs.size());
+    for (std::uint32_t i = 0; i < runs.size(); ++i) slot[runs[i].owner - patch.groupBegin] = first + i;
+    for (const Run& run : runs) {
+      const PackedGroup& group = packed_.groups()[run.owner];
+      const auto place = static_cast<std::uint32_t>(result_.backPlaces++);
+      receivers.push_back({place - firstBack, run.begin, run.end});
+      result_.groups.push_back(
+          {group.parent == PackedGroup::none ? SlicedTransport::none : slot[group.parent - patch.groupBegin],
+           place, group.rowBegin, group.rowEnd, group.scale});
+    }
+    result_.groups.resize(lanes * result_.groupForward.slices.size());
+    return slot;
+  }
+
+  void addRows(const TransportPatch& patch, std::uint32_t firstBack,
+               const std::vector<std::uint32_t>& slotOfGroup, std::vector<Receiver>& receivers) {
+    std::vector<Run> runs;
+    for (std::uint32_t i = patch.rowBegin; i < patch.rowEnd; ++i)
+      runs.push_back(runOf(patch, i, packed_.rows()[i].leafBegin, packed_.rows()[i].leafEnd));
+    append(result_.forward, patch.columnBegin, runs, [&](std::uint32_t i) { return packed_.leaves()[i]; });
+    for (const Run& run : runs) {
+      const PackedRow& row = packed_.rows()[run.owner];
+      const auto back = static_cast<std::uint32_t>(result_.backPlaces);
+      result_.backPlaces += 2;
+      receivers.push_back({back - firstBack, run.begin, run.end});
+      result_.groupBack[run.owner] = back + 1;
+      const std::uint32_t group =
+          row.group == PackedGroup::none ? SlicedTransport::none : slotOfGroup[row.group - patch.groupBegin];
+      result_.rows.push_back({row.pixel, row.own, row.shared, group, back});
+    }
+    result_.rows.resize(lanes * result_.forward.slices.size());
+  }
+
+  const PackedTransport& packed_;
+  std::uint32_t nodes_;
+  SlicedTransport result_;
+  std::vector<std::uint32_t> nodeOfSegment_;  // nodes_ where there is none
+};
+
 }  // namespace
 
 SlicedTransport slicedTransport(const PackedTransport& packed, std::size_t nodes) {
-  SlicedTransport result;
-  std::vector<std::uint32_t> nodeOfSegment;  // nodes where there is none
-  const auto none = static_cast<std::uint32_t>(nodes);
-  for (const TransportPatch& patch : packed.patches()) {
-    std::vector<Run> rows;
-    for (std::uint32_t row = patch.rowBegin; row < patch.rowEnd; ++row)
-      rows.push_back({row, packed.leafStart()[row], packed.leafStart()[row + 1]});
-    const auto firstSlot = static_cast<std::uint32_t>(result.rows.size());
-    append(result.forward, patch.columnBegin, rows, [&](std::uint32_t i) { return packed.leaves()[i]; });
-
-    std::vector<std::uint32_t> slotOfRow(rows.size());
-    for (std::uint32_t slot = 0; slot < rows.size(); ++slot) {
-      slotOfRow[rows[slot].owner - patch.rowBegin] = slot;
-      SlicedTransport::Row row{packed.pixels()[rows[slot].owner], {}};
-      std::copy_n(&packed.mixing()[9 * std::size_t{rows[slot].owner}], 9, row.mixing.begin());
-      result.rows.push_back(row);
-    }
-    result.rows.resize(lanes * result.forward.slices.size());
-
-    const ByColumn columns(packed, patch, slotOfRow);
-    std::vector<Run> segments = columns.segments();
-    append(result.backward, firstSlot, segments, [&](std::uint32_t i) { return columns.leaves[i]; });
-    for (const Run& segment : segments)
-      nodeOfSegment.push_back(packed.nodes()[patch.columnBegin + segment.owner]);
-    nodeOfSegment.resize(lanes * result.backward.slices.size(), none);
-  }
-  for (LeafSlices* slices : {&result.forward, &result.backward})
-    slices->slices.push_back({static_cast<std::uint32_t>(slices->leaves.size() / lanes), 0});
-
-  result.nodeStart.assign(nodes + 1, 0);
-  for (std::uint32_t node : nodeOfSegment)
-    if (node != none) ++result.nodeStart[node + 1];
-  std::partial_sum(result.nodeStart.begin(), result.nodeStart.end(), result.nodeStart.begin());
-  result.segments.resize(result.nodeStart.back());
-  std::vector<std::uint32_t> next(result.nodeStart.begin(), result.nodeStart.end() - 1);
-  for (std::uint32_t segment = 0; segment < nodeOfSegment.size(); ++segment)
-    if (nodeOfSegment[segment] != none) result.segments[next[nodeOfSegment[segment]]++] = segment;
-  for (std::uint32_t node = 0; node < nodes; ++node)
-    if (result.nodeStart[node + 1] - result.nodeStart[node] >= SlicedTransport::longNode)
-      result.longNodes.push_back(node);
-  return result;
+  Slicer slicer(packed, nodes);
+  for (const TransportPatch& patch : packed.patches()) slicer.add(patch);
+  return slicer.finish();
 }
 
 }  // namespace relucent::engine

@@ -26,17 +26,31 @@ struct LeafSlices {
 
 /// PackedTransport for graphics cards: the same 8 bytes a leaf, once by camera pixels for T p and once by
 /// nodes for the adjoint, which therefore needs no atomic additions: sums have a fixed order.
+/// What goes back from a patch stands in one list: for each row what its leaves and what its group gets, and
+/// for each group what its leaves get. Leaves of `backward` refer to these places.
 struct SlicedTransport {
-  /// A camera pixel's position in its slice. `pixel` is noPixel in padding.
+  static constexpr std::uint32_t none = 0xffffffffu;
+  /// A camera pixel's position in its slice. `pixel` is none in padding.
   struct Row {
-    std::uint32_t pixel = noPixel;
-    std::array<float, 9> mixing{};
+    std::uint32_t pixel = none;
+    std::array<float, 9> own{}, shared{};
+    std::uint32_t group = none;  // its position in its slice
+    std::uint32_t back = 0;      // for its leaves; for its group behind it
   };
-  static constexpr std::uint32_t noPixel = 0xffffffffu;
+  /// A group's position in its slice. `back` is none in padding.
+  struct Group {
+    std::uint32_t parent = none, back = none;
+    std::uint32_t rowBegin = 0, rowEnd = 0;  // of groupBack
+    float scale = 0.0f;
+  };
 
-  LeafSlices forward;                              // places: columns of the patch
-  std::vector<Row> rows;                           // 32 a slice of `forward`
-  LeafSlices backward;                             // places: rows of the patch, in the order of `rows`
+  LeafSlices forward;       // places: columns of the patch
+  std::vector<Row> rows;    // 32 a slice of `forward`
+  LeafSlices groupForward;  // the same of groups
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> groupBack;  // where rows, in the order of PackedTransport, tell their group
+  std::size_t backPlaces = 0;
+  LeafSlices backward;
   std::vector<std::uint32_t> nodeStart, segments;  // of node n: [nodeStart[n], nodeStart[n + 1]) of segments,
                                                    // 32 to a slice of `backward`
   std::vector<std::uint32_t> longNodes;            // with `longNode` segments or more

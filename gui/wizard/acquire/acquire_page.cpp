@@ -87,6 +87,7 @@ void AcquirePage::makeCommands() {
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
+  pushBack_ = addCommand(Icon::camera, [this] { Q_EMIT nudgeWanted(); });
   retry_ = addCommand(Icon::play, begins);
 }
 
@@ -175,6 +176,7 @@ void AcquirePage::updateCommands() {
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
+  pushBack_->show(tr("Push the camera back"));
   retry_->show(tr("Resume"));
 }
 
@@ -353,6 +355,8 @@ void AcquirePage::stay() {
 void AcquirePage::begin() {
   leaving_.stop();
   question_->setClosed(false);
+  alarm_.reset();
+  viewBefore_ = {};
   begunAt_ = lastCount_ = session_.live().photographs();
   rate_ = secondsAPattern_ = 0.0;
   trace_.begin();
@@ -400,8 +404,16 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm) {
                   QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
                   AcquisitionTrace::headingOf(alarm.kind)};
   PageCommand* goOn = sentinels::isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
-  Q_EMIT failed({failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn});
+  FailureReport report{failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn};
+  if (viewBefore_.empty()) viewBefore_ = session_.live().floodlight().signal;
+  if (alarm.kind == sentinels::AlarmKind::moved && !viewBefore_.empty()) report.repair = pushBack_;
+  alarm_ = alarm;
+  Q_EMIT failed(report);
   Q_EMIT asks();
+}
+
+void AcquirePage::askAgain() {
+  if (alarm_ && isMeasuring()) askAboutAlarm(*alarm_);
 }
 
 void AcquirePage::ended() {

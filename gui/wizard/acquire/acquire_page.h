@@ -138,7 +138,14 @@ class AcquirePage : public DevicePage {
   /// The earlier measurement is the one again; what was photographed since is set aside.
   void returnToEarlier();
 
+  /// The surface in full light before the camera moved, with which an alarm waits; empty: nobody knows.
+  const image::Image& viewBefore() const { return viewBefore_; }
+  /// The alarm's question once more, after something was tried against it.
+  void askAgain();
+
  Q_SIGNALS:
+  /// The camera is to be pushed back by viewBefore(); askAgain() is called when that is done.
+  void nudgeWanted();
   /// It has ended, in any way.
   void measured();
   /// Somebody has to decide what is done about an alarm, or to make room on the disk.
@@ -173,9 +180,9 @@ class AcquirePage : public DevicePage {
   void lookAtResponse();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
-  PageCommand* goOnWithDisk_;                                     // of the banner too
-  PageCommand* goOnMeasuring_;                                    // of the banner
-  PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *retry_;  // of reports
+  PageCommand* goOnWithDisk_;                                                 // of the banner too
+  PageCommand* goOnMeasuring_;                                                // of the banner
+  PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *pushBack_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
   /// Which measurement the trace is of, by what the page is about when that ends.
@@ -203,6 +210,8 @@ class AcquirePage : public DevicePage {
   QTimer leaving_;  // a second each
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
+  std::optional<sentinels::Alarm> alarm_;  // the last
+  image::Image viewBefore_;
   RoomQuestion room_;
   bool diskWasFull_ = false;
   Job job_;  // the last: it ends before what its work uses

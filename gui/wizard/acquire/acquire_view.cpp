@@ -17,6 +17,7 @@
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
+#include "wizard/devices/nudge_dialog.h"
 
 namespace relucent::gui {
 namespace {
@@ -147,7 +148,12 @@ QWidget* inspectorOf(AcquirePage& model) {
 }  // namespace
 
 PageView viewOf(AcquirePage& model) {
-  return {stageOf(model), inspectorOf(model)};
+  PageView view{stageOf(model), inspectorOf(model)};
+  QObject::connect(&model, &AcquirePage::nudgeWanted, view.stage, [&model, stage = view.stage] {
+    showNudge(*stage, std::make_unique<Nudge>(model.session(), model.viewBefore()),
+              [&model](bool) { model.askAgain(); });
+  });
+  return view;
 }
 
 }  // namespace relucent::gui

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "theme/accessible_role.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -60,6 +61,7 @@ QString accessibleText(const std::vector<BlockLevel>& levels) {
 
 BlockSizesView::BlockSizesView(QWidget* parent) : QWidget(parent) {
   setObjectName("block-sizes");
+  setAccessibleRole(this, QAccessible::Chart);
   setAccessibleName(AcquirePage::tr("Patterns for each block size"));
   connect(&Theme::instance(), &Theme::changed, this, [this] { update(); });
 }

@@ -6,8 +6,10 @@
 #include <QStackedWidget>
 
 #include "text/message_text.h"
+#include "theme/accessible_role.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 #include "views/image_view.h"
 #include "views/line_chart.h"
 #include "views/number_text.h"
@@ -17,9 +19,20 @@
 namespace relucent::gui {
 namespace {
 
+/// Marks what is sharp.
+void paintPeaks(QPainter& painter, const image::Image& signal, int fine) {
+  const std::vector<std::uint8_t> peaks = image::focusPeaks(signal);
+  const QColor colour = colours(Look::dark).accent;
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    const Pixel pixel = pixelAt(signal.size(), i);
+    if (peaks[i] != 0) painter.fillRect(pixel.x * fine, pixel.y * fine, fine, fine, colour);
+  }
+}
+
 /// Hatches over what is too bright (amber) and too dark (blue, the other slope), the focus area round its
-/// pixels. Drawn finer than the photograph, so that stripes stay stripes.
-QImage overlayOf(const CameraLook& look, const image::Region& area) {
+/// pixels; where it is sharp, if that is wanted. Drawn finer than the photograph, so that stripes stay
+/// stripes.
+QImage overlayOf(const CameraLook& look, const image::Region& area, bool hasPeaks) {
   constexpr int fine = 4;
   Size size = look.frame.signal.size();
   QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
@@ -34,6 +47,7 @@ QImage overlayOf(const CameraLook& look, const image::Region& area) {
     }
   }
   QPainter painter(&overlay);
+  if (hasPeaks) paintPeaks(painter, look.frame.signal, fine);
   for (auto [colour, width] :
        {std::pair(colours(Look::dark).picture, 6.0), std::pair(colours(Look::dark).text, 3.0)}) {
     painter.setPen(QPen(colour, width));
@@ -76,7 +90,10 @@ constexpr double goodFocus = 0.9;
 
 class FocusMeter : public QWidget {
  public:
-  FocusMeter() { setFixedHeight(24); }
+  FocusMeter() {
+    setFixedHeight(24);
+    setAccessibleRole(this, QAccessible::ProgressBar);
+  }
   void setValue(double value) {
     value_ = value;
     setAccessibleName(CameraPage::tr("Focus, %1 of best").arg(percentText(value)));
@@ -122,6 +139,10 @@ class CameraStage : public Card {
       (*label)->setWordWrap(false);
       (*label)->hide();
     }
+    peaks_ = new Tick(CameraPage::tr("Mark what is sharp"));
+    peaks_->setObjectName("focus-peaks");
+    connect(peaks_, &Tick::toggled, this, [this] { refresh(); });
+    addAction(peaks_);
     connect(&view_->link(), &ViewLink::picked, this, [this] {
       if (auto pick = view_->link().pick()) moveArea(*pick);
     });
@@ -155,11 +176,12 @@ class CameraStage : public Card {
     dark_->setVisible(look.check.tooDark > 0.0);
     dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look.check.tooDark)));
     view_->setPicture(pictureOf(look.frame.signal, 1.0f));
-    view_->setOverlay(overlayOf(look, model_.focusArea()));
+    view_->setOverlay(overlayOf(look, model_.focusArea(), peaks_->isChecked()));
   }
   CameraPage& model_;
   ImageView* view_;
   QLabel *bright_, *dark_;
+  Tick* peaks_;
 };
 
 class CameraInspector {

@@ -45,6 +45,7 @@ class ClusterStage : public QWidget {
     map_->setObjectName("cluster-view");
     error_->setObjectName("error-view");
     map_->setScaleBar(true);
+    map_->keepRoomForBar();
     map_->setLink(&link_);
     error_->setLink(&link_);
     for (MapView* view : {map_, error_}) {
@@ -163,6 +164,9 @@ class ClusterStage : public QWidget {
   std::shared_ptr<const ClusterResult> shown_;
 };
 
+/// Median errors that a grouping has which only drops what it is meant to drop.
+constexpr std::pair usualError{0.6, 0.85};
+
 /// A slider with its name, value, and what its ends mean.
 class SliderPart : public QWidget {
  public:
@@ -216,6 +220,7 @@ QWidget* inspectorOf(ClusterPage& model) {
       ClusterPage::tr(
           "Grouping drops the blur of the lens on purpose. Look for patches that stand out from their "
           "surroundings."));
+  normal->setObjectName("normal-error");
   column->addWidget(normal);
   auto* percolated = new Note(Note::Kind::amber);
   column->addWidget(percolated);
@@ -242,8 +247,11 @@ QWidget* inspectorOf(ClusterPage& model) {
     largest->set(settings.mostUnknowns / 16, ClusterPage::tr("%1 px").arg(settings.mostUnknowns));
     const auto& result = model.result();
     percolated->setVisible(false);
+    normal->setVisible(false);
     if (!result) return;
     const clustering::ClusteringStatistics& s = result->statistics;
+    normal->setVisible(result->exact && s.errorMedian >= usualError.first &&
+                       s.errorMedian <= usualError.second);
     clusters->setValue(countText(result->sizes.size()));
     cut->setValue(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap)));
     kept->setValue(percentText(s.keptLight));

@@ -77,6 +77,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
     });
     row->addWidget(first = button);
   };
+  action(report.repair, "");
   action(report.keep, "");
   action(report.goOn, "");
   if (report.resume == nullptr) {

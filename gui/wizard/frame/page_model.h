@@ -50,6 +50,7 @@ struct FailureReport {
   QString safe;
   PageCommand *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
   bool isQuestion = false;                                          // nothing has happened yet
+  PageCommand* repair = nullptr;  // helps to put right what happened; nullptr: nothing here does
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the

@@ -35,6 +35,8 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     });
     look();
   });
+  for (auto signal : {&Session::roomLightChanged, &Session::acquisitionChanged})
+    connect(&session_, signal, this, &LinearizePage::resultChanged);
   connect(&session_, &Session::stepsChanged, this, [this] {
     look();
     tellAll();
@@ -144,6 +146,16 @@ std::optional<double> LinearizePage::seconds() const {
 
 const linearization::ProjectorResponse* LinearizePage::response() const {
   return result_ && projector() < result_->projectors.size() ? &result_->projectors[projector()] : nullptr;
+}
+
+std::optional<double> LinearizePage::blackShare() const {
+  if (session_.roomLight()) return session_.roomLight()->share;
+  const std::shared_ptr<const transport::Acquisition> measured = session_.acquisition();
+  if (!measured) return std::nullopt;
+  double black = 0.0, flood = 0.0;
+  for (float value : measured->black) black += static_cast<double>(value);
+  for (float value : measured->flood) flood += static_cast<double>(value);
+  return flood > 0.0 ? std::optional(std::max(0.0, black / flood)) : std::nullopt;
 }
 
 bool LinearizePage::addsUp() const {

@@ -46,6 +46,9 @@ class LinearizePage : public DevicePage {
 
   int levels() const { return session_.settings().linearization.levels; }
   void setLevels(int levels);
+  /// Light under black projectors, the room's included, as a share of the surface's in full light; none
+  /// before it was seen.
+  std::optional<double> blackShare() const;
   /// The colours of a projector do not add up: going on is allowed, and is recorded.
   bool addsUp() const;
 

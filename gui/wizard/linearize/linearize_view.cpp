@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QStackedWidget>
+#include <cmath>
 
 #include "relucent/base/message.h"
 #include "text/message_text.h"
@@ -121,6 +122,29 @@ QWidget* stageOf(LinearizePage& model) {
   return stage;
 }
 
+/// What is left where nothing is projected; hidden until it was seen.
+QWidget* blackPart(LinearizePage& model) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* black = new ValueRow(LinearizePage::tr("Black level"));
+  auto* contrast = new ValueRow(LinearizePage::tr("Contrast"));
+  black->setObjectName("black-level");
+  column->addWidget(black);
+  column->addWidget(contrast);
+  auto refresh = [&model, part, black, contrast] {
+    const std::optional<double> share = model.blackShare();
+    part->setVisible(share.has_value());
+    if (!share) return;
+    black->setValue(LinearizePage::tr("%1 of full light").arg(percentText(*share)));
+    contrast->setValue(*share > 0.0 ? isolated(QString("%1 : 1").arg(
+                                          countText(static_cast<std::uint64_t>(std::lround(1.0 / *share)))))
+                                    : QString::fromUtf8("–"));
+  };
+  refreshOn(model, part, refresh, &LinearizePage::resultChanged);
+  return part;
+}
+
 QWidget* inspectorOf(LinearizePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
@@ -136,6 +160,7 @@ QWidget* inspectorOf(LinearizePage& model) {
   column->addWidget(labelOf(LinearizePage::tr("Exposures"), "section"));
   auto* exposures = new ValueRow(LinearizePage::tr("Chosen for this venue"));
   column->addWidget(exposures);
+  column->addWidget(blackPart(model));
   column->addWidget(lineOf());
   column->addWidget(labelOf(LinearizePage::tr("Measure with"), "section"));
   auto* row = new QHBoxLayout;

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QDir>
+#include <cmath>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -10,6 +11,7 @@
 #include "views/number_text.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
+#include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
@@ -58,18 +60,23 @@ void showProof(Remark& remark, const Proof* proof) {
                     OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
   if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
+  else if (figures.moved.explains)
+    remark.show(
+        Remark::Kind::warning,
+        OutputPage::tr("The camera's view has moved by %1 px sideways and %2 px up or down.")
+            .arg(decimalText(std::abs(figures.moved.x), 1), decimalText(std::abs(figures.moved.y), 1)),
+        meaning);
   else
     remark.show(Remark::Kind::warning, OutputPage::tr("The camera or projector may have moved."), meaning);
 }
 
-void showDrift(Remark& remark, const std::optional<pipeline::VerifyResult>& drift) {
+void showDrift(Remark& remark, const std::optional<pipeline::DriftRecord>& drift) {
   remark.setVisible(drift.has_value());
   if (!drift) return;
   QString meaning =
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
-          .arg(percentText(drift->found.error), percentText(drift->errorThen),
-               percentText(drift->found.changedShare));
-  switch (drift->judgement.verdict) {
+          .arg(percentText(drift->error), percentText(drift->errorThen), percentText(drift->changedShare));
+  switch (drift->verdict) {
     case acquisition::Verdict::stillGood:
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
@@ -102,14 +109,26 @@ QWidget* proofPart(OutputPage& page) {
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
+  QPushButton* push = buttonOf(OutputPage::tr("Push the camera back"));
+  push->setObjectName("push-back");
+  push->setToolTip(
+      OutputPage::tr("Shows full light, and where the camera has to be turned to look where it looked."));
+  column->addWidget(push);
   column->addWidget(consentWidget(page));
   QObject::connect(take, &QPushButton::clicked, &page, &OutputPage::verify);
   QObject::connect(drift, &QPushButton::clicked, &page, &OutputPage::checkDrift);
+  QObject::connect(push, &QPushButton::clicked, &page, &OutputPage::pushBack);
+  QObject::connect(&page, &OutputPage::nudgeWanted, part, [part, &page] {
+    showNudge(*part, std::make_unique<Nudge>(page.session(), OutputPage::stepName),
+              [&page](bool isAtItsPlace) { page.pushedBack(isAtItsPlace); });
+  });
   auto refresh = [=, &page] {
     showProof(*found, page.proof().proof().get());
     showDrift(*changed, page.proof().drift());
     take->setEnabled(page.proof().isPossible());
     drift->setEnabled(page.proof().isPossible() && page.proof().mayFlash());
+    push->setEnabled(page.proof().isPossible());
+    push->setIcon(iconOf(Icon::camera, push->isEnabled() ? colours().text : colours().disabled));
     take->setIcon(iconOf(Icon::camera, take->isEnabled() ? colours().text : colours().disabled));
     drift->setIcon(iconOf(Icon::drift, drift->isEnabled() ? colours().text : colours().disabled));
   };

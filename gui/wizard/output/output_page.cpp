@@ -7,14 +7,23 @@
 #include <QGuiApplication>
 #include <QStandardPaths>
 #include <QUrl>
+#include <cmath>
 
 #include "output/default_picture.h"
 #include "output/installation.h"
 #include "relucent/base/error.h"
+#include "views/number_text.h"
 #include "wizard/devices/stopped_early.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent::gui {
+namespace {
+
+double movedPixels(const sentinels::Movement& moved) {
+  return std::hypot(moved.x, moved.y);
+}
+
+}  // namespace
 
 OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
@@ -29,6 +38,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   close_ = addCommand(Icon::stop, [this] { close(); });
   prove_ = addCommand(Icon::camera, [this] { verify(); });
   checkDrift_ = addCommand(Icon::drift, [this] { checkDrift(); });
+  pushBack_ = addCommand(Icon::camera, [this] { pushBack(); });
   measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
@@ -113,10 +123,13 @@ QString OutputPage::hint() const {
         return needsConsent()
                    ? tr("Confirm that the room is clear.")
                    : tr("The surface does not look as predicted. Find out whether something moved.");
+      case OutputProof::Next::pushBack:
+        return tr("The camera's view has moved by %1 px. Push it back, then photograph again.")
+            .arg(decimalText(movedPixels(proof_.proof()->figures.moved), 1));
       case OutputProof::Next::measureAgain:
         return tr("Something has changed since it was measured. Measure again, then install.");
       case OutputProof::Next::aimAgain:
-        return tr("Camera or projector stand elsewhere. Aim again, then measure again.");
+        return tr("Camera or projector stand elsewhere. Push the camera back, or aim and measure again.");
       case OutputProof::Next::install:
         return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
                              : tr("Playing. Hold A to compare.");
@@ -137,6 +150,7 @@ void OutputPage::updateCommands() {
                  !playlist_.isEmpty());
   prove_->show(tr("Take verification photograph"), proof_.isPossible());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
+  pushBack_->show(tr("Push the camera back"), proof_.isPossible());
   measureAgain_->show(tr("Measure again"));
   aimAgain_->show(tr("Aim again"));
   goOnMeasuring_->show(goOnMeasuringText());
@@ -153,10 +167,11 @@ PageCommand* OutputPage::primary() const {
       return prove_;
     case OutputProof::Next::checkDrift:
       return checkDrift_;
+    case OutputProof::Next::pushBack:
+    case OutputProof::Next::aimAgain:
+      return pushBack_;
     case OutputProof::Next::measureAgain:
       return measureAgain_;
-    case OutputProof::Next::aimAgain:
-      return aimAgain_;
     case OutputProof::Next::install:
       break;
   }
@@ -166,6 +181,7 @@ PageCommand* OutputPage::primary() const {
 std::vector<PageCommand*> OutputPage::secondary() const {
   if (!isOpen()) return {};
   if (primary() == install_) return {freeze_, black_, close_};
+  if (proof_.next() == OutputProof::Next::aimAgain) return {black_, close_, aimAgain_, install_};
   return {freeze_, black_, close_, install_};
 }
 
@@ -269,6 +285,15 @@ void OutputPage::verify() {
 
 void OutputPage::proofEnded() {
   if (std::exchange(reopen_, false)) open();
+}
+
+void OutputPage::pushBack() {
+  whileClosed([this] { Q_EMIT nudgeWanted(); });
+}
+
+void OutputPage::pushedBack(bool atItsPlace) {
+  if (atItsPlace) proof_.cameraPushedBack();
+  proofEnded();
 }
 
 QString OutputPage::pictureToProve() const {

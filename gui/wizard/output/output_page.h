@@ -14,6 +14,7 @@ struct OutputScreen {
   ScreenIdentity identity;
   QSize size;              // in its own pixels
   bool operators = false;  // the one with this window
+  double framesPerSecond = 0.0;
 };
 
 /// Step 8: the content on the projector, corrected in real time; proved; handed over.
@@ -83,6 +84,10 @@ class OutputPage : public DevicePage {
   void checkDrift() {
     whileClosed([this] { proof_.checkDrift(); });
   }
+  /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
+  void pushBack();
+  /// What the devices were looked at with is gone. `atItsPlace`: the camera looks where it looked.
+  void pushedBack(bool atItsPlace);
   /// Writes the report and lets the desktop show it.
   void report();
   /// Where it is; empty: not written since the calibration was opened.
@@ -97,6 +102,9 @@ class OutputPage : public DevicePage {
   void install();
   /// Of the user; tests have their own.
   void setConfigFolder(const QString& folder);
+
+ Q_SIGNALS:
+  void nudgeWanted();
 
  protected:
   void updateCommands() override;
@@ -122,8 +130,8 @@ class OutputPage : public DevicePage {
   void tell(const Failure& failure);
 
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
-  PageCommand *prove_, *checkDrift_, *measureAgain_, *aimAgain_;  // what comes before installing
-  PageCommand* goOnMeasuring_;                                    // of the banner
+  PageCommand *prove_, *checkDrift_, *pushBack_, *measureAgain_, *aimAgain_;  // what comes before installing
+  PageCommand* goOnMeasuring_;                                                // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;
   std::unique_ptr<ResultsBeside> earlier_;  // what plays while it is measured again

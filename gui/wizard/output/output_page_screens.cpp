@@ -17,8 +17,8 @@ void OutputPage::listScreens() {
     before.push_back(screen ? std::optional(screens_[*screen].identity) : std::nullopt);
   screens_.clear();
   for (QScreen* screen : QGuiApplication::screens())
-    screens_.push_back(
-        {identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen()});
+    screens_.push_back({identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen(),
+                        screen->refreshRate()});
   before.resize(session_.projectors());
   chosen_.assign(before.size(), std::nullopt);
   for (std::size_t projector = 0; projector < before.size(); ++projector)

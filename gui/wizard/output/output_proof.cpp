@@ -8,6 +8,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/image/exr.h"
+#include "relucent/pipeline/verify.h"
 #include "relucent/report/report.h"
 #include "wizard/output/proof_file.h"
 
@@ -22,7 +23,7 @@ fs::path fileOf(const QString& picture, const fs::path& folder) {
   QFile resource(picture);
   require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
   createFolder(folder);
-  fs::path file = folder / "content.png";
+  fs::path file = folder / "Test picture.png";
   writeFileAtomically(file, resource.readAll().toStdString());
   return file;
 }
@@ -57,7 +58,7 @@ std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& fo
 
 struct OutputProof::Found {
   std::shared_ptr<const Proof> proof;
-  std::optional<pipeline::VerifyResult> drift;
+  std::optional<pipeline::DriftRecord> drift;
   QString report;
 };
 
@@ -67,7 +68,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     job_.cancel();
     recall();
     found_ = nullptr;
-    drift_.reset();
+    pushedBack_ = false;
     Q_EMIT changed();
   });
   connect(&session_, &Session::stepsChanged, this, &OutputProof::dropOutdated);
@@ -79,6 +80,8 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
 void OutputProof::recall() {
   proof_ = session_.isOpen() ? loadProof(proofFolder(session_.path())) : nullptr;
   if (proof_ && !holds(*proof_)) proof_ = nullptr;
+  drift_ = session_.isOpen() ? loadDrift(proofFolder(session_.path())) : std::nullopt;
+  if (drift_ && drift_->measurement != measurementOf(session_)) drift_.reset();
 }
 
 bool OutputProof::holds(const Proof& proof) const {
@@ -88,20 +91,40 @@ bool OutputProof::holds(const Proof& proof) const {
 void OutputProof::dropOutdated() {
   if (!session_.isOpen()) return;
   const bool isProofOld = proof_ && !holds(*proof_),
-             isDriftOld = drift_ && driftOf_ != measurementOf(session_);
+             isDriftOld = drift_ && drift_->measurement != measurementOf(session_);
   if (isProofOld) proof_ = nullptr;
   if (isDriftOld) drift_.reset();
   if (isProofOld || isDriftOld) Q_EMIT changed();
 }
 
+/// A photograph that was taken later says more.
+const pipeline::DriftRecord* OutputProof::newestDrift() const {
+  if (!drift_) return nullptr;
+  const QDateTime checked = QDateTime::fromString(QString::fromStdString(drift_->checked), Qt::ISODate);
+  const bool isOlder = proof_ && checked.toSecsSinceEpoch() < proof_->taken.toSecsSinceEpoch();
+  return isOlder ? nullptr : &*drift_;
+}
+
 OutputProof::Next OutputProof::next() const {
   using acquisition::Verdict;
-  if (drift_ && drift_->judgement.verdict == Verdict::startAgain) return Next::aimAgain;
-  if (drift_ && drift_->judgement.verdict == Verdict::remeasure) return Next::measureAgain;
+  if (pushedBack_) return Next::photograph;
+  const pipeline::DriftRecord* drift = newestDrift();
+  if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
+  if (drift != nullptr && drift->verdict == Verdict::remeasure) return Next::measureAgain;
   if (!proof_) return Next::photograph;
   if (proof_->isAsPredicted()) return Next::install;
   // What was measured holds: something was in the way of that photograph.
-  return drift_ ? Next::photograph : Next::checkDrift;
+  if (drift != nullptr) return Next::photograph;
+  return proof_->figures.moved.explains ? Next::pushBack : Next::checkDrift;
+}
+
+void OutputProof::cameraPushedBack() {
+  pushedBack_ =
+      (proof_ && !proof_->isAsPredicted()) || (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
+  if (!pushedBack_) return;
+  drift_.reset();
+  forgetDrift(proofFolder(session_.path()));
+  Q_EMIT changed();
 }
 
 void OutputProof::start(Work work, Job::Work job) {
@@ -137,12 +160,19 @@ void OutputProof::photograph(const QString& picture) {
 void OutputProof::checkDrift() {
   if (!isPossible() || !mayFlash()) return;
   found_ = std::make_shared<Found>();
-  start(Work::drift, [found = found_, work = workOf(session_)](Progress& progress) {
+  start(Work::drift, [found = found_, work = workOf(session_),
+                      measurement = measurementOf(session_)](Progress& progress) {
     Progress opening = progress.part(0.3, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     Progress verifying = progress.part(0.7, RELUCENT_MESSAGE("stage.checking-drift", "Checking for drift"));
-    found->drift = pipeline::verifyCalibration(work.path, {}, rig, verifying);
-    found->drift->found.residual.clear();  // large, and not shown
+    const pipeline::VerifyResult result = pipeline::verifyCalibration(work.path, {}, rig, verifying);
+    found->drift = pipeline::DriftRecord{QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString(),
+                                         measurement,
+                                         result.judgement.verdict,
+                                         result.found.error,
+                                         result.errorThen,
+                                         result.found.changedShare};
+    pipeline::saveDriftRecord(*found->drift, proofFolder(work.path));
   });
 }
 
@@ -170,10 +200,8 @@ void OutputProof::finished() {
   lease_.release();
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
-  if (done && found->drift) {
-    drift_ = std::move(found->drift);
-    driftOf_ = measurementOf(session_);
-  }
+  if (done && found->drift) drift_ = std::move(found->drift);
+  if (done && (found->proof || found->drift)) pushedBack_ = false;
   Q_EMIT changed();
   Q_EMIT ended(work_);
   if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);

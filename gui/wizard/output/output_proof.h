@@ -3,12 +3,11 @@
 
 #include <QDateTime>
 #include <QImage>
-#include <algorithm>
 #include <functional>
 
 #include "jobs/job.h"
+#include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/prove.h"
-#include "relucent/pipeline/verify.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -23,11 +22,7 @@ struct Proof {
   pipeline::ContentSettings content;
   std::string measured;
 
-  /// Within twice of what was predicted, or too close to the wanted picture for anybody to see a difference
-  /// (Delta E 00 of 1): nothing has moved.
-  bool isAsPredicted() const {
-    return figures.after.measured.deltaE <= std::max(2.0 * figures.after.predicted.deltaE, 1.0);
-  }
+  bool isAsPredicted() const { return pipeline::isAsPredicted(figures); }
 };
 
 /// What can be proved of a venue: by a photograph of the content, by photographs of the test patterns, and on
@@ -51,10 +46,12 @@ class OutputProof : public QObject {
   bool mayFlash() const { return session_.mayMeasure(); }
 
   const std::shared_ptr<const Proof>& proof() const { return proof_; }
-  const std::optional<pipeline::VerifyResult>& drift() const { return drift_; }
+  const std::optional<pipeline::DriftRecord>& drift() const { return drift_; }
   /// What is to be done next to prove the venue, or about what was found.
-  enum class Next { photograph, install, checkDrift, measureAgain, aimAgain };
+  enum class Next { photograph, install, pushBack, checkDrift, measureAgain, aimAgain };
   Next next() const;
+  /// Where it looks as it did, the camera was pushed back: what was found before that holds no more.
+  void cameraPushedBack();
 
   /// `picture`: a file or resource.
   void photograph(const QString& picture);
@@ -79,6 +76,7 @@ class OutputProof : public QObject {
   void recall();
   bool holds(const Proof& proof) const;
   void dropOutdated();
+  const pipeline::DriftRecord* newestDrift() const;
 
   Session& session_;
   StepName step_;
@@ -86,8 +84,8 @@ class OutputProof : public QObject {
   Job job_;
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
-  std::optional<pipeline::VerifyResult> drift_;
-  std::string driftOf_;  // the measurement
+  std::optional<pipeline::DriftRecord> drift_;
+  bool pushedBack_ = false;  // since the last photograph
   struct Found;
   std::shared_ptr<Found> found_;  // by the job
 };

@@ -61,18 +61,41 @@ class PlaybackCard : public Card {
     // A picture that stands is not late for anything.
     late_->setValue(open && moves ? countText(s.late) : none, moves && s.late > 0);
     setSubtitle(!open   ? OutputPage::tr("closed")
-                : moves ? OutputPage::tr("on %1").arg(page_.projection().engineName())
-                        : OutputPage::tr("still picture, on %1").arg(page_.projection().engineName()));
-    charts::Curve curve{OutputPage::tr("Frame time").toStdString(), "accent"};
+                : moves ? OutputPage::tr("on %1").arg(engineText())
+                        : OutputPage::tr("still picture, on %1").arg(engineText()));
+    charts::Curve curve{{}, "accent"};
     const std::deque<double>& times = page_.projection().frameTimes();
     double highest = 20.0;
     for (std::size_t i = 0; i < times.size(); ++i) {
       curve.line.push_back({-sampleSeconds * static_cast<double>(times.size() - 1 - i), times[i]});
       highest = std::max(highest, times[i]);
     }
+    const charts::Curve most = limit(highest);
     chart_->setAxes(axisOf(-chartSeconds, 0.0, OutputPage::tr("Seconds")),
                     axisOf(0.0, 1.1 * highest, OutputPage::tr("Frame time, ms")));
-    chart_->setCurves({curve});
+    chart_->setCurves({curve, most});
+  }
+  /// What a picture may take at most, so that the display shows every one.
+  charts::Curve limit(double& highest) const {
+    charts::Curve line;
+    if (!page_.isOpen() || !page_.chosen()) return line;
+    const double rate = page_.screens()[*page_.chosen()].framesPerSecond;
+    if (!(rate > 0.0)) return line;
+    const double most = 1000.0 / rate;
+    highest = std::max(highest, most);
+    line.name = limitText(rate, most).toStdString();
+    line.style = "amber";
+    line.line = {{-chartSeconds, most}, {0.0, most}};
+    return line;
+  }
+  static QString limitText(double rate, double milliseconds) {
+    return OutputPage::tr("Limit for %1 frames a second: %2 ms")
+        .arg(decimalText(rate, 0), decimalText(milliseconds, 1));
+  }
+  /// Nobody needs to know the instructions of a processor.
+  QString engineText() const {
+    const QString name = page_.projection().engineName();
+    return name.startsWith("CPU") ? OutputPage::tr("the processor") : name;
   }
   OutputPage& page_;
   Readout *rate_, *time_, *late_;
@@ -114,7 +137,7 @@ bool acceptsText(const QWidget* widget) {
 }
 
 /// Pictures beside each other. A held shows the original wherever on the page the focus is; while it has the
-/// focus itself: space freezes, B blackens.
+/// focus itself: space freezes, B blackens, T shows test charts, O figures.
 class OutputStage : public QWidget {
  public:
   explicit OutputStage(OutputPage& page) : page_(page) {
@@ -158,6 +181,10 @@ class OutputStage : public QWidget {
         return page_.setFrozen(!page_.isFrozen());
       case Qt::Key_B:
         return page_.setBlack(!page_.isBlack());
+      case Qt::Key_T:
+        return page_.projection().nextChart();
+      case Qt::Key_O:
+        return toggleFigures();
       default:
         QWidget::keyPressEvent(event);
     }
@@ -168,17 +195,27 @@ class OutputStage : public QWidget {
   void dropEvent(QDropEvent* event) override { page_.addFiles(draggedFiles(*event->mimeData())); }
 
  private:
+  void toggleFigures() { page_.projection().setOverlay(!page_.projection().hasOverlay()); }
   Card* projectorCard() {
     projector_ = new Card(OutputPage::tr("On the projector now"));
+    projector_->setSubtitle(OutputPage::tr("A original, space freezes, B black"));
+    chart_ = toolOf(Icon::picture, OutputPage::tr("Next test chart (T)"));
+    chart_->setObjectName("next-chart");
+    figures_ = toolOf(Icon::pulse, OutputPage::tr("Figures over the picture (O)"));
+    figures_->setObjectName("figures");
+    connect(chart_, &QToolButton::clicked, &page_, [this] { page_.projection().nextChart(); });
+    connect(figures_, &QToolButton::clicked, &page_, [this] { toggleFigures(); });
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
     compare_->setObjectName("compare");
     projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
+    projector_->addAction(chart_);
+    projector_->addAction(figures_);
     projector_->addAction(compare_);
     output_ = new MirrorView(page_.projection());
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
-    output_->setAccessibleDescription(
-        OutputPage::tr("Hold A for the original, space freezes, B makes it black."));
+    output_->setAccessibleDescription(OutputPage::tr(
+        "Hold A for the original, space freezes, B makes it black, T shows test charts, O figures."));
     output_->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
     projector_->body()->addWidget(output_, 1);
     connect(compare_, &Segmented::chosen, &page_, [this](int index) { page_.setCompensated(index == 0); });
@@ -210,7 +247,8 @@ class OutputStage : public QWidget {
     return card;
   }
   void refresh() {
-    compare_->setEnabled(page_.isOpen());
+    for (QWidget* widget : std::initializer_list<QWidget*>{compare_, chart_, figures_})
+      widget->setEnabled(page_.isOpen());
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
@@ -252,6 +290,7 @@ class OutputStage : public QWidget {
   ViewLink link_;
   Card *projector_, *photograph_;
   Segmented* compare_;
+  QToolButton *chart_, *figures_;
   ImageView *output_, *photo_, *difference_;
   std::shared_ptr<const Proof> shown_;
 };

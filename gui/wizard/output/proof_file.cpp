@@ -44,4 +44,17 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
   }
 }
 
+std::optional<pipeline::DriftRecord> loadDrift(const fs::path& folder) {
+  try {
+    return pipeline::loadDriftRecord(folder);
+  } catch (const std::exception&) {
+    return std::nullopt;  // it is checked again
+  }
+}
+
+void forgetDrift(const fs::path& folder) {
+  std::error_code missing;
+  fs::remove(folder / pipeline::driftRecordName, missing);
+}
+
 }  // namespace relucent::gui

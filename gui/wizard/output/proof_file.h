@@ -17,4 +17,8 @@ void saveProof(const Proof& proof, const std::filesystem::path& folder);
 /// The verification photograph that lies in the folder; nullptr where there is none that can be read.
 std::shared_ptr<const Proof> loadProof(const std::filesystem::path& folder);
 
+/// The last check for drift that was kept there; none where it cannot be read.
+std::optional<pipeline::DriftRecord> loadDrift(const std::filesystem::path& folder);
+void forgetDrift(const std::filesystem::path& folder);
+
 }  // namespace relucent::gui

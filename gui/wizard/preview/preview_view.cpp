@@ -10,6 +10,7 @@
 #include "theme/theme.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
+#include "views/view_actions.h"
 #include "wizard/preview/corner_view.h"
 #include "wizard/preview/preview_inspector.h"
 #include "wizard/session/method_name.h"
@@ -70,6 +71,11 @@ class PreviewStage : public QWidget {
         PreviewPage::tr("The brightest light that can be reached; hatched where it is too little"));
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
+    addViewMenu(
+        *card_, [this] { return shownView(); },
+        [this](const Failure& failure) {
+          Q_EMIT page_.failed({failure, PreviewPage::tr("What is measured is safe.")});
+        });
     connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
     column->addWidget(card_, 1);
     column->addWidget(tableCard());
@@ -81,6 +87,23 @@ class PreviewStage : public QWidget {
   }
 
  private:
+  /// What is looked at, and its numbers.
+  ShownView shownView() const {
+    const auto index = static_cast<std::size_t>(kind_->current());
+    std::function<image::Image()> values;
+    if (shown_ && index == reachable)
+      values = [preview = shown_] { return image::Image(preview->with.size(), 1, preview->reach); };
+    if (shown_ && index == difference) values = [preview = shown_] { return preview->deltaE; };
+    if (shown_ && index == picture) values = [preview = shown_] { return preview->with; };
+    static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000"};
+    return {*views_[index], {values, units[index]}};
+  }
+  /// What the hatches say.
+  QString legend() const {
+    const double missing = 1.0 - shown_->reachableShare;
+    return missing < 0.0005 ? PreviewPage::tr("All of it can be reached")
+                            : PreviewPage::tr("Hatched: %1 stays too dark").arg(percentText(missing));
+  }
   Card* tableCard() {
     auto* card = new Card(PreviewPage::tr("Methods"));
     card->setSubtitle(PreviewPage::tr("predicted for this content; click one to use it"));
@@ -144,6 +167,7 @@ class PreviewStage : public QWidget {
       for (int cell = 0; cell < cells.size(); ++cell) {
         auto* item = new QTableWidgetItem(cells[cell]);
         item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
+        if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
         table_->setItem(row, cell, item);
       }
       if (chosen) table_->selectRow(row);
@@ -170,6 +194,7 @@ class PreviewStage : public QWidget {
     views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
     views_[reachable]->setPicture(mapped(preview->reach, size, reach));
     views_[reachable]->setOverlay(hatchesOf(*preview));
+    views_[reachable]->setCaption(legend());
     ColourScale deltaE{ColourMap::cividis, 0.0, 12.0, false};
     views_[difference]->setScale(deltaE, QString::fromUtf8("ΔE₀₀"), false);
     views_[difference]->setPicture(mapped(preview->deltaE.data(), size, deltaE));

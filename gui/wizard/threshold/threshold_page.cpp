@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "relucent/transport/cut_estimate.h"
+#include "relucent/transport/noise_cut.h"
 #include "views/number_text.h"
 #include "wizard/devices/stopped_early.h"
 
@@ -35,7 +36,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           [this](transport::TransportStatistics statistics) {
             whole_ = statistics;
             if (keepsEverything(cut_)) kept_ = statistics;
-            suggested_ = transport::cutKeeping(statistics.histogram, suggestedShare);
+            suggest(statistics);
             tellResult();
           },
           [this](const Failure& failure) {
@@ -179,6 +180,25 @@ void ThresholdPage::setAbsolute(double cut) {
   cut_.shareOfRowMax = 0.0f;
   cut_.absolute = static_cast<float>(cut);
   compute();
+}
+
+/// Noise is left out, light is not.
+void ThresholdPage::suggest(const transport::TransportStatistics& whole) {
+  const double most = transport::cutKeeping(whole.histogram, suggestedShare),
+               noise = adopted_ ? transport::noiseCut(*adopted_) : 0.0;
+  noiseSuggested_ = noise > 0.0 && noise <= most;
+  suggested_ = noiseSuggested_ ? noise : most;
+}
+
+std::optional<double> ThresholdPage::pickedLight() const {
+  const std::optional<std::size_t> column = pickedColumn();
+  if (!footprint_ || !column || *column >= footprint_->luminance.size()) return std::nullopt;
+  const auto light = static_cast<double>(footprint_->luminance[*column]);
+  return light > 0.0 ? std::optional(light) : std::nullopt;
+}
+
+void ThresholdPage::usePicked() {
+  if (const std::optional<double> light = pickedLight()) setAbsolute(*light);
 }
 
 void ThresholdPage::setShare(double share) {

@@ -38,8 +38,10 @@ class ThresholdPage : public DevicePage {
   /// knows, then counted.
   const std::optional<transport::TransportStatistics>& kept() const { return kept_; }
   bool isExact() const { return kept_.has_value() && !statistics_.isBusy(); }
-  /// The highest cut that keeps nearly all light.
+  /// Three times the noise of the measurement; less where that would cost light.
   double suggested() const { return suggested_; }
+  /// suggested() is what the noise says.
+  bool isNoiseSuggested() const { return noiseSuggested_; }
 
   const transport::ThresholdSettings& cut() const { return cut_; }
   bool isShareOfRow() const { return shareOfRow_; }
@@ -47,6 +49,10 @@ class ThresholdPage : public DevicePage {
   void setAbsolute(double cut);
   void setShare(double share);
   void useSuggested() { setAbsolute(suggested_); }
+  /// The light of the picked connection; none where nothing or no light is picked.
+  std::optional<double> pickedLight() const;
+  /// What is picked is the faintest that stays.
+  void usePicked();
 
   /// Pictures of what the cut leaves of T; follows the cut.
   const std::shared_ptr<const transport::MatrixPictures>& matrix() const { return matrix_; }
@@ -78,6 +84,7 @@ class ThresholdPage : public DevicePage {
   void projectorChanged() override;
   void cameraChanged() override;
   void compute();
+  void suggest(const transport::TransportStatistics& whole);
   void accept();
 
   PageCommand *accept_, *goOnMeasuring_;
@@ -87,6 +94,7 @@ class ThresholdPage : public DevicePage {
   float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
   std::optional<transport::TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;
+  bool noiseSuggested_ = false;
   std::optional<Pixel> picked_, pickedProjector_;
   std::shared_ptr<const transport::PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;

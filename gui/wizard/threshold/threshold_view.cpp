@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/threshold/threshold_view.h"
 
+#include <QLineEdit>
+#include <QLocale>
 #include <QSlider>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,6 +34,18 @@ charts::Axis axisOf(const transport::StrengthHistogram& histogram) {
   double low = std::pow(10.0, std::floor(std::log10(transport::strengthOfBin(first)) + 1e-9));
   double high = std::pow(10.0, std::ceil(std::log10(transport::strengthOfBin(last + 1)) - 1e-9));
   return {low, std::max(high, 10.0 * low), true};
+}
+
+/// Three digits as somebody types them, without powers of ten.
+QString typedText(double cut) {
+  if (!(cut > 0.0)) return "0";
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(cut))), 0, 12);
+  QLocale locale;
+  locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  QString text = locale.toString(cut, 'f', decimals);
+  while (decimals > 0 && text.endsWith(locale.zeroDigit())) text.chop(1);
+  if (text.endsWith(locale.decimalPoint())) text.chop(1);
+  return text;
 }
 
 QWidget* stageOf(ThresholdPage& model) {
@@ -85,15 +100,27 @@ QWidget* inspectorOf(ThresholdPage& model) {
   auto* shareText = labelOf({}, "note");
   column->addWidget(share);
   column->addWidget(shareText);
+  auto* typed = new QLineEdit;
+  typed->setObjectName("cut-value");
+  typed->setAccessibleName(ThresholdPage::tr("Cut, camera signal a second"));
+  QPushButton* usePicked = buttonOf(ThresholdPage::tr("Use picked pixel"));
+  usePicked->setObjectName("use-picked");
+  auto* values = new QHBoxLayout;
+  values->addWidget(typed, 1);
+  values->addWidget(usePicked);
+  column->addLayout(values);
   QPushButton* suggest = buttonOf({});
+  suggest->setObjectName("use-suggested");
   column->addWidget(suggest);
+  QLabel* why = labelOf({}, "note");
+  column->addWidget(why);
   column->addWidget(lineOf());
   column->addWidget(labelOf(ThresholdPage::tr("What stays"), "section"));
   auto* light = new ValueRow(ThresholdPage::tr("Light"));
   auto* connections = new ValueRow(ThresholdPage::tr("Connections"));
-  auto* leaves = new ValueRow(ThresholdPage::tr("Stored blocks"));
+  auto* each = new ValueRow(ThresholdPage::tr("For each camera pixel"));
   auto* memory = new ValueRow(ThresholdPage::tr("Memory"));
-  for (ValueRow* row : {light, connections, leaves, memory}) column->addWidget(row);
+  for (ValueRow* row : {light, connections, each, memory}) column->addWidget(row);
   column->addWidget(
       labelOf(ThresholdPage::tr("What is left out is put back in proportion, so that the surface keeps its "
                                 "brightness."),
@@ -113,11 +140,28 @@ QWidget* inspectorOf(ThresholdPage& model) {
   QObject::connect(share, &QSlider::valueChanged, &model,
                    [&model](int value) { model.setShare(value / 1000.0); });
   QObject::connect(suggest, &QPushButton::clicked, &model, &ThresholdPage::useSuggested);
+  QObject::connect(usePicked, &QPushButton::clicked, &model, &ThresholdPage::usePicked);
+  // Leaving the field changes nothing.
+  QObject::connect(typed, &QLineEdit::editingFinished, &model, [&model, typed] {
+    if (!typed->isModified()) return;
+    bool isNumber = false;
+    const double cut = QLocale().toDouble(typed->text(), &isNumber);
+    typed->setModified(false);
+    model.setAbsolute(isNumber && cut >= 0.0 ? cut : static_cast<double>(model.cut().absolute));
+  });
   auto refresh = [=, &model] {
     kind->setCurrent(model.isShareOfRow() ? 1 : 0);
     share->setVisible(model.isShareOfRow());
     shareText->setVisible(model.isShareOfRow());
-    suggest->setVisible(!model.isShareOfRow());
+    for (QWidget* widget : std::initializer_list<QWidget*>{typed, usePicked, suggest, why})
+      widget->setVisible(!model.isShareOfRow());
+    if (!typed->isModified())
+      typed->setText(typedText(static_cast<double>(model.cut().absolute)));
+    typed->setEnabled(model.whole().has_value());
+    usePicked->setEnabled(model.pickedLight().has_value());
+    why->setText(model.isNoiseSuggested()
+                     ? ThresholdPage::tr("Suggested: three times the noise of the measurement.")
+                     : ThresholdPage::tr("Suggested: keeps nearly all of the light."));
     QSignalBlocker quiet(share);
     share->setValue(static_cast<int>(std::lround(1000.0 * static_cast<double>(model.cut().shareOfRowMax))));
     shareText->setText(ThresholdPage::tr("Below %1 of the row's strongest connection")
@@ -128,9 +172,10 @@ QWidget* inspectorOf(ThresholdPage& model) {
       const transport::TransportStatistics& kept = *model.kept();
       light->setValue(percentText(kept.energyKept), kept.energyKept < 0.95 ? "amber" : "good");
       connections->setValue(ThresholdPage::tr("%1 of %2")
-                                .arg(numberText(static_cast<double>(kept.connections)),
-                                     numberText(static_cast<double>(model.whole()->connections))));
-      leaves->setValue(countText(kept.leaves));
+                                .arg(largeText(kept.connections), largeText(model.whole()->connections)));
+      const std::size_t pixels = model.acquisition()->transport.cameras().count();
+      each->setValue(ThresholdPage::tr("%1 on average")
+                         .arg(largeText(kept.connections / std::max<std::size_t>(1, pixels))));
       memory->setValue(bytesText(kept.bytes));
     } else {
       for (ValueRow* row : {light, connections, leaves, memory}) row->setValue({});

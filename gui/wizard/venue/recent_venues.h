@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QDateTime>
+#include <QImage>
 #include <QList>
 #include <QSettings>
 #include <QString>
@@ -15,6 +16,8 @@ struct RecentVenue {
   QDateTime opened;
   QString state;  // of its steps, one short line; empty if it cannot be read now
   bool simulated = false;
+  bool isInterrupted = false;  // photographs of a measurement that has not ended
+  QImage picture;              // of the surface, small; null: it is not measured yet
 };
 
 /// The calibrations that were opened, newest first, kept by the desktop's settings. Those that are gone from

@@ -8,6 +8,7 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
 #include "wizard/frame/end_question.h"
+#include "wizard/venue/venue_thumbnail.h"
 #include "wizard/venue/venue_tidy.h"
 
 namespace relucent::gui {
@@ -54,6 +55,7 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   connect(&session_, &Session::stepsChanged, this, &VenuePage::tellSettings);
   connect(&session_, &Session::devicesChanged, this, &VenuePage::tellSettings);
   connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::tellSettings);
+  connect(&session_, &Session::acquisitionChanged, this, [this] { keepThumbnail(session_); });
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
     mode_ = Mode::start;

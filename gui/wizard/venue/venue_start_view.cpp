@@ -18,7 +18,7 @@ class RecentRow : public QFrame {
     setRole(this, "card");
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(16, 10, 12, 10);
-    row->addWidget(new IconLabel(venue.simulated ? Icon::play : Icon::projector, secondaryColour, 24));
+    row->addWidget(pictureOf(venue));
     row->addSpacing(8);
     auto* texts = new QVBoxLayout;
     texts->setSpacing(2);
@@ -34,15 +34,38 @@ class RecentRow : public QFrame {
     row->addSpacing(8);
     row->addWidget(tidyButton(model, venue));
     const bool isOpen = model.isOpenNow(venue);
-    QPushButton* open = buttonOf(isOpen ? VenuePage::tr("Is open") : VenuePage::tr("Open"));
+    QPushButton* open = buttonOf(isOpen                ? VenuePage::tr("Is open")
+                                 : venue.isInterrupted ? VenuePage::tr("Resume")
+                                                       : VenuePage::tr("Open"));
     open->setEnabled(!isOpen);
-    open->setAccessibleName(VenuePage::tr("Open %1").arg(venue.name));
+    open->setAccessibleName(
+        (venue.isInterrupted ? VenuePage::tr("Resume %1") : VenuePage::tr("Open %1")).arg(venue.name));
     QObject::connect(open, &QPushButton::clicked, &model,
                      [&model, folder = venue.folder] { model.open(folder); });
     row->addWidget(open);
   }
 
  private:
+  /// The surface, or what kind of venue it is.
+  static QWidget* pictureOf(const RecentVenue& venue) {
+    constexpr QSize room(64, 44);
+    auto* picture = new QLabel;
+    picture->setFixedSize(room);
+    picture->setAlignment(Qt::AlignCenter);
+    if (venue.picture.isNull()) {
+      auto* centre = new QHBoxLayout(picture);
+      centre->setContentsMargins(0, 0, 0, 0);
+      centre->addWidget(new IconLabel(venue.simulated ? Icon::play : Icon::projector, secondaryColour, 24), 0,
+                        Qt::AlignCenter);
+      return picture;
+    }
+    const qreal ratio = picture->devicePixelRatioF();
+    QPixmap shown =
+        QPixmap::fromImage(venue.picture.scaled(room * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+    shown.setDevicePixelRatio(ratio);
+    picture->setPixmap(shown);
+    return picture;
+  }
   QPushButton* tidyButton(VenuePage& model, const RecentVenue& venue) {
     QPushButton* tidy = buttonOf(VenuePage::tr("Tidy…"), "flat");
     tidy->setObjectName("tidy");

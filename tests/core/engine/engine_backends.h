@@ -90,6 +90,13 @@ inline engine::EngineSettings plain() {
   return settings;
 }
 
+/// The same with all of T that codes can hold.
+inline engine::EngineSettings exact() {
+  engine::EngineSettings settings = plain();
+  settings.packing.tolerance = 0.0f;
+  return settings;
+}
+
 inline std::vector<std::uint32_t> rendered(engine::EngineBackend& backend, const engine::EngineVenue& engine,
                                            const engine::ContentFrame& frame,
                                            const engine::FrameRequest& request,

@@ -85,7 +85,7 @@ class TestBackends : public QObject {
     SKIP_WHERE_MISSING(backend);
     QFETCH(QString, scene);
     EngineScene made = engineSceneOf(scene.toStdString());
-    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, exact());
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Image content = makeContent(Content::natural, {37, 28}, 3);
     Target target = fitTarget(content, made.venue, {});
@@ -119,7 +119,7 @@ class TestBackends : public QObject {
       EngineSettings settings;
       settings.bits = bits;
       settings.dither = bits == 8 ? Dither::blueNoise : Dither::ordered;
-      settings.patchSide = 16;
+      settings.packing.patchSide = 16;
       EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, settings);
       CpuBackend reference(engine, &engineKernels().front());
       std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
@@ -246,7 +246,7 @@ class TestBackends : public QObject {
     QFETCH(QString, backend);
     SKIP_WHERE_MISSING(backend);
     EngineScene made = engineSceneOf("wall");
-    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, exact());
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Compensator compensator(made.venue, made.inverse);
     Progress silent;
@@ -281,7 +281,7 @@ class TestBackends : public QObject {
     SKIP_WHERE_MISSING(backend);
     EngineScene made = engineSceneOf("defocus");
     EngineSettings settings;
-    settings.patchSide = 8;  // many patches
+    settings.packing.patchSide = 8;  // many patches
     EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, settings);
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Image content = makeContent(Content::text, {60, 45}, 2);
@@ -333,7 +333,7 @@ class TestBackends : public QObject {
     QVERIFY_THROWS_EXCEPTION(std::logic_error, prepareVenue(made.venue, other.inverse, made.responses, {}));
     EngineSettings wrong;
     wrong.bits = 9;
-    wrong.patchSide = 0;
+    wrong.packing.patchSide = 0;
     QCOMPARE(problems(wrong).size(), std::size_t{2});
   }
 };

@@ -30,7 +30,7 @@ class TestPatchSums : public QObject {
     QFETCH(QString, scene);
     QFETCH(int, side);
     const MeasuredVenue venue = engineSceneOf(scene.toStdString()).venue;
-    const PackedTransport packed(venue.transport, side);
+    const PackedTransport packed(venue.transport, {side});
     const std::size_t nodes = venue.transport.layout().count();
     const PatchSums patchSums(packed, nodes);
     QVERIFY(patchSums.places() <= packed.nodes().size());
@@ -55,7 +55,7 @@ class TestPatchSums : public QObject {
 
   void aSinglePatchWaitsForNobody() {
     const MeasuredVenue venue = engineSceneOf("wall").venue;
-    const PackedTransport packed(venue.transport, 256);
+    const PackedTransport packed(venue.transport, {256});
     QCOMPARE(packed.patches().size(), std::size_t{1});
     QCOMPARE(PatchSums(packed, venue.transport.layout().count()).places(), std::size_t{0});
   }
@@ -64,7 +64,7 @@ class TestPatchSums : public QObject {
     NodeLayout layout{Rasters(Size{4, 4})};
     TransportMatrix transport(Size{3, 2}, Size{4, 4},
                               BlockSparseBuilder(layout.count(), std::vector<float>(6, 0.0f)).build());
-    const PackedTransport packed(transport, 8);
+    const PackedTransport packed(transport, {8});
     const PatchSums patchSums(packed, layout.count());
     std::vector<float> sums(3 * layout.count(), 3.0f);
     patchSums.addPatch(0, nullptr, 4, sums.data(), nullptr);

@@ -13,17 +13,37 @@ using namespace relucent::synthetic;
 namespace {
 
 using Code = std::array<std::int16_t, 3>;
-/// (camera pixel, node) -> codes. Leaves with codes 0 say nothing.
-using Leaves = std::multimap<std::pair<std::uint32_t, std::uint32_t>, Code>;
+/// What sends back to a leaf: a camera pixel, or a group, for which its first camera pixel stands.
+struct Receiver {
+  std::uint32_t pixel = 0;
+  std::uint32_t ofGroup = 0;  // camera pixels of the group; 0: one alone
+  auto operator<=>(const Receiver&) const = default;
+};
+/// (receiver, node) -> codes. Leaves with codes 0 say nothing.
+using Leaves = std::multimap<std::pair<Receiver, std::uint32_t>, Code>;
+
+Receiver receiverOf(const PackedTransport& packed, std::uint32_t rowBegin, std::uint32_t rowEnd) {
+  return {packed.rows()[rowBegin].pixel, rowEnd - rowBegin};
+}
 
 Leaves leavesOf(const PackedTransport& packed) {
   Leaves all;
-  for (const TransportPatch& patch : packed.patches())
-    for (std::uint32_t row = patch.rowBegin; row < patch.rowEnd; ++row)
-      for (std::uint32_t i = packed.leafStart()[row]; i < packed.leafStart()[row + 1]; ++i)
-        all.emplace(
-            std::pair{packed.pixels()[row], packed.nodes()[patch.columnBegin + packed.leaves()[i].column]},
-            packed.leaves()[i].code);
+  for (const TransportPatch& patch : packed.patches()) {
+    auto add = [&](const Receiver& receiver, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i)
+        if (packed.leaves()[i].code != Code{})
+          all.emplace(std::pair{receiver, packed.nodes()[patch.columnBegin + packed.leaves()[i].column]},
+                      packed.leaves()[i].code);
+    };
+    for (std::uint32_t g = patch.groupBegin; g < patch.groupEnd; ++g) {
+      const PackedGroup& group = packed.groups()[g];
+      add(receiverOf(packed, group.rowBegin, group.rowEnd), group.leafBegin, group.leafEnd);
+    }
+    for (std::uint32_t r = patch.rowBegin; r < patch.rowEnd; ++r) {
+      const PackedRow& row = packed.rows()[r];
+      add({row.pixel, 0}, row.leafBegin, row.leafEnd);
+    }
+  }
   return all;
 }
 
@@ -57,14 +77,28 @@ class TestSlicedTransport : public QObject {
     QFETCH(QString, scene);
     QFETCH(int, patchSide);
     EngineScene made = engineSceneOf(scene.toStdString());
-    const PackedTransport packed(made.venue.transport, patchSide);
+    const PackedTransport packed(made.venue.transport, {patchSide});
     const std::size_t nodes = made.venue.transport.layout().count();
     const SlicedTransport sliced = slicedTransport(packed, nodes);
     const Leaves expected = leavesOf(packed);
 
     Leaves forward;
-    eachLeaf(sliced.forward, [&](std::uint32_t row, std::uint32_t base, const PackedLeaf& leaf) {
-      forward.emplace(std::pair{sliced.rows[row].pixel, packed.nodes()[base + leaf.column]}, leaf.code);
+    std::map<std::uint32_t, Receiver> receivers;  // by the place where it goes back
+    auto add = [&](const Receiver& receiver, std::uint32_t base, const PackedLeaf& leaf) {
+      forward.emplace(std::pair{receiver, packed.nodes()[base + leaf.column]}, leaf.code);
+    };
+    for (const SlicedTransport::Group& group : sliced.groups)
+      if (group.back != SlicedTransport::none)
+        QVERIFY(receivers.emplace(group.back, receiverOf(packed, group.rowBegin, group.rowEnd)).second);
+    for (const SlicedTransport::Row& row : sliced.rows) {
+      if (row.pixel == SlicedTransport::none) continue;
+      QVERIFY(receivers.emplace(row.back, Receiver{row.pixel, 0}).second);
+    }
+    eachLeaf(sliced.forward, [&](std::uint32_t slot, std::uint32_t base, const PackedLeaf& leaf) {
+      add({sliced.rows[slot].pixel, 0}, base, leaf);
+    });
+    eachLeaf(sliced.groupForward, [&](std::uint32_t slot, std::uint32_t base, const PackedLeaf& leaf) {
+      add(receiverOf(packed, sliced.groups[slot].rowBegin, sliced.groups[slot].rowEnd), base, leaf);
     });
     QVERIFY(forward == expected);
 
@@ -74,23 +108,37 @@ class TestSlicedTransport : public QObject {
         nodeOfSegment[sliced.segments[i]] = node;
     Leaves backward;
     eachLeaf(sliced.backward, [&](std::uint32_t segment, std::uint32_t base, const PackedLeaf& leaf) {
-      backward.emplace(std::pair{sliced.rows[base + leaf.column].pixel, nodeOfSegment[segment]}, leaf.code);
+      backward.emplace(std::pair{receivers.at(base + leaf.column), nodeOfSegment[segment]}, leaf.code);
     });
     QVERIFY(backward == expected);
   }
 
-  /// Every camera pixel has one row, with its mixing; those without leaves too.
+  /// Every camera pixel has one row, with its mixings and its group; those without leaves too.
   void rows() {
     EngineScene made = engineSceneOf("several devices");
-    const PackedTransport packed(made.venue.transport, 8);
+    const PackedTransport packed(made.venue.transport, {8});
     const SlicedTransport sliced = slicedTransport(packed, made.venue.transport.layout().count());
-    std::map<std::uint32_t, std::array<float, 9>> mixing;
+    std::map<std::uint32_t, SlicedTransport::Row> rows;
     for (const SlicedTransport::Row& row : sliced.rows)
-      if (row.pixel != SlicedTransport::noPixel) QVERIFY(mixing.emplace(row.pixel, row.mixing).second);
-    QCOMPARE(mixing.size(), made.venue.usable.size());
-    for (std::size_t row = 0; row < packed.pixels().size(); ++row)
-      QVERIFY(std::equal(mixing[packed.pixels()[row]].begin(), mixing[packed.pixels()[row]].end(),
-                         packed.mixing().begin() + static_cast<std::ptrdiff_t>(9 * row)));
+      if (row.pixel != SlicedTransport::none) QVERIFY(rows.emplace(row.pixel, row).second);
+    QCOMPARE(rows.size(), made.venue.usable.size());
+    QVERIFY(!packed.groups().empty());
+    for (std::size_t r = 0; r < packed.rows().size(); ++r) {
+      const PackedRow& packedRow = packed.rows()[r];
+      const SlicedTransport::Row& row = rows.at(packedRow.pixel);
+      QCOMPARE(row.own, packedRow.own);
+      QCOMPARE(row.shared, packedRow.shared);
+      QCOMPARE(sliced.groupBack[r], row.back + 1);
+      std::uint32_t slot = row.group, group = packedRow.group;
+      for (; group != PackedGroup::none;
+           group = packed.groups()[group].parent, slot = sliced.groups[slot].parent) {
+        QVERIFY(slot != SlicedTransport::none);
+        QCOMPARE(sliced.groups[slot].rowBegin, packed.groups()[group].rowBegin);
+        QCOMPARE(sliced.groups[slot].rowEnd, packed.groups()[group].rowEnd);
+        QCOMPARE(sliced.groups[slot].scale, packed.groups()[group].scale);
+      }
+      QCOMPARE(slot, SlicedTransport::none);
+    }
   }
 
   /// A node that every camera pixel sees is cut into segments that no invocation works on for long.
@@ -98,10 +146,10 @@ class TestSlicedTransport : public QObject {
     const Rasters cameras(Size{120, 100}), projectors(Size{8, 8});
     const NodeLayout layout(projectors);
     BlockSparseBuilder builder(layout.count(), std::vector<float>(cameras.count(), 1.0f));
-    const std::size_t all = layout.index({0, 3, 0, 0});
+    const std::size_t all = 5;  // light of single pixels is nobody's but a camera pixel's own
     for (std::size_t row = 0; row < cameras.count(); ++row)
       builder.add(row, all, (0.5f * ColourBlock::Identity()).eval());
-    const PackedTransport packed(TransportMatrix(cameras, projectors, builder.build()), 64);
+    const PackedTransport packed(TransportMatrix(cameras, projectors, builder.build()), {64});
     const SlicedTransport sliced = slicedTransport(packed, layout.count());
     QCOMPARE(sliced.longNodes, std::vector<std::uint32_t>{static_cast<std::uint32_t>(all)});
     // 4 patches, each with one segment that is not full at the most.

@@ -2,6 +2,7 @@
 #include "relucent/image/photograph_check.h"
 
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -89,6 +90,23 @@ class TestPhotographCheck : public QObject {
     Image blurred = resized(resized(image, {16, 12}), {64, 48});
     Region middle{16, 12, 32, 24};
     QVERIFY(sharpness(blurred, middle) < 0.5 * sharpness(image, middle));
+  }
+
+  /// Law: what is marked as sharp depends on the focus, not on the exposure.
+  void peaksAreWhereItIsSharp() {
+    const auto marked = [](const Image& image) {
+      const std::vector<std::uint8_t> peaks = focusPeaks(image, 0.2, 0.0);
+      return std::count(peaks.begin(), peaks.end(), std::uint8_t{1});
+    };
+    Image image = noise({64, 48}, 7), half = image;
+    for (float& value : half.data()) value *= 0.5f;
+    QVERIFY(marked(image) > 1000);
+    QCOMPARE(marked(half), marked(image));
+    QVERIFY(marked(resized(resized(image, {8, 6}), {64, 48})) < marked(image) / 4);
+    QCOMPARE(marked(Image({8, 8}, 3, 0.4f)), 0);
+    QCOMPARE(marked(Image({1, 1}, 3, 0.4f)), 0);
+    const std::vector<std::uint8_t> dark = focusPeaks(half, 0.2, 1.0);
+    QCOMPARE(std::count(dark.begin(), dark.end(), std::uint8_t{1}), 0);
   }
 
   void thereIsNothingSharpInNothing_data() {

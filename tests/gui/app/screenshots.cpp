@@ -20,6 +20,7 @@
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
 #include "wizard/devices/identify_overlay.h"
+#include "wizard/devices/nudge_dialog.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/output_page.h"
 #include "wizard/preview/preview_page.h"
@@ -260,6 +261,11 @@ int main(int argc, char** argv) {
   wizard.page<OutputPage>().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
   wizard.page<OutputPage>().checkDrift();
   until([&] { return wizard.page<OutputPage>().proof().drift().has_value(); });
+  wizard.page<OutputPage>().pushBack();
+  const auto* nudge = wizard.window().findChild<Nudge*>();
+  until([&] { return nudge->sight().has_value(); });
+  photographs.takeDialog("08-push-back", "nudge");
+  until([&] { return wizard.window().findChild<QDialog*>("nudge") == nullptr; });
   photographs.take("08-output");
   wizard.page<OutputPage>().close();
   photographs.take("08-closed");

@@ -8,10 +8,13 @@
 #include "app/help_window.h"
 #include "app/wizard_window.h"
 #include "gui/app/layout_faults.h"
+#include "gui/app/naming_faults.h"
 #include "relucent/base/message.h"
+#include "theme/accessible_role.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
+#include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/output_page.h"
@@ -72,7 +75,7 @@ class TestLayouts : public QObject {
   /// What was told before, of a part that many pages have, is not told again.
   QStringList faultsOf(const QWidget& window, const QString& language, const QString& where) {
     QStringList faults;
-    for (const QString& fault : LayoutFaults::of(window))
+    for (const QString& fault : LayoutFaults::of(window) + NamingFaults::of(window))
       if (!known_.contains(language + fault)) {
         known_.insert(language + fault);
         faults << QString("%1, %2: %3").arg(language, where, fault);
@@ -90,7 +93,7 @@ class TestLayouts : public QObject {
     }
     wizard_->preferences().setLanguage("en");
     QVERIFY2(faults.isEmpty(),
-             qPrintable(QString("%1 texts are cut\n").arg(faults.size()) + faults.join('\n')));
+             qPrintable(QString("%1 texts are cut or missing\n").arg(faults.size()) + faults.join('\n')));
   }
   QStringList seen(const QString& language, const QString& where) {
     settle();
@@ -181,6 +184,34 @@ class TestLayouts : public QObject {
     wizard_->window().show();
     QVERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
     QVERIFY(Language("en").available().size() > 1);
+  }
+
+  void whatHasNoNameIsFound() {
+    QWidget window;
+    auto* row = new QHBoxLayout(&window);
+    auto* line = new QLineEdit;
+    auto* own = new QWidget;
+    own->setFocusPolicy(Qt::StrongFocus);
+    auto* table = new QTableWidget(1, 2);
+    table->setAccessibleName("Table");
+    table->setItem(0, 0, new QTableWidgetItem("said"));
+    for (QWidget* widget : std::initializer_list<QWidget*>{line, own, table}) row->addWidget(widget);
+    window.show();
+    settle();
+    QCOMPARE(NamingFaults::of(window).size(), 3);
+    line->setAccessibleName("Line");
+    own->setAccessibleName("Own");
+    QCOMPARE(NamingFaults::of(window).filter("filler").size(), 1);
+    table->setItem(0, 1, new QTableWidgetItem("said too"));
+    setAccessibleRole(own, QAccessible::Graphic);
+    QWidget* other = new QWidget;  // the role counts from before anybody asked
+    other->setFocusPolicy(Qt::StrongFocus);
+    other->setAccessibleName("Other");
+    setAccessibleRole(other, QAccessible::Graphic);
+    delete own;
+    row->addWidget(other);
+    settle();
+    QVERIFY2(NamingFaults::of(window).isEmpty(), qPrintable(NamingFaults::of(window).join('\n')));
   }
 
   void faultsAreFound() {
@@ -352,6 +383,18 @@ class TestLayouts : public QObject {
     output.setFrozen(true);
     output.setBlack(true);
     page("playing");
+    inEveryLanguage([&](const QString& language) {
+      output.pushBack();
+      auto* dialog = wizard_->window().findChild<NudgeDialog*>();
+      const auto* nudge = dialog->findChild<Nudge*>();
+      if (!QTest::qWaitFor([&] { return nudge->sight().has_value(); }, patience))
+        return QStringList{language + ": the camera sees nothing"};
+      QStringList faults = seen(*dialog, language, "pushing the camera back");
+      const QPointer<QDialog> open = dialog;
+      dialog->reject();
+      if (!QTest::qWaitFor([&] { return open.isNull(); }, patience)) faults << language + ": it stays open";
+      return faults;
+    });
     output.close();
   }
 

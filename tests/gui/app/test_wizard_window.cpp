@@ -24,6 +24,7 @@
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
+#include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/output_page.h"
@@ -107,6 +108,29 @@ class TestWizardWindow : public QObject {
  public:
   /// In place of the desktop, which would show a report.
   Q_INVOKABLE void show(const QUrl& url) { shown_ = url; }
+
+  void theCutIsTypedOrPicked() {
+    ThresholdPage& threshold = wizard_->page<ThresholdPage>();
+    const auto before = static_cast<double>(threshold.cut().absolute);
+    auto* typed = find<QLineEdit>("cut-value");
+    typed->setFocus();
+    typed->selectAll();
+    QTest::keyClicks(typed, "0.002");
+    QTest::keyClick(typed, Qt::Key_Return);
+    QCOMPARE(threshold.cut().absolute, 0.002f);
+    typed->selectAll();
+    QTest::keyClicks(typed, "two");
+    QTest::keyClick(typed, Qt::Key_Return);
+    QCOMPARE(threshold.cut().absolute, 0.002f);
+    QCOMPARE(typed->text(), QString("0.002"));
+    QVERIFY(threshold.pickedLight().has_value());
+    click("use-picked");
+    QCOMPARE(threshold.cut().absolute, static_cast<float>(*threshold.pickedLight()));
+    click("use-suggested");
+    QCOMPARE(threshold.cut().absolute, static_cast<float>(threshold.suggested()));
+    threshold.setAbsolute(before);
+    QTRY_VERIFY_WITH_TIMEOUT(threshold.isExact(), patience);
+  }
 
  private slots:
   void initTestCase() { start(); }
@@ -306,6 +330,8 @@ class TestWizardWindow : public QObject {
       pickInTheMatrix();
     else
       QVERIFY(find<MatrixView>("matrix-view")->findChild<QLabel*>()->isVisible());
+    theCutIsTypedOrPicked();
+    QVERIFY(!wizard_->page<VenuePage>().recent().front().picture.isNull());  // it is measured
     click("primary");
     QTRY_COMPARE(page(), std::size_t{5});
   }
@@ -476,7 +502,7 @@ class TestWizardWindow : public QObject {
     QCOMPARE(output.secondary().size(), std::size_t{3});
     click("check-drift");
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
-    QVERIFY(output.proof().drift()->judgement.verdict == Verdict::stillGood);
+    QVERIFY(output.proof().drift()->verdict == Verdict::stillGood);
   }
 
   void theVenueIsHandedOver() {
@@ -593,6 +619,34 @@ class TestWizardWindow : public QObject {
     QVERIFY(wizard_->page<OutputPage>().proof().proof() == nullptr);
   }
 
+  /// Law: a camera that was bumped is pushed back before anything else, and then photographed through again.
+  void aMovedCameraIsPushedBack() {
+    OutputPage& output = wizard_->page<OutputPage>();
+    const std::filesystem::path folder = proofFolder(wizard_->session().path());
+    Proof proof = *loadProof(folder);
+    proof.content = wizard_->session().settings().content;
+    proof.figures.after.measured.deltaE = 1.0 + 2.0 * proof.figures.after.predicted.deltaE;
+    proof.figures.moved = {3.0, 4.0, 0.0, true};
+    proof.taken = QDateTime::currentDateTime();
+    saveProof(proof, folder);
+    wizard_->session().open(wizard_->session().path());
+    output.open();
+    QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Push the camera back"));
+    QVERIFY2(output.hint().contains("5.0"), qPrintable(output.hint()));
+    QTRY_VERIFY_WITH_TIMEOUT(output.primary()->isEnabled(), patience);
+    output.primary()->trigger();
+    QPointer<NudgeDialog> dialog = wizard_->window().findChild<NudgeDialog*>();
+    QVERIFY(dialog);
+    const auto* nudge = dialog->findChild<Nudge*>();
+    QTRY_VERIFY_WITH_TIMEOUT(nudge->sight().has_value(), patience);
+    QVERIFY(nudge->sight()->isAtItsPlace());  // somebody did it
+    dialog->reject();
+    QTRY_VERIFY_WITH_TIMEOUT(dialog.isNull(), patience);
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
+    output.close();
+  }
+
   /// Law: what is not as predicted is looked into before it is installed.
   void aFailedProofLeadsToItsCause() {
     OutputPage& output = wizard_->page<OutputPage>();
@@ -601,6 +655,8 @@ class TestWizardWindow : public QObject {
     Proof proof = *loadProof(folder);
     proof.content = wizard_->session().settings().content;
     proof.figures.after.measured.deltaE = 1.0 + 2.0 * proof.figures.after.predicted.deltaE;
+    proof.figures.moved = {};
+    proof.taken = QDateTime::currentDateTime();
     saveProof(proof, folder);
     wizard_->session().open(wizard_->session().path());
     QVERIFY(output.proof().proof() && !output.proof().proof()->isAsPredicted());

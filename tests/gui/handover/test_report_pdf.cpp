@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "handover/chart_picture.h"
+#include "handover/page_places.h"
 #include "handover/report_pdf.h"
+#include "handover/report_pieces.h"
 #include "relucent/base/error.h"
 #include "relucent/report/report.h"
 
@@ -36,7 +38,7 @@ ReportData data() {
   data.black = Image({64, 48}, 3);
   for (float& value : data.black.data()) value = 0.01f;
   data.ridgeCurve = {{0.2, 24.5}, {0.4, 24.75}};
-  data.settings = {{"acquisition.relative_threshold", "0.008"}};
+  for (int i = 0; i < 60; ++i) data.settings.push_back({"Setting " + std::to_string(i), "8"});
   data.libraries = {{"Eigen", "3.4.0"}};
   return data;
 }
@@ -66,6 +68,51 @@ class TestReportPdf : public QObject {
     QVERIFY(pdf.count("/Type /Page\n") >= 1);
     // The pictures of flood, reachable light and black, and the charts.
     QVERIFY2(pdf.count("/Subtype /Image") >= 5, QByteArray::number(pdf.count("/Subtype /Image")));
+  }
+
+  /// Law: pieces keep their order, do not overlap, stay on their page, and no heading ends a page.
+  void headingsStandWithWhatFollows_data() {
+    QTest::addColumn<QList<PieceSize>>("pieces");
+    QTest::newRow("nothing") << QList<PieceSize>{};
+    QTest::newRow("a heading at the foot")
+        << QList<PieceSize>{{80, 0, false}, {10, 5, true}, {20, 5, false}, {10, 5, false}};
+    QTest::newRow("two headings and a chart")
+        << QList<PieceSize>{{60, 0, false}, {10, 5, true}, {5, 2, true}, {40, 2, false}};
+    QTest::newRow("higher than a page") << QList<PieceSize>{{30, 0, true}, {250, 5, false}, {10, 5, false}};
+    QList<PieceSize> many;
+    for (int i = 0; i < 200; ++i) many.append({7.0 + i * 13 % 41, double(i % 5), i % 4 == 0 && i < 199});
+    QTest::newRow("many") << many;
+  }
+  void headingsStandWithWhatFollows() {
+    QFETCH(QList<PieceSize>, pieces);
+    constexpr double page = 100.0;
+    const QList<PiecePlace> places = placesOf(pieces, page);
+    QCOMPARE(places.size(), pieces.size());
+    for (qsizetype i = 0; i < places.size(); ++i) {
+      const double bottom = places[i].top + places[i].scale * pieces[i].height;
+      QVERIFY(places[i].top >= 0.0 && bottom <= page + 1e-9 && places[i].scale <= 1.0);
+      if (i + 1 == places.size()) break;
+      const PiecePlace& next = places[i + 1];
+      QVERIFY(next.page == places[i].page ? next.top >= bottom : next.page == places[i].page + 1);
+      const bool fits = pieces[i].height + pieces[i + 1].gap + pieces[i + 1].height <= page;
+      if (pieces[i].keepsNext && fits) QVERIFY2(next.page == places[i].page, QByteArray::number(i));
+    }
+  }
+
+  void everythingOfTheReportIsAPiece() {
+    const ReportPieces found = reportPieces(html(), 640.0);
+    QVERIFY(found.title.startsWith("Chapel & altar"));
+    QString all;
+    for (const ReportPiece& piece : found.pieces) all += piece.html;
+    for (const char* text : {"Chapel &amp; altar", "Findings", "Nothing stands out", "Floodlight image",
+                             "Response of projector 1", "Setting 0", "Setting 59", "Not darker than black"})
+      QVERIFY2(all.contains(text), text);
+    QVERIFY(found.pictures.size() >= 5);
+    for (qsizetype i = 0; i < found.pictures.size(); ++i) QVERIFY(all.contains(pictureName(i)));
+    // A heading is never the last, nor is what keeps the next.
+    QVERIFY(!found.pieces.last().keepsNext);
+    for (const ReportPiece& piece : found.pieces)
+      if (piece.html.startsWith("<h")) QVERIFY(piece.keepsNext);
   }
 
   void anotherThreadWritesItToo() {

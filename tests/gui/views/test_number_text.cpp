@@ -45,6 +45,22 @@ class TestNumberText : public QObject {
   void init() { QLocale::setDefault(QLocale(QLocale::English, QLocale::UnitedStates)); }
   void cleanup() { QGuiApplication::setLayoutDirection(Qt::LeftToRight); }
 
+  void manyAreSaidInWords_data() {
+    QTest::addColumn<quint64>("count");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("none") << quint64(0) << "0";
+    QTest::newRow("thousands") << quint64(999499) << QString::fromUtf8("999\u202F499");
+    QTest::newRow("a million") << quint64(1000000) << "1.00 million";
+    QTest::newRow("millions") << quint64(30123456) << "30.1 million";
+    QTest::newRow("hundreds of them") << quint64(943632423) << "944 million";
+    QTest::newRow("billions") << quint64(2148000000) << "2.15 billion";
+  }
+  void manyAreSaidInWords() {
+    QFETCH(quint64, count);
+    QFETCH(QString, text);
+    QCOMPARE(plain(largeText(count)), text);
+  }
+
   void threeDigits_data() {
     QTest::addColumn<double>("value");
     QTest::addColumn<QString>("text");

@@ -102,6 +102,12 @@ class TestWizard : public QObject {
     QVERIFY(page.status().state == StepState::done);
     QCOMPARE(page.recent().size(), 1);
     QCOMPARE(page.recent().front().name, name);
+    QVERIFY(!page.recent().front().isInterrupted && page.recent().front().picture.isNull());
+    const QString shots = page.recent().front().folder + "/shots";
+    QDir().mkpath(shots);
+    QFile shot(shots + "/acquisition-000000-ae9467f0.shot");
+    QVERIFY(shot.open(QIODevice::WriteOnly));
+    QVERIFY(page.recent().front().isInterrupted);
   }
 
   void aScriptMustNameItsPlaceholders() {

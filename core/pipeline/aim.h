@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+#include "relucent/image/image.h"
+#include "relucent/sentinels/movement.h"
+
+namespace relucent::pipeline {
+
+/// Where a camera looks, compared with where it looked when the venue was measured.
+struct AimOffset {
+  sentinels::Movement movement;  // of what is seen
+  double apart = 0.0;            // relative difference of both pictures, as they are
+  /// The movement is all that differs, or hardly anything does. Otherwise it says nothing: something else
+  /// is in the view, or another light.
+  bool isRecognised = false;
+};
+
+/// `expected` and `seen`: three channels, the same size, in any units: their mean brightness is made equal.
+/// `saturation`: of `seen`, where it ends. Throws: require() of the sizes.
+AimOffset aimOffset(const image::Image& expected, const image::Image& seen,
+                    float saturation = std::numeric_limits<float>::infinity());
+
+}  // namespace relucent::pipeline

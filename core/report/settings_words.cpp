@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/report/settings_words.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <type_traits>
+
+#include "relucent/report/number_text.h"
+
+namespace relucent::report {
+namespace {
+
+std::string joined(std::initializer_list<std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts)
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+std::string yesOrNo(bool is) {
+  return is ? "yes" : "no";
+}
+
+void addDevices(std::vector<NamedText>& list, const pipeline::RigSettings& rig) {
+  auto camera = [&](const std::string& address) {
+    if (!address.empty()) list.push_back({"Camera", address});
+  };
+  std::visit(
+      [&](const auto& devices) {
+        using Devices = std::decay_t<decltype(devices)>;
+        if constexpr (std::is_same_v<Devices, pipeline::ScreenRigSettings>) {
+          const auto& [connector, manufacturer, model, serialNumber] = devices.display;
+          list.push_back({"Projector", joined({manufacturer, model, serialNumber, connector})});
+          list.push_back({"Pictures a second", fmt::format("{:.4g}", devices.frameRate)});
+          camera(devices.cameraAddress);
+        } else if constexpr (std::is_same_v<Devices, pipeline::CommandRigSettings>) {
+          list.push_back({"Projector", "an external program"});
+          camera(devices.cameraAddress.empty() ? "an external program" : devices.cameraAddress);
+        }
+      },
+      rig);
+}
+
+std::string pixelWords(const reduction::PixelUse& use) {
+  switch (use.kind) {
+    case reduction::PixelUse::Kind::automatic:
+      return "as many of those that are lit as the projection needs";
+    case reduction::PixelUse::Kind::all:
+      return "all";
+    case reduction::PixelUse::Kind::binned:
+      break;
+  }
+  return fmt::format("those that are lit, {0} × {0} taken as one", use.bin);
+}
+
+std::string schemeWords(acquisition::AcquisitionScheme scheme) {
+  switch (scheme) {
+    case acquisition::AcquisitionScheme::adaptive:
+      return "blocks of the picture, finer where it matters";
+    case acquisition::AcquisitionScheme::sen:
+      return "blocks of the picture, finer down to a fixed brightness";
+    case acquisition::AcquisitionScheme::multiplexed:
+      break;
+  }
+  return "dense coloured patterns";
+}
+
+void addMeasurement(std::vector<NamedText>& list, const pipeline::CalibrateSettings& settings) {
+  const acquisition::AcquisitionSettings& measured = settings.acquisition;
+  list.push_back({"Camera pixels", pixelWords(settings.pixels)});
+  list.push_back({"Brightness levels per colour", std::to_string(settings.linearization.levels)});
+  list.push_back({"Patterns", schemeWords(measured.scheme)});
+  if (measured.scheme != acquisition::AcquisitionScheme::multiplexed)
+    list.push_back({"Colours of the patterns", measured.colours == acquisition::LitColours::rgb
+                                                   ? "red, green and blue in turn"
+                                                   : "white"});
+  list.push_back({"Faintest light that was looked for",
+                  percent(measured.relativeThreshold) + " of the brightest at its place"});
+  list.push_back({"Checks of room light and view", fmt::format("every {} patterns", measured.checkInterval)});
+  list.push_back({"Test patterns", std::to_string(measured.verificationPatterns)});
+  list.push_back({"Pictures may appear mirrored", yesOrNo(measured.mayBeMirrored)});
+}
+
+std::string cutWords(const transport::ThresholdSettings& cut) {
+  if (cut.absolute > 0.0f) return fmt::format("brighter than {:.3g} of the camera's signal", cut.absolute);
+  if (cut.shareOfRowMax > 0.0f)
+    return percent(static_cast<double>(cut.shareOfRowMax)) + " of the brightest at its place and more";
+  return "all that was measured";
+}
+
+std::string methodWords(compensation::Method method) {
+  return std::string(descriptionOf(method));
+}
+
+void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings& settings) {
+  const pipeline::ContentSettings& content = settings.content;
+  list.push_back({"Light that is used", cutWords(settings.threshold)});
+  list.push_back({"Content", content.picture.empty()
+                                 ? "Relucent's own picture"
+                                 : std::filesystem::path(content.picture).filename().string()});
+  list.push_back({"Correction", methodWords(content.method)});
+  list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});
+  list.push_back({"Blacks lifted by", percent(content.blackLift)});
+}
+
+}  // namespace
+
+std::vector<NamedText> settingsInWords(const pipeline::CalibrateSettings& settings) {
+  std::vector<NamedText> list;
+  addDevices(list, settings.rig);
+  addMeasurement(list, settings);
+  addContent(list, settings);
+  return list;
+}
+
+}  // namespace relucent::report

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/devices/nudge_dialog.h"
+
+#include <QPainter>
+#include <cmath>
+
+#include "relucent/pipeline/pictures.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/image_view.h"
+#include "views/number_text.h"
+
+namespace relucent::gui {
+namespace {
+
+/// From the middle of the view to where the camera has to be turned; as long as the way, but to be seen.
+QImage arrowTo(QSize size, double x, double y) {
+  QImage overlay(size, QImage::Format_ARGB32_Premultiplied);
+  overlay.fill(Qt::transparent);
+  const double way = std::hypot(x, y), side = std::min(size.width(), size.height());
+  if (way < NudgeSight::nearEnough) return overlay;
+  const double length = std::clamp(way, 0.15 * side, 0.4 * side), head = 0.05 * side;
+  const QPointF from(0.5 * size.width(), 0.5 * size.height()), along(x / way, y / way),
+      across(-along.y(), along.x()), tip = from + length * along;
+  QPainter painter(&overlay);
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (auto [colour, width] : {std::pair(colours(Look::dark).picture, 0.03 * side),
+                               std::pair(colours(Look::dark).accent, 0.015 * side)}) {
+    painter.setPen(QPen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.drawLine(from, tip);
+    painter.drawLine(tip, tip - head * along + head * across);
+    painter.drawLine(tip, tip - head * along - head * across);
+  }
+  return overlay;
+}
+
+QString wayText(double pixels, const QString& forwards, const QString& backwards) {
+  if (std::abs(pixels) < NudgeSight::nearEnough) return NudgeDialog::tr("fits");
+  return (pixels > 0.0 ? forwards : backwards).arg(decimalText(std::abs(pixels), 1));
+}
+
+QString adviceOn(const sentinels::Movement& moved) {
+  const bool across = std::abs(moved.x) >= NudgeSight::nearEnough,
+             along = std::abs(moved.y) >= NudgeSight::nearEnough;
+  if (across && along) {
+    if (moved.x > 0.0)
+      return moved.y > 0.0 ? NudgeDialog::tr("Turn the camera to the right and down.")
+                           : NudgeDialog::tr("Turn the camera to the right and up.");
+    return moved.y > 0.0 ? NudgeDialog::tr("Turn the camera to the left and down.")
+                         : NudgeDialog::tr("Turn the camera to the left and up.");
+  }
+  if (across)
+    return moved.x > 0.0 ? NudgeDialog::tr("Turn the camera to the right.")
+                         : NudgeDialog::tr("Turn the camera to the left.");
+  if (along)
+    return moved.y > 0.0 ? NudgeDialog::tr("Turn the camera down.") : NudgeDialog::tr("Turn the camera up.");
+  return moved.degrees > 0.0 ? NudgeDialog::tr("Tilt the camera clockwise.")
+                             : NudgeDialog::tr("Tilt the camera anticlockwise.");
+}
+
+}  // namespace
+
+NudgeDialog::NudgeDialog(Nudge& nudge, QWidget* parent) : QDialog(parent), nudge_(nudge) {
+  setObjectName("nudge");
+  setWindowTitle(tr("Push the camera back"));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(24, 24, 24, 24);
+  row->setSpacing(24);
+  view_ = new ImageView;
+  view_->setObjectName("nudge-view");
+  view_->setAccessibleName(tr("What the camera saw, and what it sees now"));
+  view_->setMinimumSize(480, 360);
+  row->addWidget(view_, 1);
+  auto* side = new QWidget;
+  side->setFixedWidth(300);
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  column->addWidget(labelOf(windowTitle(), "title"));
+  column->addWidget(labelOf(tr("The projector shows full light. Left of the line stands what the camera saw "
+                               "when the venue was measured, right of it what it sees now."),
+                            "note"));
+  column->addWidget(lineOf());
+  column->addWidget(across_ = new ValueRow(tr("Sideways")));
+  column->addWidget(along_ = new ValueRow(tr("Up and down")));
+  column->addWidget(turned_ = new ValueRow(tr("Tilt")));
+  column->addWidget(lineOf());
+  column->addWidget(verdict_ = new Remark);
+  verdict_->setObjectName("nudge-verdict");
+  column->addStretch(1);
+  QPushButton* close = buttonOf(tr("Close"), "primary");
+  close->setObjectName("nudge-close");
+  connect(close, &QPushButton::clicked, this, &NudgeDialog::reject);
+  column->addWidget(close);
+  row->addWidget(side);
+  resize(960, 560);
+  connect(&nudge_, &Nudge::changed, this, &NudgeDialog::refresh);
+  connect(&nudge_, &Nudge::ended, this, [this] {
+    if (closing_) QDialog::reject();
+  });
+  refresh();
+}
+
+void NudgeDialog::reject() {
+  closing_ = true;
+  nudge_.stop();
+}
+
+void NudgeDialog::refresh() {
+  showPictures();
+  showVerdict();
+}
+
+void NudgeDialog::showPictures() {
+  if (!nudge_.sight()) {
+    view_->setPicture({});
+    view_->setEmptyText(nudge_.stage().isEmpty() ? tr("Opening the devices") : nudge_.stage());
+    return;
+  }
+  const image::Image &then = nudge_.expected(), &now = nudge_.sight()->seen;
+  view_->setPicture(pictureOf(then, pipeline::displayWhite(then)));
+  view_->setCompared(pictureOf(now, pipeline::displayWhite(now)), tr("Measured"), tr("Now"));
+  const pipeline::AimOffset& offset = nudge_.sight()->offset;
+  view_->setOverlay(offset.isRecognised
+                        ? arrowTo(QSize(now.width(), now.height()), offset.movement.x, offset.movement.y)
+                        : QImage());
+}
+
+void NudgeDialog::showVerdict() {
+  const std::optional<NudgeSight>& sight = nudge_.sight();
+  const bool isKnown = sight && sight->offset.isRecognised;
+  const sentinels::Movement moved = isKnown ? sight->offset.movement : sentinels::Movement{};
+  const QString nothing = QString::fromUtf8("–");
+  across_->setValue(isKnown ? wayText(moved.x, tr("%1 px to the right"), tr("%1 px to the left")) : nothing);
+  along_->setValue(isKnown ? wayText(moved.y, tr("%1 px down"), tr("%1 px up")) : nothing);
+  turned_->setValue(isKnown ? tr("%1°").arg(decimalText(moved.degrees, 2)) : nothing);
+  if (nudge_.failure())
+    verdict_->show(Remark::Kind::failed, nudge_.failure()->what, nudge_.failure()->advice);
+  else if (!sight)
+    verdict_->show(Remark::Kind::watch, tr("Looking through the camera"), {});
+  else if (sight->isAtItsPlace())
+    verdict_->show(Remark::Kind::good, tr("The camera looks where it looked."),
+                   tr("Fasten it, look once more, and close this window."));
+  else if (isKnown)
+    verdict_->show(Remark::Kind::warning, adviceOn(moved),
+                   tr("The arrow shows where. If the projector was bumped instead, move its picture the "
+                      "other way."));
+  else
+    verdict_->show(
+        Remark::Kind::watch, tr("What is seen is not the view that was measured."),
+        tr("Turn the camera until both halves look alike. If they do, the light or the surface has "
+           "changed."));
+}
+
+void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(bool)>& done) {
+  Nudge* looking = nudge.release();
+  auto* dialog = new NudgeDialog(*looking, above.window());
+  looking->setParent(dialog);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowModality(Qt::WindowModal);
+  QObject::connect(dialog, &QDialog::finished, looking,
+                   [looking, done] { done(looking->sight() && looking->sight()->isAtItsPlace()); });
+  looking->start();
+  dialog->show();
+}
+
+}  // namespace relucent::gui

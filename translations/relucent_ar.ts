@@ -4635,6 +4635,10 @@ projector %2</source>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>أبقِ A مضغوطًا للأصل، المسافة تجمّد، B يسوّد، T يعرض لوحات الاختبار، O الأرقام.</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -4527,6 +4527,10 @@ Projektor %2</translation>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>A halten für das Original, Leertaste hält an, B macht schwarz, T zeigt Testbilder, O Zahlen.</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

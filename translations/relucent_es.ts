@@ -4527,6 +4527,10 @@ proyector %2</translation>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Mantenga A para ver el original, espacio congela, B lo pone en negro, T muestra cartas de prueba, O cifras.</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Los dispositivos están en uso en %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -4505,7 +4505,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
-        <translation>Limite pour %1 images par seconde : %2 ms</translation>
+        <translation>Limite pour %1 images par seconde&#x202f;: %2 ms</translation>
     </message>
     <message>
         <source>the processor</source>
@@ -4526,6 +4526,10 @@ projecteur %2</translation>
     <message>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Maintenez A pour l’original, espace fige, B met en noir, T affiche des mires, O des chiffres.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
     </message>
 </context>
 <context>

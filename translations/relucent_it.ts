@@ -4527,6 +4527,10 @@ proiettore %2</translation>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>Tenere A per l’originale, spazio ferma, B rende nero, T mostra carte di test, O cifre.</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>I dispositivi sono in uso nel passo %1.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

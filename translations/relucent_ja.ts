@@ -4500,6 +4500,10 @@ projector %2</source>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>A を押している間は元の映像、スペースで静止、B で黒、T でテストチャート、O で数値。</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は「%1」で使用中です。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

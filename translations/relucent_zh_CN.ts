@@ -4500,6 +4500,10 @@ projector %2</source>
         <source>Hold A for the original, space freezes, B makes it black, T shows test charts, O figures.</source>
         <translation>按住 A 显示原图，空格定格，B 变黑，T 显示测试图卡，O 显示数值。</translation>
     </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正由“%1”使用。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

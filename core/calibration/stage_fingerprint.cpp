@@ -17,7 +17,11 @@ std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage) {
   const std::string inputs = fingerprintOf(folder, stage);
   if (stage != Stage::acquisition) return inputs;
   const std::optional<StageResult> measured = folder.find(stage, inputs);
-  if (!measured) return inputs;
+  if (!measured) {
+    // An earlier measurement is used until there is a new one: what it comes to is not the new one's.
+    const std::optional<StageResult> earlier = folder.latest(stage);
+    return earlier ? hashOf(Json{{"inputs", inputs}, {"earlier", earlier->inputs}}) : inputs;
+  }
   const auto result = resultFrom<Stage::acquisition>(*measured);
   if (result.stoppedAt == 0) return inputs;
   const int patterns = result.cost ? result.cost->patterns : 0;

@@ -12,7 +12,7 @@ namespace relucent::calibration {
 /// setting or a newer version of an algorithm makes all later results out of date. Settings that the manifest
 /// lacks because a later version added them leave it as it was. A measurement that was stopped early is
 /// another than the one that went on, though its settings are the same: what follows from it knows where it
-/// was stopped.
+/// was stopped. So is an earlier measurement, which is used until there is one for the settings as they are.
 std::string fingerprintOf(const CalibrationFolder& folder, Stage stage);
 
 /// One link of that chain:

@@ -110,6 +110,8 @@ StepStatus OutputPage::status() const {
 QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
+  if (!isOpen() && !session_.areDevicesFree())
+    return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
   if (isOpen()) {
@@ -252,7 +254,15 @@ void OutputPage::open() {
     return;
   std::vector<ScreenIdentity> screens;
   for (const auto& screen : chosen_) screens.push_back(screens_[*screen].identity);
-  projection_.open({session_.path(), playlist_.settings(), session_.settings().content.fit, screens});
+  std::filesystem::path results = session_.path();
+  try {
+    earlier_ = nullptr;
+    if (ResultsBeside::areNeeded(session_)) earlier_ = std::make_unique<ResultsBeside>(results);
+  } catch (...) {
+    return tell(failureOf(std::current_exception()));
+  }
+  if (earlier_) results = earlier_->path();
+  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens});
 }
 
 void OutputPage::close() {

@@ -5,6 +5,7 @@
 #include "output/output_projection.h"
 #include "wizard/devices/device_page.h"
 #include "wizard/output/output_proof.h"
+#include "wizard/session/results_beside.h"
 
 namespace relucent::gui {
 
@@ -133,6 +134,7 @@ class OutputPage : public DevicePage {
   PageCommand* goOnMeasuring_;                                                // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;
+  std::unique_ptr<ResultsBeside> earlier_;  // what plays while it is measured again
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;
   std::vector<std::optional<std::size_t>> chosen_;  // a projector's

@@ -8,6 +8,7 @@
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "views/number_text.h"
+#include "wizard/session/results_beside.h"
 
 namespace relucent::gui {
 namespace {
@@ -16,6 +17,26 @@ namespace {
 constexpr std::array comparedMethods{compensation::Method::none, compensation::Method::mix,
                                      compensation::Method::clusters, compensation::Method::refined,
                                      compensation::Method::optimum};
+
+void chooseInverse(const std::filesystem::path& path, Progress& progress) {
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
+  Progress reading =
+      progress.part(0.3, RELUCENT_MESSAGE("stage.reading-light-transport", "Reading the light transport"));
+  compensation::MeasuredVenue venue = pipeline::loadMeasuredVenue(folder, reading);
+  Progress inverting = progress.part(
+      0.7, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
+  pipeline::measureInverse(folder, venue, inverting);
+}
+
+void make(PreviewEngine& engine, const std::filesystem::path& path, Progress& progress) {
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  engine.measured = pipeline::loadCalibration(folder, progress);
+  compensation::CompensatorSettings settings;
+  settings.clustering = pipeline::settingsOf(folder).clustering;
+  engine.compensator.emplace(engine.measured.venue, engine.measured.inverse, settings);
+}
 
 }  // namespace
 
@@ -83,8 +104,10 @@ void PreviewPage::enter() {
   prepare();
 }
 
+/// While it is measured again, of the earlier result.
 void PreviewPage::prepare() {
-  if (!session_.isOpen() || job_.isRunning() || !session_.areDevicesFree()) return;
+  const bool isBeside = ResultsBeside::areNeeded(session_);
+  if (!session_.isOpen() || job_.isRunning() || (!isBeside && !session_.areDevicesFree())) return;
   const transport::ThresholdSettings& cut = session_.settings().threshold;
   std::string wanted =
       fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept, session_.measurement());
@@ -92,35 +115,25 @@ void PreviewPage::prepare() {
   preparedFor_ = wanted;
   engine_ = nullptr;
   made_ = std::make_shared<PreviewEngine>();
-  lease_ = session_.leaseDevices(stepName);
-  job_.start([made = made_, path = session_.path()](Progress& progress) {
-    {
-      calibration::CalibrationFolder folder =
-          calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::write);
-      Progress reading = progress.part(
-          0.2, RELUCENT_MESSAGE("stage.reading-light-transport", "Reading the light transport"));
-      compensation::MeasuredVenue venue = pipeline::loadMeasuredVenue(folder, reading);
-      Progress inverting = progress.part(
-          0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
-      pipeline::measureInverse(folder, venue, inverting);
-    }
-    calibration::CalibrationFolder folder =
-        calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
-    Progress loading =
+  if (!isBeside) lease_ = session_.leaseDevices(stepName);
+  job_.start([made = made_, path = session_.path(), isBeside](Progress& progress) {
+    if (isBeside) return make(*made, ResultsBeside(path).path(), progress);
+    Progress choosing = progress.part(
+        0.7, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
+    chooseInverse(path, choosing);
+    Progress making =
         progress.part(0.3, RELUCENT_MESSAGE("stage.preparing-preview", "Preparing the preview"));
-    made->measured = pipeline::loadCalibration(folder, loading);
-    compensation::CompensatorSettings settings;
-    settings.clustering = pipeline::settingsOf(folder).clustering;
-    made->compensator.emplace(made->measured.venue, made->measured.inverse, settings);
+    make(*made, path, making);
   });
   tellStatus();
 }
 
 void PreviewPage::prepared() {
+  const bool isLeased = session_.devicesUser() == stepName;
   lease_.release();
   if (job_.state() == Job::State::done) {
     engine_ = std::exchange(made_, nullptr);
-    session_.reload();
+    if (isLeased) session_.reload();
     compute();
   } else {
     if (job_.state() == Job::State::cancelled) preparedFor_.clear();
@@ -244,7 +257,7 @@ QString PreviewPage::hint() const {
 
 void PreviewPage::updateCommands() {
   goOnMeasuring_->show(goOnMeasuringText());
-  accept_->show(tr("Go to output"), preview_ != nullptr && whyLocked().isEmpty());
+  accept_->show(tr("Go to output"), preview_ != nullptr && engine_ != nullptr && whyLocked().isEmpty());
 }
 
 std::optional<double> PreviewPage::progress() const {

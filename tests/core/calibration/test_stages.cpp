@@ -166,6 +166,25 @@ class TestStages : public QObject {
     QVERIFY(stand(StageProgress::done));
   }
 
+  /// Law: what is decided by an earlier measurement, while it is measured again, is not the new one's.
+  void whatIsDecidedByAnEarlierMeasurementIsNotTheNewOnes() {
+    CalibrationFolder folder = CalibrationFolder::create(path() / "earlier", Json::object(), Json::object());
+    const auto measure = [&folder] {
+      folder.store(Stage::acquisition, fingerprintOf(folder, Stage::acquisition), Json::object());
+    };
+    measure();
+    storeDecision(folder, ThresholdResult());
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::done);
+    folder.setSettings({{"acquisition", {{"seed", 2}}}});
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::stale);
+    storeDecision(folder, ThresholdResult());
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::done);
+    measure();
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::stale);
+    folder.setSettings(Json::object());
+    QVERIFY(progressOf(folder, Stage::threshold) == StageProgress::done);
+  }
+
   void aStageThatWasNeverDoneHasNoResult() {
     const CalibrationFolder folder =
         CalibrationFolder::create(path() / "new", Json::object(), Json::object());

@@ -193,6 +193,57 @@ class TestWhileMeasuring : public QObject {
     QCOMPARE(threshold.status().state, StepState::done);
   }
 
+  /// Law: while it is measured again, what the earlier measurement came to is looked at on every page that
+  /// follows, also where that was not prepared before.
+  void earlierResultsAreLookedAtMeanwhile() {
+    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    AcquirePage acquire(*session_);
+    ThresholdPage threshold(*session_);
+    ClusterPage cluster(*session_);
+    PreviewPage preview(*session_);
+    Wizard wizard(*session_);
+    for (PageModel* page : std::initializer_list<PageModel*>{&acquire, &threshold, &cluster, &preview})
+      wizard.add(*page);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    session_->decide(ThresholdResult{.energyKept = 0.98});
+    session_->decide(ClusteringResult{.clusters = 12});
+    QSignalSpy failed(&preview, &PageModel::failed);
+    session_->live().setLeastInterval(500);
+    acquire.secondary().front()->trigger();
+    QVERIFY(acquire.isMeasuring());
+    QVERIFY(wizard.go(1));
+    QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value(), patience);
+    QVERIFY(wizard.go(2));
+    QTRY_VERIFY_WITH_TIMEOUT(cluster.result() && !cluster.isComputing(), patience);
+    QVERIFY(wizard.go(3));
+    QTRY_VERIFY_WITH_TIMEOUT(preview.preview() || !failed.isEmpty(), patience);
+    QVERIFY2(failed.isEmpty(),
+             qPrintable(failed.isEmpty() ? QString()
+                                         : failed.front().front().value<FailureReport>().failure.details));
+    QVERIFY(acquire.isMeasuring() && session_->devicesUser() == AcquirePage::stepName);
+    for (const PageModel* page : std::initializer_list<const PageModel*>{&threshold, &cluster, &preview}) {
+      QVERIFY(!page->primary()->isEnabled());
+      QVERIFY2(page->hint().contains(acquire.name()), qPrintable(page->hint()));
+    }
+    session_->live().setLeastInterval(0);
+    acquire.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    // And where measuring again has not ended, by a page that knows nothing yet.
+    QCOMPARE(acquire.status().state, StepState::outOfDate);
+    PreviewPage another(*session_);
+    QSignalSpy failedThere(&another, &PageModel::failed);
+    session_->open(session_->path());
+    another.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(another.preview() || !failedThere.isEmpty(), patience);
+    QVERIFY(failedThere.isEmpty());
+    acquire.returnToEarlier();
+    QCOMPARE(acquire.status().state, StepState::done);
+    session_->wantAcquisition();
+    QTRY_VERIFY_WITH_TIMEOUT(session_->acquisition() || session_->acquisitionFailure(), patience);
+    QVERIFY(session_->acquisition() != nullptr);
+  }
+
   /// Law: measuring again is taken back as a whole: the earlier result stands, and what followed from it.
   void measuringAgainIsTakenBack() {
     session_->begin(folder_->filePath("venue").toStdString(), simulated());

@@ -4465,10 +4465,6 @@ projecteur %2</translation>
         <translation>le processeur</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A original, espace fige, B noir</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>Mire suivante (T)</translation>
     </message>
@@ -4482,7 +4478,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
-        <translation>Limite pour %1 images par seconde : %2 ms</translation>
+        <translation>Limite pour %1 images par seconde&#x202f;: %2 ms</translation>
     </message>
 </context>
 <context>

@@ -4620,10 +4620,6 @@ projector %2</source>
         <translation>المعالج</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A الأصل، المسافة تجمّد، B أسود</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>لوحة الاختبار التالية (T)</translation>
     </message>

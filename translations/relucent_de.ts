@@ -4512,10 +4512,6 @@ Projektor %2</translation>
         <translation>dem Prozessor</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A Original, Leertaste hält an, B schwarz</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>Nächstes Testbild (T)</translation>
     </message>

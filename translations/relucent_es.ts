@@ -4512,10 +4512,6 @@ proyector %2</translation>
         <translation>el procesador</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A original, espacio congela, B negro</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>Siguiente carta de prueba (T)</translation>
     </message>

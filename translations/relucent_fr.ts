@@ -4512,10 +4512,6 @@ projecteur %2</translation>
         <translation>le processeur</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A original, espace fige, B noir</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>Mire suivante (T)</translation>
     </message>

@@ -4512,10 +4512,6 @@ proiettore %2</translation>
         <translation>il processore</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A originale, spazio ferma, B nero</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>Prossima carta di test (T)</translation>
     </message>

@@ -4485,10 +4485,6 @@ projector %2</source>
         <translation>プロセッサー</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A で元の映像、スペースで静止、B で黒</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>次のテストチャート (T)</translation>
     </message>

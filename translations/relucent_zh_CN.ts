@@ -4485,10 +4485,6 @@ projector %2</source>
         <translation>处理器</translation>
     </message>
     <message>
-        <source>A original, space freezes, B black</source>
-        <translation>A 原图，空格定格，B 黑屏</translation>
-    </message>
-    <message>
         <source>Next test chart (T)</source>
         <translation>下一个测试图卡 (T)</translation>
     </message>

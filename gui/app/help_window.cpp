@@ -24,6 +24,30 @@ QList<HelpPage> helpPages(const QString& language) {
   return pages;
 }
 
+namespace {
+
+/// As the program looks now: a page in the other theme would be the brightest or the darkest thing on the
+/// screen.
+QImage themedPicture(const QString& file) {
+  const bool isDark = Theme::instance().look() == Look::dark;
+  const QImage dark = isDark ? QImage(":/help/pictures/dark/" + file) : QImage();
+  return dark.isNull() ? QImage(":/help/pictures/" + file) : dark;
+}
+
+}  // namespace
+
+HelpText::HelpText(QWidget* parent) : QTextBrowser(parent) {
+  connect(&Theme::instance(), &Theme::changed, this, &HelpText::showAgain);
+}
+
+/// At the place that is being read.
+void HelpText::showAgain() {
+  if (page_.text.isEmpty()) return;
+  const int place = verticalScrollBar()->value();
+  show(page_);
+  verticalScrollBar()->setValue(place);
+}
+
 void HelpText::show(const HelpPage& page) {
   page_ = page;
   width_ = viewport()->width();
@@ -49,7 +73,7 @@ void HelpText::spread() {
 
 QVariant HelpText::loadResource(int type, const QUrl& name) {
   if (type != QTextDocument::ImageResource) return QTextBrowser::loadResource(type, name);
-  QImage picture(":/help/pictures/" + name.fileName());
+  QImage picture = themedPicture(name.fileName());
   int most = width_ - static_cast<int>(2.0 * document()->documentMargin());
   if (picture.isNull() || most <= 0) return picture;
   auto pixels = static_cast<int>(most * devicePixelRatioF());
@@ -60,10 +84,7 @@ QVariant HelpText::loadResource(int type, const QUrl& name) {
 
 void HelpText::resizeEvent(QResizeEvent* event) {
   QTextBrowser::resizeEvent(event);
-  if (width_ == viewport()->width() || page_.text.isEmpty()) return;
-  int place = verticalScrollBar()->value();
-  show(page_);
-  verticalScrollBar()->setValue(place);
+  if (width_ != viewport()->width()) showAgain();
 }
 
 HelpWindow::HelpWindow(const QString& language, QWidget* parent)

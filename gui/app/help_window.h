@@ -14,13 +14,13 @@ namespace relucent::gui {
 /// belong to no step, the last one about the program and the libraries that it uses.
 QList<HelpPage> helpPages(const QString& language);
 
-/// Displays a page: with the direction of its language, spacing between paragraphs, and pictures scaled to
-/// the available width.
+/// Displays a page: with the direction of its language, spacing between paragraphs, and pictures in the
+/// program's theme, scaled to the available width.
 class HelpText : public QTextBrowser {
   Q_OBJECT
 
  public:
-  explicit HelpText(QWidget* parent = nullptr) : QTextBrowser(parent) {}
+  explicit HelpText(QWidget* parent = nullptr);
   void show(const HelpPage& page);
 
  protected:
@@ -29,6 +29,7 @@ class HelpText : public QTextBrowser {
 
  private:
   void spread();
+  void showAgain();
   HelpPage page_;
   int width_ = 0;  // width that pictures were scaled to
 };

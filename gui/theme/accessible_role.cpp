@@ -23,6 +23,9 @@ void setAccessibleRole(QWidget* widget, QAccessible::Role role) {
     return true;
   }();
   widget->setProperty(property, static_cast<int>(role));
+  // Somebody may have asked before.
+  if (QAccessibleInterface* told = QAccessible::queryAccessibleInterface(widget))
+    QAccessible::deleteAccessibleInterface(QAccessible::uniqueId(told));
 }
 
 }  // namespace relucent::gui

@@ -41,6 +41,14 @@ class PlaybackCard : public Card {
     row->addStretch(1);
     body()->addLayout(row);
     rate_->setObjectName("frame-rate");
+    addAction(nextChart_ = toolOf(Icon::picture, OutputPage::tr("Next test chart (T)")));
+    addAction(figures_ = toolOf(Icon::pulse, OutputPage::tr("Figures over the picture (O)")));
+    nextChart_->setObjectName("next-chart");
+    figures_->setObjectName("figures");
+    OutputProjection& projection = page_.projection();
+    connect(nextChart_, &QToolButton::clicked, &projection, &OutputProjection::nextChart);
+    connect(figures_, &QToolButton::clicked, &projection,
+            [&projection] { projection.setOverlay(!projection.hasOverlay()); });
     chart_ = new LineChart(axisOf(-chartSeconds, 0.0, OutputPage::tr("Seconds")),
                            axisOf(0.0, 20.0, OutputPage::tr("Frame time, ms")));
     chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
@@ -52,6 +60,7 @@ class PlaybackCard : public Card {
  private:
   void refresh() {
     PlayerStatistics s = page_.projection().statistics();
+    for (QToolButton* button : {nextChart_, figures_}) button->setEnabled(page_.isOpen());
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
@@ -99,6 +108,7 @@ class PlaybackCard : public Card {
   }
   OutputPage& page_;
   Readout *rate_, *time_, *late_;
+  QToolButton *nextChart_, *figures_;
   LineChart* chart_;
 };
 
@@ -184,7 +194,7 @@ class OutputStage : public QWidget {
       case Qt::Key_T:
         return page_.projection().nextChart();
       case Qt::Key_O:
-        return toggleFigures();
+        return page_.projection().setOverlay(!page_.projection().hasOverlay());
       default:
         QWidget::keyPressEvent(event);
     }
@@ -195,27 +205,19 @@ class OutputStage : public QWidget {
   void dropEvent(QDropEvent* event) override { page_.addFiles(draggedFiles(*event->mimeData())); }
 
  private:
-  void toggleFigures() { page_.projection().setOverlay(!page_.projection().hasOverlay()); }
   Card* projectorCard() {
     projector_ = new Card(OutputPage::tr("On the projector now"));
-    projector_->setSubtitle(OutputPage::tr("A original, space freezes, B black"));
-    chart_ = toolOf(Icon::picture, OutputPage::tr("Next test chart (T)"));
-    chart_->setObjectName("next-chart");
-    figures_ = toolOf(Icon::pulse, OutputPage::tr("Figures over the picture (O)"));
-    figures_->setObjectName("figures");
-    connect(chart_, &QToolButton::clicked, &page_, [this] { page_.projection().nextChart(); });
-    connect(figures_, &QToolButton::clicked, &page_, [this] { toggleFigures(); });
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
     compare_->setObjectName("compare");
     projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
-    projector_->addAction(chart_);
-    projector_->addAction(figures_);
     projector_->addAction(compare_);
     output_ = new MirrorView(page_.projection());
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
-    output_->setAccessibleDescription(OutputPage::tr(
-        "Hold A for the original, space freezes, B makes it black, T shows test charts, O figures."));
+    output_->setAccessibleDescription(
+        OutputPage::tr("Hold A for the original, space freezes, B makes it black, T shows test charts, O "
+                       "figures."));
+    output_->setToolTip(output_->accessibleDescription());
     output_->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
     projector_->body()->addWidget(output_, 1);
     connect(compare_, &Segmented::chosen, &page_, [this](int index) { page_.setCompensated(index == 0); });
@@ -247,8 +249,7 @@ class OutputStage : public QWidget {
     return card;
   }
   void refresh() {
-    for (QWidget* widget : std::initializer_list<QWidget*>{compare_, chart_, figures_})
-      widget->setEnabled(page_.isOpen());
+    compare_->setEnabled(page_.isOpen());
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
@@ -290,7 +291,6 @@ class OutputStage : public QWidget {
   ViewLink link_;
   Card *projector_, *photograph_;
   Segmented* compare_;
-  QToolButton *chart_, *figures_;
   ImageView *output_, *photo_, *difference_;
   std::shared_ptr<const Proof> shown_;
 };

@@ -7,6 +7,7 @@
 
 #include "app/help_window.h"
 #include "app/versions.h"
+#include "theme/theme.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -66,6 +67,14 @@ class TestHelpWindow : public QObject {
       QVERIFY(picture.canConvert<QImage>() && !picture.value<QImage>().isNull());
       QVERIFY(text->horizontalScrollBar()->maximum() == 0);
     }
+    const auto brightness = [&](Look look) {
+      Theme::instance().apply(look);
+      const auto picture =
+          text->document()->resource(QTextDocument::ImageResource, QUrl("../pictures/07-preview.png"));
+      return qGray(
+          picture.value<QImage>().scaled(1, 1, Qt::IgnoreAspectRatio, Qt::SmoothTransformation).pixel(0, 0));
+    };
+    QVERIFY(brightness(Look::dark) < 80 && brightness(Look::light) > 120);
     Q_EMIT text->anchorClicked(QUrl("09-limits.md"));
     QCOMPARE(pages->currentRow(), 8);
     QVERIFY(text->toPlainText().contains("Shadow is shadow"));

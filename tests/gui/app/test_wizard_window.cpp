@@ -505,6 +505,18 @@ class TestWizardWindow : public QObject {
     QVERIFY(output.proof().drift()->verdict == Verdict::stillGood);
   }
 
+  void chartsAndFiguresAreShown() {
+    OutputProjection& projection = wizard_->page<OutputPage>().projection();
+    click("next-chart");
+    QVERIFY(projection.showsChart());
+    for (std::size_t i = 0; i < allTestCharts.size(); ++i) click("next-chart");
+    QVERIFY(!projection.showsChart());
+    click("figures");
+    QVERIFY(projection.hasOverlay());
+    click("figures");
+    QVERIFY(!projection.hasOverlay());
+  }
+
   void theVenueIsHandedOver() {
     OutputPage& output = wizard_->page<OutputPage>();
     output.setConfigFolder(folder_.filePath("config"));

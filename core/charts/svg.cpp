@@ -15,8 +15,8 @@ constexpr double numberHeight = 14.0, digitWidth = 7.0;  // of letters 11 pixels
 
 std::string open(std::string_view style, Extent extent, const std::string& title) {
   return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" class="{}" viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><title>{}</title>)",
-      style, extent.width, extent.height, escaped(title), escaped(title));
+      R"(<svg class="{}" viewBox="0 0 {:g} {:g}" role="img" aria-label="{}"><title>{}</title>)", style,
+      extent.width, extent.height, escaped(title), escaped(title));
 }
 
 std::string text(std::string_view style, Point at, std::string_view anchor, std::string_view content) {
@@ -257,7 +257,11 @@ PlotArea plotOf(const Chart& chart, const Drawing& drawing) {
 std::string svgOf(const Chart& chart, const Drawing& drawing) {
   Drawn drawn(chart, drawing);
   std::string svg = open("chart", drawing.extent, chart.title);
-  if (!drawing.styleSheet.empty()) svg += "<style>" + drawing.styleSheet + "</style>";
+  if (!drawing.styleSheet.empty()) {
+    // It stands alone: programs ask for the name of the language, which pages of HTML know.
+    svg.insert(svg.find(' '), R"( xmlns="http://www.w3.org/2000/svg")");
+    svg += "<style>" + drawing.styleSheet + "</style>";
+  }
   svg += drawn.axes() + drawn.columns();
   if (!std::isnan(chart.mark)) svg += drawn.mark();
   for (const Curve& curve : chart.curves) svg += drawn.curve(curve);

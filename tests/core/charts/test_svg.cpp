@@ -152,7 +152,10 @@ class TestSvg : public QObject {
 
   void aStyleSheetStandsInTheDrawing() {
     QVERIFY(svgOf(fullChart(), {{470, 300}}).find("<style>") == std::string::npos);
-    QVERIFY(svgOf(fullChart(), {{470, 300}, ".red{}"}).find("<style>.red{}</style>") != std::string::npos);
+    QVERIFY(svgOf(fullChart(), {{470, 300}}).find("xmlns") == std::string::npos);
+    const std::string alone = svgOf(fullChart(), {{470, 300}, ".red{}"});
+    QVERIFY(alone.find("<style>.red{}</style>") != std::string::npos);
+    QVERIFY(alone.starts_with(R"(<svg xmlns="http://www.w3.org/2000/svg" )"));
   }
 
   void barsAreAsLongAsTheirValues() {

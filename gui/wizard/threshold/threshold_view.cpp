@@ -178,7 +178,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
                          .arg(largeText(kept.connections / std::max<std::size_t>(1, pixels))));
       memory->setValue(bytesText(kept.bytes));
     } else {
-      for (ValueRow* row : {light, connections, leaves, memory}) row->setValue({});
+      for (ValueRow* row : {light, connections, each, memory}) row->setValue({});
     }
     bool known = model.picked() && model.footprint();
     for (QWidget* widget : std::initializer_list<QWidget*>{picked, litBy, strongest, direct, elsewhere})

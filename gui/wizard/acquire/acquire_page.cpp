@@ -20,8 +20,6 @@
 namespace relucent::gui {
 namespace {
 
-constexpr double fastThreshold = 0.03, fineThreshold = 0.006;
-constexpr int fastVerification = 4;
 constexpr std::chrono::seconds beforeRetry{5};
 
 }  // namespace
@@ -249,46 +247,6 @@ Banner AcquirePage::stoppedBanner() const {
                       quality->photographs)
               .arg(decibels(quality->now), decibels(quality->whole), text(roundedDuration(quality->seconds))),
           goOnMeasuring_};
-}
-
-Fineness AcquirePage::fineness() const {
-  const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
-  if (settings.singleExposure || settings.relativeThreshold >= fastThreshold) return Fineness::fast;
-  return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
-}
-
-void AcquirePage::change(const QString& what, const acquisition::AcquisitionSettings& acquisition) {
-  changeUndoably(what, session_.settings().acquisition, acquisition,
-                 [this](const acquisition::AcquisitionSettings& wanted) { keep(wanted); });
-}
-
-void AcquirePage::keep(const acquisition::AcquisitionSettings& acquisition) {
-  if (!whyLocked().isEmpty()) return tellSettings();
-  pipeline::CalibrateSettings settings = session_.settings();
-  settings.acquisition = acquisition;
-  settings.acquisition.seed = session_.settings().acquisition.seed;
-  try {
-    session_.changeSettings(settings);
-  } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
-  }
-}
-
-acquisition::AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
-  if (fineness == this->fineness()) return session_.settings().acquisition;
-  acquisition::AcquisitionSettings settings =
-      acquisition::settingsOf(acquisition::AcquisitionMode::multiplexed);
-  if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
-  if (fineness == Fineness::fast) {
-    settings.relativeThreshold = fastThreshold;
-    settings.verificationPatterns = fastVerification;
-  }
-  return settings;
-}
-
-void AcquirePage::setFineness(Fineness fineness) {
-  if (!whyLocked().isEmpty() || fineness == this->fineness()) return tellSettings();
-  change(tr("Fineness"), settingsOf(fineness));
 }
 
 QString AcquirePage::watching() const {

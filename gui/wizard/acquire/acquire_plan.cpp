@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the page of acquisition knows before it measures: what it will take, and what it will look at.
+// What the page of acquisition knows and decides before it measures: how finely, what that will take, and
+// what it will look at.
 #include <numeric>
 #include <utility>
 
@@ -7,6 +8,52 @@
 #include "wizard/acquire/acquire_page.h"
 
 namespace relucent::gui {
+namespace {
+
+constexpr double fastThreshold = 0.03, fineThreshold = 0.006;
+constexpr int fastVerification = 4;
+
+}  // namespace
+
+Fineness AcquirePage::fineness() const {
+  const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
+  if (settings.singleExposure || settings.relativeThreshold >= fastThreshold) return Fineness::fast;
+  return settings.relativeThreshold <= fineThreshold ? Fineness::fine : Fineness::usual;
+}
+
+void AcquirePage::change(const QString& what, const acquisition::AcquisitionSettings& acquisition) {
+  changeUndoably(what, session_.settings().acquisition, acquisition,
+                 [this](const acquisition::AcquisitionSettings& wanted) { keep(wanted); });
+}
+
+void AcquirePage::keep(const acquisition::AcquisitionSettings& acquisition) {
+  if (!whyLocked().isEmpty()) return tellSettings();
+  pipeline::CalibrateSettings settings = session_.settings();
+  settings.acquisition = acquisition;
+  settings.acquisition.seed = session_.settings().acquisition.seed;
+  try {
+    session_.changeSettings(settings);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+  }
+}
+
+acquisition::AcquisitionSettings AcquirePage::settingsOf(Fineness fineness) const {
+  if (fineness == this->fineness()) return session_.settings().acquisition;
+  acquisition::AcquisitionSettings settings =
+      acquisition::settingsOf(acquisition::AcquisitionMode::multiplexed);
+  if (fineness == Fineness::fine) settings.relativeThreshold = fineThreshold;
+  if (fineness == Fineness::fast) {
+    settings.relativeThreshold = fastThreshold;
+    settings.verificationPatterns = fastVerification;
+  }
+  return settings;
+}
+
+void AcquirePage::setFineness(Fineness fineness) {
+  if (!whyLocked().isEmpty() || fineness == this->fineness()) return tellSettings();
+  change(tr("Fineness"), settingsOf(fineness));
+}
 
 std::optional<WorkLeft> AcquirePage::expected(const acquisition::AcquisitionSettings& settings) const {
   if (!response_ || response_->exposures.empty()) return std::nullopt;

@@ -178,12 +178,16 @@ class TestWhileMeasuring : public QObject {
     const std::shared_ptr<const ClusterResult> coarse = cluster.result();
     const std::uint64_t leaves = threshold.kept()->leaves;
 
-    // Gone on with while Cluster is looked at.
+    // Gone on with while Cluster is looked at. What was read is let go of before what is new has been read.
+    bool wasLetGoOf = false;
+    connect(session_.get(), &Session::acquisitionChanged, this, [&] {
+      if (!session_->acquisition()) wasLetGoOf = !cluster.result() && !threshold.kept() && !threshold.whole();
+    });
     acquire.banner()->command->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
     QCOMPARE(acquire.status().state, StepState::done);
     for (std::size_t i = 1; i < 4; ++i) QCOMPARE(pages[i]->status().state, StepState::outOfDate);
-    QVERIFY(!cluster.result() && !threshold.kept() && !threshold.whole());
+    QVERIFY(wasLetGoOf);
     QTRY_VERIFY_WITH_TIMEOUT(cluster.result() && !cluster.isComputing(), patience);
     QVERIFY(cluster.result() != coarse);
     QTRY_VERIFY_WITH_TIMEOUT(threshold.kept().has_value(), patience);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// The devices of the open calibration: opened, proved and checked.
+#include <tuple>
+#include <utility>
+
+#include "relucent/base/error.h"
+#include "relucent/base/message.h"
+#include "relucent/devices/check/test_exposure.h"
+#include "relucent/rig/watched_rig.h"
+#include "wizard/session/other_screens.h"
+#include "wizard/session/session.h"
+
+namespace relucent::gui {
+namespace {
+
+/// Holds other screens up as the rig's own projectors, which their pictures are not to be taken for.
+class OtherScreensWatcher : public rig::RigWatcher {
+ public:
+  explicit OtherScreensWatcher(std::shared_ptr<LiveRig> live) : live_(std::move(live)) {}
+  void beforeShowing(std::size_t index, rig::RigLight& light) override { live_->beforeShowing(index, light); }
+
+ private:
+  std::shared_ptr<LiveRig> live_;
+};
+
+}  // namespace
+
+/// Contract: guard_ is held.
+rig::Rig& SessionDevices::opened(Progress& progress) {
+  if (!opened_) {
+    Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
+                                     RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
+    pipeline::OpenedRig opened = pipeline::openRig(settings_, cache_, screens_, opening);
+    // What is simulated answers at once.
+    if (!std::holds_alternative<venue::VenueSettings>(settings_))
+      for (std::unique_ptr<rig::Camera>& camera : opened.rig.cameras)
+        camera = std::make_unique<PatientCamera>(std::move(camera), waiting_);
+    opened.rig = rig::watched(std::move(opened.rig), live_);
+    {
+      std::scoped_lock instant(screenGuard_);
+      screen_ = opened.screen;
+      if (screen_) screen_->setLatency(latency_.value_or(unmeasuredLatency()));
+    }
+    opened_ = std::move(opened);
+  }
+  return opened_->rig;
+}
+
+rig::Rig& SessionDevices::open(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  rig::Rig& rig = opened(progress);
+  // A camera that was turned away is looked through again.
+  if (hasScreen() && !proof_.isSeen) prove(progress);
+  return rig;
+}
+
+rig::Rig& SessionDevices::openUnproved(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  return opened(progress);
+}
+
+void SessionDevices::lookFirst(const Progress& progress) {
+  std::scoped_lock lock(guard_);
+  require(opened_ && hasScreen(), "only an open screen is looked at first");
+  devices::LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  std::ignore = devices::testExposure(*opened_->rig.projectors.front(), *opened_->rig.cameras.front(),
+                                      settling, devices::sleepFor, progress);
+}
+
+void SessionDevices::prove(Progress& progress) {
+  Progress proving = progress.part(
+      0.7, RELUCENT_MESSAGE("stage.finding-projector-picture", "Looking for the projector's picture"));
+  rig::Projector& projector = *opened_->rig.projectors.front();
+  rig::Camera& camera = *opened_->rig.cameras.front();
+  devices::LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  rig::Rig beside;  // watched as well: they flash no quicker, and pause as the projector's own screen does
+  for (const pipeline::ScreenRigSettings& other :
+       askForOtherScreens(std::get<pipeline::ScreenRigSettings>(settings_)))
+    beside.projectors.push_back(devices::delayed(screens_(other), unmeasuredLatency(), devices::sleepFor));
+  beside = rig::watched(std::move(beside), std::make_shared<OtherScreensWatcher>(live_));
+  std::vector<rig::Projector*> others;
+  for (const std::unique_ptr<rig::Projector>& other : beside.projectors) others.push_back(other.get());
+  const devices::ScreenExposure exposureOf = [&](rig::Projector& screen) {
+    return devices::testExposure(screen, camera, settling, devices::sleepFor, proving);
+  };
+  proof_ = devices::proveScreen(projector, others, camera, exposureOf, {}, proving);
+  devices::requireSeen(proof_, projector, camera);
+}
+
+pipeline::RigCheck SessionDevices::check(Progress& progress) {
+  std::scoped_lock lock(guard_);
+  require(opened_ && hasScreen(), "only an open screen is checked");
+  rig::Projector& projector = *opened_->rig.projectors.front();
+  rig::Camera& camera = *opened_->rig.cameras.front();
+  const double frame = 1.0 / std::get<pipeline::ScreenRigSettings>(settings_).frameRate;
+  pipeline::RigCheck check;
+  check.proof = proof_;
+
+  Progress measuring =
+      progress.part(0.6, RELUCENT_MESSAGE("stage.measuring-latency", "Measuring the latency"));
+  devices::LatencySettings latency;
+  latency.frame = frame;
+  latency.mostFrames = patience_.mostFrames;
+  screen()->setLatency(0.0);
+  try {
+    check.latency =
+        devices::measureLatency(projector, camera, proof_.exposure, latency, devices::sleepFor, measuring);
+  } catch (...) {
+    screen()->setLatency(unmeasuredLatency());
+    throw;
+  }
+  setLatency(check.latency.seconds);
+
+  Progress judging = progress.part(0.4, RELUCENT_MESSAGE("stage.judging-light", "Judging the light"));
+  devices::LightCheckSettings light;
+  light.frame = frame;
+  light.photographs = patience_.photographs;
+  light.settle = patience_.mostFrames * frame;
+  // Within a frame: that is what is judged.
+  screen()->setWholeFrames(false);
+  try {
+    check.light = devices::checkLight(projector, camera, proof_.exposure, light, devices::sleepFor, judging);
+  } catch (...) {
+    screen()->setWholeFrames(true);
+    throw;
+  }
+  screen()->setWholeFrames(true);
+  return check;
+}
+
+std::shared_ptr<devices::ScreenControl> SessionDevices::screen() const {
+  std::scoped_lock instant(screenGuard_);
+  return screen_;
+}
+
+/// Long enough for most projectors: what proves the screen comes before what measures.
+double SessionDevices::unmeasuredLatency() const {
+  return patience_.mostFrames / std::get<pipeline::ScreenRigSettings>(settings_).frameRate / 3.0;
+}
+
+void SessionDevices::setLatency(double seconds) {
+  std::scoped_lock instant(screenGuard_);
+  latency_ = seconds;
+  if (screen_) screen_->setLatency(seconds);
+}
+
+void SessionDevices::rest() {
+  if (std::shared_ptr<devices::ScreenControl> used = screen()) used->rest();
+}
+
+}  // namespace relucent::gui

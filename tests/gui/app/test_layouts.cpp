@@ -262,12 +262,15 @@ class TestLayouts : public QObject {
                              ErrorKind::input, ErrorKind::numerics}) {
         Failure failure{
             kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
-        PageCommand resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr);
+        PageCommand resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr),
+            repair(Icon::camera, nullptr);
         resume.show(AcquirePage::tr("Resume"));
         keep.show(AcquirePage::tr("Stop and keep"));
         goOn.show(AcquirePage::tr("Continue anyway"));
-        FailureDialog dialog({failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn},
-                             wizard_->page<AcquirePage>().name());
+        repair.show(AcquirePage::tr("Push the camera back"));
+        FailureDialog dialog(
+            {failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn, false, &repair},
+            wizard_->page<AcquirePage>().name());
         dialog.show();
         faults << seen(dialog, language, "failure");
       }

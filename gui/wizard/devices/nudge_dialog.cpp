@@ -153,6 +153,8 @@ void NudgeDialog::showVerdict() {
 }
 
 void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(bool)>& done) {
+  // Another language has replaced that window, and the new one is asked as well.
+  if (!above.window()->isVisible()) return;
   Nudge* looking = nudge.release();
   auto* dialog = new NudgeDialog(*looking, above.window());
   looking->setParent(dialog);

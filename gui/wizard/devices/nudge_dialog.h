@@ -35,7 +35,8 @@ class NudgeDialog : public QDialog {
 };
 
 /// Begins to look, in a dialog before the window of `above`. `done` comes when that is closed and the devices
-/// are free, with whether the camera looks where it looked.
+/// are free, with whether the camera looks where it looked. Nothing happens
+/// before a window that is not shown.
 void showNudge(QWidget& above, std::unique_ptr<Nudge> nudge, const std::function<void(bool)>& done);
 
 }  // namespace relucent::gui

@@ -61,7 +61,7 @@ struct PackingSettings {
   float tolerance = 0.005f;
 };
 
-/// T for the real-time engine, in an eighth of the memory of its blocks.
+/// T for the real-time engine, in a third of its leaves.
 ///   (T p)_i = N_i sum_near t_ij v_j + F_i (sum_far t_ij v_j + light of i's group),    v = node values of p
 ///   light of a group = sum t_gj v_j + light of its parent
 /// N_i and F_i are the mixings of camera pixel i's near and far light, see rowLight(); far light arrives

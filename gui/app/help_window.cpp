@@ -10,6 +10,7 @@
 #include <QTextCursor>
 #include <QTextList>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "app/versions.h"
 #include "theme/controls.h"
@@ -50,9 +51,19 @@ void HelpText::showAgain() {
 
 void HelpText::show(const HelpPage& page) {
   page_ = page;
-  width_ = viewport()->width();
-  setMarkdown(page.text);
-  spread();
+  // A page that is being written may need a bar to scroll, which makes it narrower: it is written once more,
+  // but not within itself.
+  if (std::exchange(isWriting_, true)) return;
+  constexpr int most = 2;
+  for (int times = 0; times < most && (times == 0 || width_ != viewport()->width()); ++times) {
+    width_ = viewport()->width();
+    // Qt would write all that has no letters of its own in those of the heading in which the cursor stands.
+    clear();
+    setCurrentCharFormat({});
+    setMarkdown(page_.text);
+    spread();
+  }
+  isWriting_ = false;
 }
 
 /// The side to read from, and room between paragraphs, which Markdown comes without. A paragraph's first word
@@ -84,7 +95,7 @@ QVariant HelpText::loadResource(int type, const QUrl& name) {
 
 void HelpText::resizeEvent(QResizeEvent* event) {
   QTextBrowser::resizeEvent(event);
-  if (width_ != viewport()->width()) showAgain();
+  if (!isWriting_ && width_ != viewport()->width()) showAgain();
 }
 
 HelpWindow::HelpWindow(const QString& language, QWidget* parent)

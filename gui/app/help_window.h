@@ -31,7 +31,8 @@ class HelpText : public QTextBrowser {
   void spread();
   void showAgain();
   HelpPage page_;
-  int width_ = 0;  // width that pictures were scaled to
+  int width_ = 0;           // width that pictures were scaled to
+  bool isWriting_ = false;  // the page into the document
 };
 
 /// The window of the user's guide: list of pages at the left, the page at the right, and a search over all of

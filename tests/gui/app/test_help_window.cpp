@@ -40,6 +40,36 @@ class TestHelpWindow : public QObject {
     QCOMPARE(text.document()->lastBlock().textDirection(), second);
   }
 
+  /// A page looks the same whatever was read before, and from its start.
+  void aPageTakesNothingOverFromTheOneBefore() {
+    HelpWindow help("en");
+    help.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&help));
+    auto* text = help.findChild<HelpText*>("help-text");
+    auto* search = help.findChild<QLineEdit*>("help-search");
+    auto sizes = [](const QTextDocument& document) {
+      QList<QVariant> sizes;
+      for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+        for (auto piece = block.begin(); !piece.atEnd(); ++piece)
+          sizes << piece.fragment().charFormat().property(QTextFormat::FontSizeAdjustment);
+      return sizes;
+    };
+    const QList<HelpPage> pages = helpPages("en");
+    for (int i = 0; i < pages.size(); ++i) {
+      HelpText fresh;
+      fresh.show(pages[i]);
+      help.showPage((i + 3) % static_cast<int>(pages.size()));
+      help.showPage(i);
+      QCOMPARE(sizes(*text->document()), sizes(*fresh.document()));
+    }
+    search->setText("flicker");
+    search->clear();
+    HelpText fresh;
+    fresh.show(pages.last());
+    help.showPage(static_cast<int>(pages.size()) - 1);
+    QCOMPARE(sizes(*text->document()), sizes(*fresh.document()));
+  }
+
   void everyLibraryIsNamedWithVersionAndLicence() {
     QString about = helpPages("en").last().text;
     QVERIFY(about.contains("Permission is hereby granted"));

@@ -155,8 +155,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     shareText->setVisible(model.isShareOfRow());
     for (QWidget* widget : std::initializer_list<QWidget*>{typed, usePicked, suggest, why})
       widget->setVisible(!model.isShareOfRow());
-    if (!typed->isModified())
-      typed->setText(typedText(static_cast<double>(model.cut().absolute)));
+    if (!typed->isModified()) typed->setText(typedText(static_cast<double>(model.cut().absolute)));
     typed->setEnabled(model.whole().has_value());
     usePicked->setEnabled(model.pickedLight().has_value());
     why->setText(model.isNoiseSuggested()

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tbb/parallel_invoke.h>
-
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "relucent/base/tbb.h"
 #include "relucent/photography/photographer.h"
 #include "relucent/sentinels/interruption.h"
 

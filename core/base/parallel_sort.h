@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tbb/parallel_sort.h>
+#include "relucent/base/tbb.h"
 
 namespace relucent {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "relucent/base/tbb_tasks.h"
+#include "relucent/base/tbb.h"
 #include "relucent/pipeline/outlook.h"
 #include "relucent/sentinels/observer.h"
 

@@ -11,7 +11,6 @@
 #include "relucent/base/random.h"
 #include "relucent/multiplexing/division.h"
 #include "relucent/multiplexing/learning.h"
-#include "relucent/platform/process.h"
 
 namespace relucent::acquisition {
 namespace {
@@ -37,8 +36,6 @@ constexpr std::size_t judgedRows = 40000;
 constexpr float mostDimming = 10.0f;
 // Parts of the camera pixels that wait to be written.
 constexpr std::size_t partsWritten = 32;
-// Parts after which the system gets back the memory that they had: some 50 MB.
-constexpr std::size_t partsReturned = 256;
 
 int detailsAt(int level) {
   return level > 0 ? fewDetails : RowSettings().details;
@@ -48,7 +45,8 @@ bool every(std::size_t) {
   return true;
 }
 
-void justSolved(std::size_t, const DensePhotographs::Rows&, std::size_t, RowRegression&, const RowLight&) {}
+void justSolved(std::size_t, const DensePhotographs::Rows&, std::size_t, const Row&, RowRegression&,
+                const RowLight&) {}
 
 /// How well photographs that were held out are predicted.
 struct Prediction {
@@ -82,7 +80,7 @@ DenseRows::DenseRows(const photography::References& references, const Acquisitio
       settings_(settings),
       photographs_(references),
       means_(transport::NodeLayout(references.projectors)),
-      rows_(references.usable.size()),
+      rows_(references.usable.size(), 2 * references.root.size()),
       thresholds_(rows_.size()) {
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     float strongest = std::max(photographs_.flood(row).maxCoeff(), 1e-6f * references.typical);
@@ -105,19 +103,21 @@ void DenseRows::beginWith(int level, float spread) {
   level_ = level;
   const std::vector<Leaf> leaves = multiplexing::startingLeaves(means_.layout(), level, spread);
   const float excess = RowSettings().leastExcess * RowSettings().leastExcess;
-  parallelFor(0, rows_.size(), 1024, [&](std::size_t row) {
-    rows_[row] = {};
-    if (!references_.usable[row]) return;
-    for (const transport::ColourBlock& mixing : photographs_.floodMixing(row))
-      rows_[row].mixing.insert(rows_[row].mixing.end(), 2, mixing);
-    rows_[row].excess = excess;
-    rows_[row].leaves = leaves;
+  rows_.change([&](std::size_t number, std::vector<Leaf>& own) {
+    if (references_.usable[number]) own = leaves;
+  });
+  parallelFor(0, rows_.size(), 1024, [&](std::size_t number) {
+    if (!references_.usable[number]) return;
+    Row row{leaves, {}, excess};
+    for (const transport::ColourBlock& mixing : photographs_.floodMixing(number))
+      row.mixing.insert(row.mixing.end(), 2, mixing);
+    rows_.write(number, row);
   });
 }
 
 int DenseRows::patternsNeeded() const {
-  return patternsFor([&](std::size_t row) {
-    return static_cast<std::size_t>(std::ranges::count_if(rows_[row].leaves, [&](const Leaf& leaf) {
+  return patternsFor([&](std::size_t number) {
+    return static_cast<std::size_t>(std::ranges::count_if(rows_.leavesOf(number), [&](const Leaf& leaf) {
       return means_.layout().node(leaf.node).level == level_;
     }));
   });
@@ -132,7 +132,7 @@ int DenseRows::patternsNeededNext() const {
 int DenseRows::patternsFor(const std::function<std::size_t(std::size_t row)>& leaves) const {
   std::vector<std::size_t> unknown;
   for (std::size_t row = 0; row < rows_.size(); ++row)
-    if (!rows_[row].leaves.empty()) unknown.push_back(leaves(row));
+    if (!rows_.leavesOf(row).empty()) unknown.push_back(leaves(row));
   if (unknown.empty()) return 0;
   auto many = unknown.begin() + static_cast<std::ptrdiff_t>(served * static_cast<double>(unknown.size() - 1));
   std::nth_element(unknown.begin(), many, unknown.end());
@@ -173,7 +173,7 @@ void DenseRows::solve() {
 
 void DenseRows::solveJudged() {
   solveRows(
-      0, detailsAt(level_), [&](std::size_t row) { return isJudged(row); }, justSolved);
+      0, detailsAt(level_), [&](std::size_t number) { return isJudged(number); }, justSolved);
 }
 
 void DenseRows::solveRows(std::size_t heldOut, int details) {
@@ -189,22 +189,25 @@ void DenseRows::solveRows(std::size_t heldOut, int details, const Wanted& wanted
     const DensePhotographs::Rows shown(photographs_, part);
     RowRegression regression(means_, model);
     RowLight seen;
-    for (std::size_t row = shown.begin(); row < shown.end(); ++row) {
-      if (rows_[row].leaves.empty() || !wanted(row)) continue;
-      shown.read(row, heldOut, seen);
-      const RowFit& fit = regression.solve(rows_[row], seen);
-      use(part, shown, row, regression, seen);
-      multiplexing::learn(rows_[row], fit, photographs_.floodMixing(row), model);
+    Row row;
+    for (std::size_t number = shown.begin(); number < shown.end(); ++number) {
+      if (rows_.leavesOf(number).empty() || !wanted(number)) continue;
+      rows_.read(number, row);
+      shown.read(number, heldOut, seen);
+      const RowFit& fit = regression.solve(row, seen);
+      use(part, shown, number, row, regression, seen);
+      multiplexing::learn(row, fit, photographs_.floodMixing(number), model);
+      rows_.write(number, row);
     }
   });
 }
 
 std::vector<std::size_t> DenseRows::judge(std::size_t heldOut) {
   std::vector<PhotographReview> parts(photographs_.parts(), PhotographReview(photographs_.size()));
-  solveRows(
-      heldOut, detailsAt(level_), every,
-      [&](std::size_t part, const DensePhotographs::Rows&, std::size_t row, RowRegression& regression,
-          const RowLight& seen) { parts[part].add(row, seen, regression.predict(), rows_[row].excess); });
+  solveRows(heldOut, detailsAt(level_), every,
+            [&](std::size_t part, const DensePhotographs::Rows&, std::size_t number, const Row& row,
+                RowRegression& regression,
+                const RowLight& seen) { parts[part].add(number, seen, regression.predict(), row.excess); });
   PhotographReview found(photographs_.size());
   for (const PhotographReview& part : parts) found.add(part);
   std::vector<float> gains = found.gains();
@@ -218,22 +221,22 @@ std::vector<std::size_t> DenseRows::judge(std::size_t heldOut) {
 }
 
 /// By chance, so that no row or column of the picture counts more than another.
-bool DenseRows::isJudged(std::size_t row) const {
+bool DenseRows::isJudged(std::size_t number) const {
   std::size_t apart = rows_.size() / judgedRows;
-  return apart < 2 || Random{row}.below(apart) == 0;
+  return apart < 2 || Random{number}.below(apart) == 0;
 }
 
 double DenseRows::predict(std::size_t heldOut) {
   std::vector<Prediction> parts(photographs_.parts());
   solveRows(
-      heldOut, detailsAt(level_), [&](std::size_t row) { return isJudged(row); },
-      [&](std::size_t part, const DensePhotographs::Rows& shown, std::size_t row, RowRegression& regression,
-          const RowLight&) {
+      heldOut, detailsAt(level_), [&](std::size_t number) { return isJudged(number); },
+      [&](std::size_t part, const DensePhotographs::Rows& shown, std::size_t number, const Row&,
+          RowRegression& regression, const RowLight&) {
         const Eigen::ArrayX3f& predicted = regression.predict();
-        for (std::size_t number = photographs_.size() - heldOut; number < photographs_.size(); ++number) {
-          auto [light, variance] = shown.shown(number, row);
-          parts[part].add(photographs_.flood(row), light, variance,
-                          light - predicted.row(static_cast<Eigen::Index>(number)).transpose());
+        for (std::size_t i = photographs_.size() - heldOut; i < photographs_.size(); ++i) {
+          auto [light, variance] = shown.shown(i, number);
+          parts[part].add(photographs_.flood(number), light, variance,
+                          light - predicted.row(static_cast<Eigen::Index>(i)).transpose());
         }
       });
   Prediction all;
@@ -252,42 +255,42 @@ transport::Draft DenseRows::draft() const {
 }
 
 /// The row's leaves in radiance.
-void DenseRows::encodeRow(std::size_t row, const RowFit& fit, transport::SharedColourEncoder& encoder,
+void DenseRows::encodeRow(std::size_t number, const Row& row, const RowFit& fit,
+                          transport::SharedColourEncoder& encoder,
                           transport::SharedColourRow& encoded) const {
-  const Eigen::Vector3f flood = photographs_.flood(row);
+  const Eigen::Vector3f flood = photographs_.flood(number);
   std::vector<std::uint32_t> nodes;
   std::vector<transport::ColourBlock> blocks;
   for (std::size_t j = 0; j < fit.blocks.size(); ++j) {
-    nodes.push_back(rows_[row].leaves[j].node);
+    nodes.push_back(row.leaves[j].node);
     blocks.push_back(flood.asDiagonal() * fit.blocks[j]);
   }
   encoder.encode(nodes, blocks, encoded);
 }
 
 /// What is known of a row besides its leaves.
-void DenseRows::describeRow(std::size_t row, const RowFit& fit, const Eigen::Array3f& floodVariance,
-                            MeasuredTransport& measured) const {
-  const Eigen::Array3f flood = photographs_.flood(row);
+void DenseRows::describeRow(std::size_t number, const Row& row, const RowFit& fit,
+                            const Eigen::Array3f& floodVariance, MeasuredTransport& measured) const {
+  const Eigen::Array3f flood = photographs_.flood(number);
   float variance = 0.0f;
-  for (const Leaf& leaf : rows_[row].leaves) variance += leaf.deviation * leaf.deviation;
+  for (const Leaf& leaf : row.leaves) variance += leaf.deviation * leaf.deviation;
   // A third of a leaf's light is in each projector channel.
   variance /= 9.0f * static_cast<float>(std::max<std::size_t>(1, fit.blocks.size()));
-  Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * row]) = flood.square() * variance;
-  Eigen::Map<Eigen::Array3f>(&measured.floods.light[3 * row]) = flood * fit.flood;
-  Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * row]) = flood.square() * floodVariance;
+  Eigen::Map<Eigen::Array3f>(&measured.leafVariance[3 * number]) = flood.square() * variance;
+  Eigen::Map<Eigen::Array3f>(&measured.floods.light[3 * number]) = flood * fit.flood;
+  Eigen::Map<Eigen::Array3f>(&measured.floods.variance[3 * number]) = flood.square() * floodVariance;
 }
 
 MeasuredTransport DenseRows::finish() {
   RowSettings model;
   model.details = detailsAt(level_);
-  std::size_t count = rows_.size(), leaves = 0;
-  for (const Row& row : rows_) leaves += row.leaves.size();
+  const std::size_t count = rows_.size();
   MeasuredTransport measured;
   measured.leafVariance.assign(3 * count, 0.0f);
   measured.unknown.assign(count, 0);
   measured.floods = floodsOf(references_);
   const transport::ColumnKinds kinds = transport::nearAndFar(means_.layout(), model.nearLevels);
-  transport::SharedColourWriter writer(means_.layout().count(), count, kinds, leaves);
+  transport::SharedColourWriter writer(means_.layout().count(), count, kinds, rows_.leaves());
   constexpr std::size_t together = DensePhotographs::rowsTogether;
   std::vector<transport::SharedColourRow> encoded(std::min(partsWritten * together, count));
   for (std::size_t first = 0; first < photographs_.parts(); first += partsWritten) {
@@ -296,22 +299,22 @@ MeasuredTransport DenseRows::finish() {
       const DensePhotographs::Rows shown(photographs_, part);
       RowRegression regression(means_, model);
       RowLight seen;
+      Row row;
       transport::SharedColourEncoder encoder(kinds);
-      for (std::size_t row = shown.begin(); row < shown.end(); ++row) {
-        encoder.encode({}, {}, encoded[row - begin]);
-        if (rows_[row].leaves.empty()) continue;
-        shown.read(row, 0, seen);
-        const RowFit& fit = regression.solve(rows_[row], seen);
-        encodeRow(row, fit, encoder, encoded[row - begin]);
-        describeRow(row, fit, regression.floodVariance(rows_[row]), measured);
-        measured.unknown[row] = shown.hardlySeen(row) ? 1 : 0;
+      for (std::size_t number = shown.begin(); number < shown.end(); ++number) {
+        encoder.encode({}, {}, encoded[number - begin]);
+        if (rows_.leavesOf(number).empty()) continue;
+        rows_.read(number, row);
+        shown.read(number, 0, seen);
+        const RowFit& fit = regression.solve(row, seen);
+        encodeRow(number, row, fit, encoder, encoded[number - begin]);
+        describeRow(number, row, fit, regression.floodVariance(row), measured);
+        measured.unknown[number] = shown.hardlySeen(number) ? 1 : 0;
       }
     });
-    for (std::size_t row = begin; row < std::min(last * together, count); ++row) {
-      writer.add(encoded[row - begin]);
-      rows_[row] = {};
-    }
-    if (last % partsReturned == 0) platform::returnFreedMemory();
+    const std::size_t end = std::min(last * together, count);
+    for (std::size_t number = begin; number < end; ++number) writer.add(encoded[number - begin]);
+    rows_.forgetBefore(end);
   }
   measured.transport =
       transport::TransportMatrix(references_.cameras, references_.projectors, writer.build());

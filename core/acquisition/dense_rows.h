@@ -10,7 +10,7 @@
 #include "relucent/acquisition/settings.h"
 #include "relucent/multiplexing/pattern_means.h"
 #include "relucent/multiplexing/regression.h"
-#include "relucent/multiplexing/row.h"
+#include "relucent/multiplexing/rows.h"
 #include "relucent/transport/draft.h"
 
 namespace relucent::acquisition {
@@ -81,26 +81,26 @@ class DenseRows {
     int level = 0;
     std::size_t photographs = 0;
   };
-  using Use =
-      std::function<void(std::size_t part, const DensePhotographs::Rows& shown, std::size_t row,
-                         multiplexing::RowRegression& regression, const multiplexing::RowLight& seen)>;
-  using Wanted = std::function<bool(std::size_t row)>;
+  using Use = std::function<void(std::size_t part, const DensePhotographs::Rows& shown, std::size_t number,
+                                 const multiplexing::Row& row, multiplexing::RowRegression& regression,
+                                 const multiplexing::RowLight& seen)>;
+  using Wanted = std::function<bool(std::size_t number)>;
 
   void beginWith(int level, float spread);
   int patternsFor(const std::function<std::size_t(std::size_t row)>& leaves) const;
   void solveRows(std::size_t heldOut, int details, const Wanted& wanted, const Use& use);
   void solveRows(std::size_t heldOut, int details);
-  bool isJudged(std::size_t row) const;
-  void encodeRow(std::size_t row, const multiplexing::RowFit& fit, transport::SharedColourEncoder& encoder,
-                 transport::SharedColourRow& encoded) const;
-  void describeRow(std::size_t row, const multiplexing::RowFit& fit, const Eigen::Array3f& floodVariance,
-                   MeasuredTransport& measured) const;
+  bool isJudged(std::size_t number) const;
+  void encodeRow(std::size_t number, const multiplexing::Row& row, const multiplexing::RowFit& fit,
+                 transport::SharedColourEncoder& encoder, transport::SharedColourRow& encoded) const;
+  void describeRow(std::size_t number, const multiplexing::Row& row, const multiplexing::RowFit& fit,
+                   const Eigen::Array3f& floodVariance, MeasuredTransport& measured) const;
 
   const photography::References& references_;
   const AcquisitionSettings& settings_;
   DensePhotographs photographs_;
   multiplexing::PatternMeans means_;
-  std::vector<multiplexing::Row> rows_;
+  multiplexing::Rows rows_;
   std::vector<float> thresholds_;  // relative to F
   std::vector<Division> divisions_;
   int level_ = 0;  // under way

@@ -46,23 +46,23 @@ int draftCoarsening(const Rasters& cameras) {
   return levels;
 }
 
-transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const DensePhotographs& photographs,
+transport::Draft draftOf(const multiplexing::Rows& rows, const DensePhotographs& photographs,
                          const photography::References& references, const transport::NodeLayout& layout,
                          int level) {
   const multiplexing::RowSettings model;
   const transport::Coarsening coarsening{draftCoarsening(references.cameras),
                                          draftCoarsening(references.cameras)};
   const CameraMask counts = counted(references, coarsening.cameras);
-  auto blockOf = [&](const multiplexing::Row& row, const multiplexing::Leaf& leaf) -> transport::ColourBlock {
-    return leaf.light * row.mixing[multiplexing::kindOf(layout.node(leaf.node), model)];
+  auto blockOf = [&](std::size_t row, const multiplexing::Leaf& leaf) -> transport::ColourBlock {
+    return leaf.light * rows.mixingOf(row)[multiplexing::kindOf(layout.node(leaf.node), model)];
   };
-  auto leavesOf = [&](std::size_t number, const transport::AddLeaf& add) {
-    const multiplexing::Row& row = rows[number];
+  auto leavesOf = [&](std::size_t row, const transport::AddLeaf& add) {
     // Mixings are learnt after the light they go with; what both give together is the flood.
     Eigen::Array3f sum = Eigen::Array3f::Zero();
-    for (const multiplexing::Leaf& leaf : row.leaves) sum += blockOf(row, leaf).rowwise().sum().array();
-    const Eigen::Array3f scale = photographs.flood(number) / sum.max(leastSum);
-    for (const multiplexing::Leaf& leaf : row.leaves) {
+    for (const multiplexing::Leaf& leaf : rows.leavesOf(row))
+      sum += blockOf(row, leaf).rowwise().sum().array();
+    const Eigen::Array3f scale = photographs.flood(row) / sum.max(leastSum);
+    for (const multiplexing::Leaf& leaf : rows.leavesOf(row)) {
       transport::ColourBlock block = blockOf(row, leaf);
       block.array().colwise() *= scale;
       add(leaf.node, block);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "relucent/acquisition/dense_photographs.h"
-#include "relucent/multiplexing/row.h"
+#include "relucent/multiplexing/rows.h"
 #include "relucent/transport/draft.h"
 
 namespace relucent::acquisition {
@@ -14,7 +14,7 @@ namespace relucent::acquisition {
 /// the light of each leaf divided as in near or in far light of its row. Colours of single leaves are left
 /// out. Coarsened so that the cameras have at most some 160x120 pixels together.
 /// `level`: of the patterns shown last.  Shapes: a row for each camera pixel.
-transport::Draft draftOf(const std::vector<multiplexing::Row>& rows, const DensePhotographs& photographs,
+transport::Draft draftOf(const multiplexing::Rows& rows, const DensePhotographs& photographs,
                          const photography::References& references, const transport::NodeLayout& layout,
                          int level);
 

@@ -150,8 +150,8 @@ Approximation scaledToFloodlight(const ConnectionGraph& graph, const Grouping& g
   progress.report(0.1);
 
   Approximation result{{}, std::vector<float>(rows, 0.0f)};
-  std::vector<std::uint32_t> column(start.back());
-  std::vector<transport::BlockSparseWriter::Code> code(start.back());
+  LargeVector<std::uint32_t> column(start.back());
+  LargeVector<transport::BlockSparseWriter::Code> code(start.back());
   std::vector<float> scale(rows, 0.0f);
   visitScaledRows(graph, grouping, settings, progress,
                   [&](std::size_t i, const std::vector<RowScaler::Entry>& entries) {

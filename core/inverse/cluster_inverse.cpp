@@ -65,8 +65,8 @@ transport::BlockSparse ClusterInverse::matrix() const {
       start[pixel_[j] + 1] = rowStart_[cluster + 1] - rowStart_[cluster];
   for (std::size_t pixel = 0; pixel < projectors_.count(); ++pixel) start[pixel + 1] += start[pixel];
 
-  std::vector<std::uint32_t> column(start.back());
-  std::vector<transport::BlockSparseWriter::Code> codes(start.back());
+  LargeVector<std::uint32_t> column(start.back());
+  LargeVector<transport::BlockSparseWriter::Code> codes(start.back());
   std::vector<float> scale(projectors_.count(), 0.0f);
   parallelFor(0, scale_.size(), 16, [&](std::size_t cluster) {
     std::size_t pixels = pixelStart_[cluster + 1] - pixelStart_[cluster];

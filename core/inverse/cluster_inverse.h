@@ -65,7 +65,7 @@ class ClusterInverse {
   // Members of cluster k: [start[k], start[k + 1]), ascending; its weights likewise.
   std::vector<std::size_t> rowStart_, pixelStart_, weightStart_;
   std::vector<std::uint32_t> row_, pixel_;
-  std::vector<std::int16_t> weight_;  // [cluster][row][plane: 3 * projector channel + camera channel][pixel]
+  LargeVector<std::int16_t> weight_;  // [cluster][row][plane: 3 * projector channel + camera channel][pixel]
   std::vector<float> scale_;          // per cluster: weight = scale * code
 };
 

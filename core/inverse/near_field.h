@@ -20,12 +20,12 @@ struct NearField {
   using Value = std::array<float, 4>;  // three channels and padding to a vector register
   using Code = std::array<std::int16_t, 3>;
 
-  std::vector<transport::ColourBlock> unmix;  // U_i per camera pixel
-  std::vector<Value> flood;                   // U_i B_i 1: the unmixed flood image, 1 up to regularisation
+  LargeVector<transport::ColourBlock> unmix;  // U_i per camera pixel
+  LargeVector<Value> flood;                   // U_i B_i 1: the unmixed flood image, 1 up to regularisation
   std::vector<std::size_t> start;             // leaves of row i: [start[i], start[i + 1])
   std::vector<float> step;                    // of row i's codes
-  std::vector<std::uint32_t> node;            // index in the NodeLayout
-  std::vector<Code> code;
+  LargeVector<std::uint32_t> node;            // index in the NodeLayout
+  LargeVector<Code> code;
 
   /// Of a leaf of a row.
   Value value(std::size_t row, std::size_t leaf) const {

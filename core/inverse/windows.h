@@ -68,7 +68,7 @@ class WindowInverse {
   std::vector<float> unmix_;            // 3x3 a camera pixel, row-major
   std::vector<std::size_t> tileStart_;  // window rows of tile t: [tileStart_[t], tileStart_[t + 1])
   std::vector<std::uint32_t> row_;      // camera pixel of a window row
-  std::vector<std::int16_t> weight_;    // [window row][channel][pixel of the tile]
+  LargeVector<std::int16_t> weight_;    // [window row][channel][pixel of the tile]
   std::vector<float> scale_;            // [tile][channel]: weight = scale * code
 };
 

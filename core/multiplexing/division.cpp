@@ -17,10 +17,11 @@ bool isStrong(const Leaf& leaf, float threshold, const DivisionSettings& setting
 }
 
 /// The light of the leaf at a node, if it is strong there.
-float strongLight(const Row& row, std::uint32_t node, float threshold, const DivisionSettings& settings) {
-  auto found = std::lower_bound(row.leaves.begin(), row.leaves.end(), node,
+float strongLight(std::span<const Leaf> leaves, std::uint32_t node, float threshold,
+                  const DivisionSettings& settings) {
+  auto found = std::lower_bound(leaves.begin(), leaves.end(), node,
                                 [](const Leaf& leaf, std::uint32_t wanted) { return leaf.node < wanted; });
-  bool there = found != row.leaves.end() && found->node == node;
+  bool there = found != leaves.end() && found->node == node;
   if (!there || !isStrong(*found, threshold, settings)) return 0.0f;
   return found->light;
 }
@@ -54,9 +55,9 @@ void addChildren(std::vector<Leaf>& leaves, const Leaf& leaf, float threshold,
 /// were.
 class Followed {
  public:
-  explicit Followed(const std::vector<Row>& rows) : begin_(rows.size() + 1, 0) {
+  explicit Followed(const Rows& rows) : begin_(rows.size() + 1, 0) {
     for (std::size_t row = 0; row < rows.size(); ++row)
-      begin_[row + 1] = begin_[row] + rows[row].leaves.size();
+      begin_[row + 1] = begin_[row] + rows.leavesOf(row).size();
     flags_.resize(begin_.back(), 0);
   }
 
@@ -76,7 +77,7 @@ struct Candidate {
 };
 
 /// Joins what `candidates` of one parent, all of its children, measured.
-void addParent(std::vector<Leaf>& leaves, std::size_t parent, const std::vector<Leaf>& row,
+void addParent(std::vector<Leaf>& leaves, std::size_t parent, std::span<const Leaf> row,
                std::span<const Candidate> children) {
   float light = 0.0f, variance = 0.0f;
   for (const Candidate& child : children) {
@@ -87,22 +88,21 @@ void addParent(std::vector<Leaf>& leaves, std::size_t parent, const std::vector<
                     std::sqrt(variance)});
 }
 
-Followed findFollowed(const std::vector<Row>& rows, const Rasters& cameras,
-                      const transport::NodeLayout& layout, int level, const std::vector<float>& thresholds,
-                      const DivisionSettings& settings) {
+Followed findFollowed(const Rows& rows, const Rasters& cameras, const transport::NodeLayout& layout,
+                      int level, const std::vector<float>& thresholds, const DivisionSettings& settings) {
   Followed followed(rows);
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     parallelFor(0, cameras.size(camera).count(), 256, [&](std::size_t pixel) {
       std::size_t row = cameras.offset(camera) + pixel;
       std::vector<std::size_t> others = beside(cameras, camera, pixelAt(cameras.size(camera), pixel));
       std::uint8_t* flag = followed.of(row);
-      for (const Leaf& leaf : rows[row].leaves) {
+      for (const Leaf& leaf : rows.leavesOf(row)) {
         bool follow = false;
         if (layout.node(leaf.node).level == level) {
           follow = isStrong(leaf, thresholds[row], settings);
           float sum = 0.0f;
           for (std::size_t other : others)
-            if (!follow) sum += strongLight(rows[other], leaf.node, thresholds[other], settings);
+            if (!follow) sum += strongLight(rows.leavesOf(other), leaf.node, thresholds[other], settings);
           follow = follow || sum > 4.0f * settings.neighbours * thresholds[row];
         }
         *flag++ = follow ? 1 : 0;
@@ -112,10 +112,8 @@ Followed findFollowed(const std::vector<Row>& rows, const Rasters& cameras,
 }
 
 /// The row's leaves with those of the level divided, joined or as they are.
-std::vector<Leaf> divided(const std::vector<Leaf>& leaves, const std::uint8_t* followed,
-                          const transport::NodeLayout& layout, int level, float threshold,
-                          const DivisionSettings& settings) {
-  std::vector<Leaf> result;
+void divided(std::span<const Leaf> leaves, const std::uint8_t* followed, const transport::NodeLayout& layout,
+             int level, float threshold, const DivisionSettings& settings, std::vector<Leaf>& result) {
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     transport::Node node = layout.node(leaves[i].node);
@@ -150,30 +148,28 @@ std::vector<Leaf> divided(const std::vector<Leaf>& leaves, const std::uint8_t* f
     }
   }
   std::sort(result.begin(), result.end(), [](const Leaf& a, const Leaf& b) { return a.node < b.node; });
-  result.shrink_to_fit();  // there are hundreds of thousands of them
-  return result;
 }
 
 }  // namespace
 
-void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
+void divide(Rows& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
             const std::vector<float>& thresholds, const DivisionSettings& settings) {
   const Followed followed = findFollowed(rows, cameras, layout, level, thresholds, settings);
-  parallelFor(0, rows.size(), 256, [&](std::size_t row) {
-    if (rows[row].leaves.empty()) return;
-    rows[row].leaves = divided(rows[row].leaves, followed.of(row), layout, level, thresholds[row], settings);
+  rows.change([&](std::size_t row, std::vector<Leaf>& leaves) {
+    divided(rows.leavesOf(row), followed.of(row), layout, level, thresholds[row], settings, leaves);
   });
 }
 
-std::vector<std::size_t> childrenAfterDivision(const std::vector<Row>& rows, const Rasters& cameras,
+std::vector<std::size_t> childrenAfterDivision(const Rows& rows, const Rasters& cameras,
                                                const transport::NodeLayout& layout, int level,
                                                const std::vector<float>& thresholds,
                                                const DivisionSettings& settings) {
   const Followed followed = findFollowed(rows, cameras, layout, level, thresholds, settings);
   std::vector<std::size_t> children(rows.size(), 0);
   parallelFor(0, rows.size(), 256, [&](std::size_t row) {
-    for (std::size_t i = 0; i < rows[row].leaves.size(); ++i)
-      if (followed.of(row)[i]) children[row] += layout.children(layout.node(rows[row].leaves[i].node)).size();
+    const std::span<const Leaf> leaves = rows.leavesOf(row);
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      if (followed.of(row)[i]) children[row] += layout.children(layout.node(leaves[i].node)).size();
   });
   return children;
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "relucent/multiplexing/row.h"
+#include "relucent/multiplexing/rows.h"
 
 namespace relucent::multiplexing {
 
@@ -18,12 +18,11 @@ struct DivisionSettings {
 /// joined. Children share the light by their areas, with a spread that allows most of it to be in one of
 /// them. Shapes: a row and a threshold, relative to F_c, for each camera pixel; rows without leaves take no
 /// part.
-void divide(std::vector<Row>& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
+void divide(Rows& rows, const Rasters& cameras, const transport::NodeLayout& layout, int level,
             const std::vector<float>& thresholds, const DivisionSettings& settings);
 
 /// How many leaves of the next finer level each row would have then.
-[[nodiscard]] std::vector<std::size_t> childrenAfterDivision(const std::vector<Row>& rows,
-                                                             const Rasters& cameras,
+[[nodiscard]] std::vector<std::size_t> childrenAfterDivision(const Rows& rows, const Rasters& cameras,
                                                              const transport::NodeLayout& layout, int level,
                                                              const std::vector<float>& thresholds,
                                                              const DivisionSettings& settings);

@@ -41,6 +41,12 @@ UnnamedFile::~UnnamedFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+std::error_code UnnamedFile::reserve(std::uint64_t bytes) const {
+  int failed = EINTR;
+  while (failed == EINTR) failed = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
+  return {failed, std::generic_category()};
+}
+
 std::error_code UnnamedFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));

@@ -24,8 +24,13 @@ class UnnamedFile {
   /// Why there is no such file; none: there is.
   const std::error_code& error() const { return error_; }
 
+  /// Room on the disk for so many bytes from the beginning, which are zeros.
+  std::error_code reserve(std::uint64_t bytes) const;
   std::error_code write(std::uint64_t at, std::span<const std::byte> bytes);
   std::error_code read(std::uint64_t at, std::span<std::byte> bytes) const;
+
+  /// For mapping it; the file's own.
+  int descriptor() const { return descriptor_; }
 
  private:
   int descriptor_ = -1;

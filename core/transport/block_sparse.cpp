@@ -47,7 +47,7 @@ std::size_t sortAndMerge(std::uint32_t* column, Code* code, std::size_t count) {
 }  // namespace
 
 BlockSparse BlockSparse::assembled(std::size_t columns, std::vector<std::size_t> rowStart,
-                                   std::vector<std::uint32_t> column, std::vector<Code> code,
+                                   LargeVector<std::uint32_t> column, LargeVector<Code> code,
                                    std::vector<float> scale) {
   require(rowStart.size() == scale.size() + 1 && rowStart.front() == 0 && rowStart.back() == column.size() &&
               column.size() == code.size(),

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "relucent/base/large_vector.h"
 #include "relucent/base/raster.h"
 #include "relucent/transport/column_kinds.h"
 
@@ -44,8 +45,8 @@ class BlockSparse {
   /// number of blocks; columns ascend within a row; scale is the rows' quantisation step.
   /// Throws: std::logic_error unless the sizes agree.
   static BlockSparse assembled(std::size_t columns, std::vector<std::size_t> rowStart,
-                               std::vector<std::uint32_t> column,
-                               std::vector<std::array<std::int16_t, 9>> code, std::vector<float> scale);
+                               LargeVector<std::uint32_t> column,
+                               LargeVector<std::array<std::int16_t, 9>> code, std::vector<float> scale);
 
   std::size_t rows() const { return rowStart_.size() - 1; }
   std::size_t columns() const { return columns_; }
@@ -108,12 +109,12 @@ class BlockSparse {
 
   std::size_t columns_ = 0;
   std::vector<std::size_t> rowStart_{0};
-  std::vector<std::uint32_t> column_;
+  LargeVector<std::uint32_t> column_;
   std::vector<float> scale_;
-  std::vector<std::array<std::int16_t, 9>> code_;  // own colours
+  LargeVector<std::array<std::int16_t, 9>> code_;  // own colours
   ColumnKinds kinds_;                              // shared colours, and ...
-  std::vector<std::array<std::int16_t, 3>> factor_;
-  std::vector<ColourBlock> mixing_;  // [row][kind]
+  LargeVector<std::array<std::int16_t, 3>> factor_;
+  LargeVector<ColourBlock> mixing_;  // [row][kind]
 };
 
 /// Collects blocks in any order and sorts them into a BlockSparse. Blocks at the same position are added.
@@ -135,7 +136,7 @@ class BlockSparseBuilder {
   };
   std::size_t columns_;
   std::vector<float> scale_;
-  std::vector<Entry> entries_;
+  LargeVector<Entry> entries_;
 };
 
 /// Writes a BlockSparse row by row from codes that are already scaled per row, without a second copy, which

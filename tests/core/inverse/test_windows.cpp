@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <QtTest>
 #include <cmath>
+#include <span>
 
 #include "core/inverse/synthetic_transport.h"
 #include "core/transport/expanded.h"
@@ -46,7 +47,7 @@ Scene oneToOne(Size size) {
 }
 
 /// T expanded to pixels, one colour channel after unmixing: what a window's G should be made of.
-Eigen::MatrixXd unmixedChannel(const TransportMatrix& transport, const std::vector<ColourBlock>& unmix,
+Eigen::MatrixXd unmixedChannel(const TransportMatrix& transport, std::span<const ColourBlock> unmix,
                                Eigen::Index channel) {
   Eigen::MatrixXd t = expanded(transport);
   Eigen::MatrixXd result(t.rows() / 3, t.cols() / 3);

@@ -23,6 +23,20 @@ std::vector<Row> rowsWith(const NodeLayout& layout, std::size_t count, int level
   return rows;
 }
 
+Rows together(const std::vector<Row>& rows) {
+  Rows result(rows.size(), 0);
+  result.change([&](std::size_t row, std::vector<Leaf>& leaves) { leaves = rows[row].leaves; });
+  return result;
+}
+
+/// The rows, divided.
+void divideAll(std::vector<Row>& rows, Size camera, const NodeLayout& layout, int level,
+               const std::vector<float>& thresholds, const DivisionSettings& settings) {
+  Rows all = together(rows);
+  divide(all, Rasters(camera), layout, level, thresholds, settings);
+  for (std::size_t row = 0; row < rows.size(); ++row) all.read(row, rows[row]);
+}
+
 double lightOf(const Row& row) {
   return std::accumulate(row.leaves.begin(), row.leaves.end(), 0.0,
                          [](double sum, const Leaf& leaf) { return sum + static_cast<double>(leaf.light); });
@@ -69,7 +83,7 @@ class TestDivision : public QObject {
     std::size_t before = rows[0].leaves.size();
     rows[0].leaves[3].light = 0.1f;
     double light = lightOf(rows[0]);
-    divide(rows, Rasters(Size{1, 1}), layout, 2, {0.012f}, {});
+    divideAll(rows, Size{1, 1}, layout, 2, {0.012f}, {});
     coversOnce(layout, rows[0]);
     QVERIFY(std::abs(lightOf(rows[0]) - light) < 1e-6);
     QVERIFY(std::count_if(rows[0].leaves.begin(), rows[0].leaves.end(),
@@ -84,7 +98,7 @@ class TestDivision : public QObject {
     std::vector<Row> rows = rowsWith(layout, 1, 2);
     rows[0].leaves[3].light = 0.1f;
     rows[0].leaves[3].deviation = 0.2f;
-    divide(rows, Rasters(Size{1, 1}), layout, 2, {0.012f}, {2.0f, 1.5f, 0.0f});
+    divideAll(rows, Size{1, 1}, layout, 2, {0.012f}, {2.0f, 1.5f, 0.0f});
     for (const Leaf& leaf : rows[0].leaves) QCOMPARE(layout.node(leaf.node).level, 2);
   }
 
@@ -93,7 +107,7 @@ class TestDivision : public QObject {
     std::vector<Row> rows = rowsWith(layout, 9, 2);
     for (std::size_t row = 0; row < 9; ++row)
       if (row != 4) rows[row].leaves[3].light = 0.1f;
-    divide(rows, Rasters(Size{3, 3}), layout, 2, std::vector<float>(9, 0.012f), {2.0f, 1.5f, 0.0f});
+    divideAll(rows, Size{3, 3}, layout, 2, std::vector<float>(9, 0.012f), {2.0f, 1.5f, 0.0f});
     QVERIFY(std::any_of(rows[4].leaves.begin(), rows[4].leaves.end(),
                         [&](const Leaf& leaf) { return layout.node(leaf.node).level == 1; }));
     for (const Row& row : rows) coversOnce(layout, row);
@@ -114,8 +128,8 @@ class TestDivision : public QObject {
         rows[row].leaves[leaf].light = 0.1f;
     const std::vector<float> thresholds(9, 0.012f);
     std::vector<std::size_t> counted =
-        childrenAfterDivision(rows, Rasters(Size{3, 3}), layout, level, thresholds, {});
-    divide(rows, Rasters(Size{3, 3}), layout, level, thresholds, {});
+        childrenAfterDivision(together(rows), Rasters(Size{3, 3}), layout, level, thresholds, {});
+    divideAll(rows, Size{3, 3}, layout, level, thresholds, {});
     for (std::size_t row = 0; row < rows.size(); ++row)
       QCOMPARE(counted[row],
                static_cast<std::size_t>(std::ranges::count_if(rows[row].leaves, [&](const Leaf& leaf) {
@@ -130,7 +144,7 @@ class TestDivision : public QObject {
     NodeLayout layout(Size{13, 9});
     std::vector<Row> rows = rowsWith(layout, 1, 0);
     double light = lightOf(rows[0]);
-    divide(rows, Rasters(Size{1, 1}), layout, 0, {0.012f}, {});
+    divideAll(rows, Size{1, 1}, layout, 0, {0.012f}, {});
     coversOnce(layout, rows[0]);
     QVERIFY(std::abs(lightOf(rows[0]) - light) < 1e-5);
     for (const Leaf& leaf : rows[0].leaves) QCOMPARE(layout.node(leaf.node).level, 1);
@@ -140,7 +154,7 @@ class TestDivision : public QObject {
     NodeLayout layout(Size{8, 8});
     std::vector<Row> rows = rowsWith(layout, 2, 1);
     rows[0].leaves.clear();
-    divide(rows, Rasters(Size{2, 1}), layout, 1, {0.012f, 0.012f}, {});
+    divideAll(rows, Size{2, 1}, layout, 1, {0.012f, 0.012f}, {});
     QVERIFY(rows[0].leaves.empty());
     coversOnce(layout, rows[1]);
   }

@@ -34,12 +34,14 @@ constexpr double leavesPerPixel = 120.0;
 constexpr double bytesPerLeaf = 22.0;
 // The level under way: some 40 active pairs a camera pixel, each with 4 children of 36 bytes.
 constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
-// Of dense patterns: T and rows of a camera pixel, the patterns' means of a projector pixel. T has a camera
-// pixel's colours of near and far light of each projector.
+// Of dense patterns: T and rows of a camera pixel, the patterns' means of a projector pixel. Both have a
+// camera pixel's colours of near and far light of each projector. What else there is of a row: its
+// references, and a mark for each leaf while the level's are divided.
 constexpr double denseLeaves = 75.0;
 constexpr double denseBytesPerLeaf = 10.0;
 constexpr double coloursBytes = 2.0 * 36.0;
-constexpr double denseRowBytes = 200.0 + 12.0 * denseLeaves;
+constexpr double rowBytesPerLeaf = 12.0;
+constexpr double besideRowBytes = 200.0 + denseLeaves;
 constexpr double meansBytes = 300.0;
 // Of a camera pixel's photograph as it is stored: half of three 16-bit codes.
 constexpr double compressedBytes = 3.0;
@@ -185,9 +187,13 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   double leaves = (dense ? denseLeaves * denseBytesPerLeaf + coloursBytes * projectorCount
                          : leavesPerPixel * bytesPerLeaf) *
                   pixels;
+  // T, and what it is made from or made into: LargeVector.
+  double mapped = dense ? leaves + (denseLeaves * rowBytesPerLeaf + coloursBytes * projectorCount) * pixels
+                        : 2.0 * leaves;
   double underWay =
-      dense ? leaves + denseRowBytes * pixels + meansBytes * static_cast<double>(projectors.count())
-            : 2.0 * leaves + childrenBytes * pixels;
+      mapped + (dense ? besideRowBytes * pixels + meansBytes * static_cast<double>(projectors.count())
+                      : childrenBytes * pixels);
+  work.mappedBytes = static_cast<std::uint64_t>(mapped);
   work.diskBytes = static_cast<std::uint64_t>(photographs * bytes + leaves);
   work.memoryBytes = static_cast<std::uint64_t>(programBytes + underWay + framesInMemory * 27.0 * pixels +
                                                 60.0 * static_cast<double>(projectors.count()));

@@ -47,7 +47,8 @@ struct WorkLeft {
   int exposures = 0;
   double seconds = 0.0;
   std::uint64_t diskBytes = 0;
-  std::uint64_t memoryBytes = 0;  // at its peak
+  std::uint64_t memoryBytes = 0;  // at its peak ...
+  std::uint64_t mappedBytes = 0;  // ... of which the system may move so much to the disk
 };
 
 /// Receives progress: a terminal, a log, a Qt signal. Called from the thread that does the work.

@@ -87,6 +87,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   rig::Rig used = reducedRig(folder, rig);
   StageShots stage(folder, calibration::Stage::acquisition, used, room, progress);
   rig::ShotTaker& shots = stage.taker();
+  ensureMemory(used, settingsOf(folder), platform::memoryLeft());
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
   OutlookObserver looking(observer, outlook);
   transport::Acquisition acquisition =

@@ -28,7 +28,17 @@ bool hasPhotographs(const calibration::CalibrationFolder& folder, calibration::S
 
 // What simulated venues took beyond the forecast, 128x96 / 160x120 to 512x384 / 320x240: 10 to 170 MB.
 constexpr double forecastMargin = 1.2;
-constexpr std::uint64_t otherBytes = 150'000'000;
+constexpr double otherBytes = 150e6;
+constexpr double mappedInMemory = 0.25;
+
+/// What the forecast says itself.
+platform::MemoryUse forecastMemory(const Rasters& cameras, const Rasters& projectors,
+                                   const acquisition::AcquisitionSettings& settings) {
+  const acquisition::ForecastDevices devices{cameras, projectors, 1, 0.0};
+  const WorkLeft work = acquisition::forecast(devices, settings, {}, {});
+  const double onDisk = (1.0 - mappedInMemory) * static_cast<double>(work.mappedBytes);
+  return {work.memoryBytes - static_cast<std::uint64_t>(onDisk), work.memoryBytes};
+}
 
 /// No choice leaves fewer pixels.
 Rasters smallestOf(const Rasters& cameras) {
@@ -45,11 +55,14 @@ Argument gigabytes(std::uint64_t bytes) {
   return as::number(static_cast<double>(bytes) / 1e9, as::decimals(2));
 }
 
-[[noreturn]] void refuse(std::uint64_t needed, std::uint64_t memory, reduction::PixelUse::Kind kind) {
+[[noreturn]] void refuse(const platform::MemoryUse& needed, const platform::MemoryUse& memory,
+                         reduction::PixelUse::Kind kind) {
+  const bool inMemory = needed.resident > memory.resident;
   throw Error(ErrorKind::memory,
               RELUCENT_MESSAGE("reduction.memory-too-little",
                                "measuring would take {} GB of memory, and {} GB may be taken")
-                  .with(gigabytes(needed), gigabytes(memory)),
+                  .with(gigabytes(inMemory ? needed.resident : needed.addressSpace),
+                        gigabytes(inMemory ? memory.resident : memory.addressSpace)),
               kind == reduction::PixelUse::Kind::automatic
                   ? RELUCENT_MESSAGE("reduction.more-memory-or-smaller-projector",
                                      "use a computer or a limit with more memory, or a projector signal of "
@@ -60,20 +73,29 @@ Argument gigabytes(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t memoryNeeded(const Rasters& cameras, const Rasters& projectors,
-                           const acquisition::AcquisitionSettings& settings) {
-  const acquisition::ForecastDevices devices{cameras, projectors, 1, 0.0};
-  const WorkLeft work = acquisition::forecast(devices, settings, {}, {});
-  return static_cast<std::uint64_t>(forecastMargin * static_cast<double>(work.memoryBytes)) + otherBytes;
+platform::MemoryUse memoryNeeded(const Rasters& cameras, const Rasters& projectors,
+                                 const acquisition::AcquisitionSettings& settings) {
+  const platform::MemoryUse forecast = forecastMemory(cameras, projectors, settings);
+  auto needed = [](std::uint64_t bytes) {
+    return static_cast<std::uint64_t>(forecastMargin * static_cast<double>(bytes) + otherBytes);
+  };
+  return {needed(forecast.resident), needed(forecast.addressSpace)};
 }
 
-void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, std::uint64_t memory,
-                      Progress& progress) {
+void ensureMemory(const rig::Rig& used, const CalibrateSettings& settings,
+                  const platform::MemoryUse& memory) {
+  const platform::MemoryUse needed =
+      forecastMemory(used.cameraRasters(), used.projectorRasters(), settings.acquisition);
+  if (!platform::fits(needed, memory)) refuse(needed, memory, settings.pixels.kind);
+}
+
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                      const platform::MemoryUse& memory, Progress& progress) {
   if (hasReductions(folder) || hasPhotographs(folder, calibration::Stage::linearization)) return;
   const CalibrateSettings settings = settingsOf(folder);
   const Rasters projectors = rig.projectorRasters();
   const reduction::Fits fits = [&](const Rasters& cameras) {
-    return memoryNeeded(cameras, projectors, settings.acquisition) <= memory;
+    return platform::fits(memoryNeeded(cameras, projectors, settings.acquisition), memory);
   };
   auto ensureRoom = [&](const Rasters& cameras) {
     if (!fits(cameras))
@@ -112,7 +134,7 @@ rig::Rig reducedRig(const calibration::CalibrationFolder& folder, rig::Rig& rig)
 std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearization::ExposureChoice& exposures,
                                           const rig::ShotTimes& took,
                                           const acquisition::AcquisitionSettings& settings,
-                                          std::uint64_t memory) {
+                                          const platform::MemoryUse& memory) {
   using Kind = reduction::PixelUse::Kind;
   const Size camera = rig.cameras.front()->size();
   const Rasters projectors = rig.projectorRasters();
@@ -128,7 +150,7 @@ std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearizati
     if (use.kind != Kind::all) {
       Reduction reduction = reduction::reductionFor(camera, projectors.count(), use, light, stride);
       while (use.kind == Kind::automatic &&
-             memoryNeeded(Rasters(reduction.size()), projectors, settings) > memory) {
+             !platform::fits(memoryNeeded(Rasters(reduction.size()), projectors, settings), memory)) {
         const auto larger = reduction::withLargerBins(reduction, projectors.count(), light, stride);
         if (!larger) break;
         reduction = *larger;

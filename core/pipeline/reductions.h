@@ -7,6 +7,8 @@
 #include "relucent/base/progress.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/linearization/exposure_choice.h"
+#include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/platform/memory_limits.h"
 #include "relucent/reduction/pixel_use.h"
 #include "relucent/reduction/reduction.h"
 
@@ -14,19 +16,24 @@
 /// (stored_settings.h).
 namespace relucent::pipeline {
 
-/// Bytes that measuring the light transport takes on top of what the program has already, by its forecast
-/// (acquisition/forecast.h), which may be a fifth too low, and what the rest of a calibration takes.
-std::uint64_t memoryNeeded(const Rasters& cameras, const Rasters& projectors,
-                           const acquisition::AcquisitionSettings& settings);
+/// What measuring the light transport takes on top of what the program has already, by its forecast
+/// (acquisition/forecast.h), which may be a fifth too low, and what the rest of a calibration takes. Of what
+/// may lie on the disk a quarter is counted as resident: less, and measuring would wait for the disk.
+platform::MemoryUse memoryNeeded(const Rasters& cameras, const Rasters& projectors,
+                                 const acquisition::AcquisitionSettings& settings);
 
 /// Chooses reductions as the settings want them and keeps them, unless that is done or something has been
-/// measured: photographs of the linearization are in the journal. `memory`: bytes that may be taken;
-/// without it, platform::memoryLeft().
+/// measured: photographs of the linearization are in the journal. `memory`: what may be taken; without it,
+/// platform::memoryLeft().
 /// Throws: as chooseReductions(); Error{memory} if it is too little, before the first photograph if no choice
 /// of automatic pixels could change that.
-void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, std::uint64_t memory,
-                      Progress& progress);
+void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig,
+                      const platform::MemoryUse& memory, Progress& progress);
 void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress);
+
+/// Before devices that were chosen earlier measure: there may be less memory than there was then.
+/// Throws: Error{memory} if it is less than the forecast itself, without anything to spare.
+void ensureMemory(const rig::Rig& used, const CalibrateSettings& settings, const platform::MemoryUse& memory);
 
 /// The settings want other pixels. What was chosen is forgotten, and photographs of linearization and
 /// acquisition are set aside: they are of another size. Throws: Error{disk}.
@@ -49,7 +56,7 @@ struct PixelForecast {
 std::vector<PixelForecast> pixelForecasts(const rig::Rig& rig, const linearization::ExposureChoice& exposures,
                                           const rig::ShotTimes& took,
                                           const acquisition::AcquisitionSettings& settings,
-                                          std::uint64_t memory);
+                                          const platform::MemoryUse& memory);
 
 /// What is made of the pixels of every camera that is reduced, a sentence each.
 std::vector<Message> findingsOf(const std::vector<reduction::Reduction>& reductions);

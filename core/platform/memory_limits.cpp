@@ -74,22 +74,22 @@ MemoryLimits memoryLimits(const fs::path& root) {
 
 MemoryUse memoryUse() {
   std::ifstream pages("/proc/self/statm");
-  std::uint64_t mapped = 0, resident = 0;
-  pages >> mapped >> resident;
+  std::uint64_t mapped = 0, resident = 0, ofFiles = 0;
+  pages >> mapped >> resident >> ofFiles;
   const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return {page * resident, page * mapped};
+  return {page * (resident - std::min(ofFiles, resident)), page * mapped};
 }
 
-std::uint64_t memoryLeft(const MemoryLimits& limits, const MemoryUse& use) {
+MemoryUse memoryLeft(const MemoryLimits& limits, const MemoryUse& use) {
   const std::uint64_t machine =
       limits.machine == noMemoryLimit
           ? noMemoryLimit
           : static_cast<std::uint64_t>(shareOfMachine * static_cast<double>(limits.machine));
-  return std::min({less(machine, use.resident), less(limits.group, use.resident),
-                   less(limits.addressSpace, use.addressSpace + mappedInVain)});
+  return {less(std::min(machine, limits.group), use.resident),
+          less(limits.addressSpace, use.addressSpace + mappedInVain)};
 }
 
-std::uint64_t memoryLeft() {
+MemoryUse memoryLeft() {
   return memoryLeft(memoryLimits(), memoryUse());
 }
 

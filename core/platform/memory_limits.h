@@ -16,21 +16,28 @@ struct MemoryLimits {
   std::uint64_t addressSpace = noMemoryLimit;  // of this program: what is mapped, used or not
 };
 
-/// What this program takes now. Bytes.
+/// What a program takes, may take or would take. Bytes.
 struct MemoryUse {
-  std::uint64_t resident = 0;
-  std::uint64_t addressSpace = 0;
+  std::uint64_t resident = 0;  // without files that are mapped: the system takes that back when it runs short
+  std::uint64_t addressSpace = 0;  // with them
+  bool operator==(const MemoryUse&) const = default;
 };
 
 /// As the system says. `root`: where its /proc and /sys are.
 MemoryLimits memoryLimits(const std::filesystem::path& root = "/");
+/// Of this program, now.
 MemoryUse memoryUse();
 
 /// What the program may still take within these limits:
-///   min(0.8 machine - resident, group - resident, addressSpace - mapped - 128 MiB), at least 0
-/// since other programs need the machine as well, and threads and heaps map more than they use.
-std::uint64_t memoryLeft(const MemoryLimits& limits, const MemoryUse& use);
+///   resident = min(0.8 machine, group) - resident,      addressSpace = addressSpace - mapped - 128 MiB,
+/// at least 0, since other programs need the machine as well, and threads and heaps map more than they use.
+MemoryUse memoryLeft(const MemoryLimits& limits, const MemoryUse& use);
 /// Now.
-std::uint64_t memoryLeft();
+MemoryUse memoryLeft();
+
+/// Whether what is needed is left.
+inline bool fits(const MemoryUse& needed, const MemoryUse& left) {
+  return needed.resident <= left.resident && needed.addressSpace <= left.addressSpace;
+}
 
 }  // namespace relucent::platform

@@ -191,24 +191,51 @@ class TestReductions : public QObject {
     Progress quiet;
     const CalibrateSettings settings = settingsFor({256, 192});
     OpenedRig devices = openRig(settings.rig, cache(), quiet);
-    auto chosen = [&](const std::string& name, const PixelUse& use, std::uint64_t memory) {
+    auto chosen = [&](const std::string& name, const PixelUse& use, const platform::MemoryUse& memory) {
       CalibrateSettings own = settings;
       own.pixels = use;
       CalibrationFolder folder = beginCalibration(path(std::string(QTest::currentDataTag()) + name), own);
       chooseReductions(folder, devices.rig, memory, quiet);
       return reductionsOf(folder).at(0);
     };
-    constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
+    constexpr platform::MemoryUse plenty{std::uint64_t{1} << 40, std::uint64_t{1} << 40};
     const Reduction suitable = chosen(" suitable", {}, plenty);
     const PixelUse wanted{PixelUse::Kind::binned, suitable.bin + larger};
     const Rasters size(chosen(" wanted", wanted, plenty).size());
-    const std::uint64_t memory = memoryNeeded(size, devices.rig.projectorRasters(), settings.acquisition);
-    const Reduction found = chosen(" found", {}, memory);
+    const platform::MemoryUse needed =
+        memoryNeeded(size, devices.rig.projectorRasters(), settings.acquisition);
+    QVERIFY(needed.resident < needed.addressSpace);
+    const Reduction found = chosen(" found", {}, {needed.resident, plenty.addressSpace});
+    const Reduction mapped = chosen(" mapped", {}, {plenty.resident, needed.addressSpace});
+    QVERIFY(mapped == found);
     QCOMPARE(Rasters(found.size()), size);
     QCOMPARE(found.savesMemory, larger > 0);
     const std::vector<Message> findings = findingsOf({found});
     QCOMPARE(findings.size(), std::size_t{1});
     QCOMPARE(findings[0].id() == "reduction.binned-for-memory", larger > 0);
+  }
+
+  /// What fitted when it was chosen need not fit later, and then needs nothing to spare.
+  void laterMemoryIsLookedAtAgain() {
+    Progress quiet;
+    const CalibrateSettings settings = settingsFor({128, 96});
+    const OpenedRig devices = openRig(settings.rig, cache(), quiet);
+    const platform::MemoryUse chosen =
+        memoryNeeded(devices.rig.cameraRasters(), devices.rig.projectorRasters(), settings.acquisition);
+    constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
+    ensureMemory(devices.rig, settings, {chosen.resident * 3 / 4, plenty});
+    const std::string sentence = sentenceOf(
+        [&] {
+          ensureMemory(devices.rig, settings, {1'000'000, plenty});
+        },
+        ErrorKind::memory);
+    QVERIFY(mentions(sentence, "0.00 GB may be taken"));
+    QVERIFY(mentions(sentenceOf(
+                         [&] {
+                           ensureMemory(devices.rig, settings, {plenty, 20'000'000});
+                         },
+                         ErrorKind::memory),
+                     "0.02 GB may be taken"));
   }
 
   void tooLittleMemoryIsRefusedBeforeTheFirstPhotograph_data() {
@@ -227,17 +254,21 @@ class TestReductions : public QObject {
     CalibrationFolder folder =
         beginCalibration(path("refused " + std::string(QTest::currentDataTag())), settings);
     OpenedRig devices = openRig(settings.rig, cache(), quiet);
+    constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
     int patterns = 0;
     devices.rig.projectors[0] =
         std::make_unique<CountedProjector>(std::move(devices.rig.projectors[0]), patterns);
-    const std::string sentence =
-        sentenceOf([&] { chooseReductions(folder, devices.rig, 100'000'000, quiet); }, ErrorKind::memory);
+    const std::string sentence = sentenceOf(
+        [&] {
+          chooseReductions(folder, devices.rig, {100'000'000, plenty}, quiet);
+        },
+        ErrorKind::memory);
     QVERIFY(mentions(sentence, "0.10 GB may be taken"));
     QVERIFY(mentions(sentence, advice.toStdString()));
     QCOMPARE(patterns, 0);
     QVERIFY(!hasReductions(folder));
     // With more it goes on.
-    chooseReductions(folder, devices.rig, 2'000'000'000, quiet);
+    chooseReductions(folder, devices.rig, {2'000'000'000, plenty}, quiet);
   }
 
   /// People look at all that the camera sees; figures are of what was measured.

@@ -10,6 +10,7 @@
 #include "relucent/platform/interruption_signals.h"
 #include "relucent/platform/memory_limits.h"
 #include "relucent/platform/process.h"
+#include "relucent/platform/scratch_memory.h"
 #include "relucent/platform/shell.h"
 #include "relucent/platform/system_description.h"
 
@@ -132,27 +133,43 @@ class TestPlatform : public QObject {
     QTest::addColumn<quint64>("group");
     QTest::addColumn<quint64>("addressSpace");
     QTest::addColumn<quint64>("left");  // with 100 MB in use and 1 GB mapped
+    QTest::addColumn<quint64>("leftToMap");
     const quint64 none = noMemoryLimit, mapped = 1'000'000'000 + (quint64{128} << 20);
-    QTest::newRow("no limits") << none << none << none << none;
-    QTest::newRow("the machine") << quint64{10'000'000'000} << none << none << quint64{7'900'000'000};
+    QTest::newRow("no limits") << none << none << none << none << none;
+    QTest::newRow("the machine") << quint64{10'000'000'000} << none << none << quint64{7'900'000'000} << none;
     QTest::newRow("its group") << quint64{10'000'000'000} << quint64{4'000'000'000} << none
-                               << quint64{3'900'000'000};
-    QTest::newRow("its address space")
-        << quint64{10'000'000'000} << quint64{4'000'000'000} << mapped + 5 << quint64{5};
-    QTest::newRow("all in use") << quint64{10'000'000'000} << quint64{90'000'000} << none << quint64{0};
+                               << quint64{3'900'000'000} << none;
+    QTest::newRow("its address space") << quint64{10'000'000'000} << quint64{4'000'000'000} << mapped + 5
+                                       << quint64{3'900'000'000} << quint64{5};
+    QTest::newRow("all in use") << quint64{10'000'000'000} << quint64{90'000'000} << mapped - 5 << quint64{0}
+                                << quint64{0};
   }
   void memoryThatIsLeft() {
     QFETCH(quint64, machine);
     QFETCH(quint64, group);
     QFETCH(quint64, addressSpace);
     QFETCH(quint64, left);
-    QCOMPARE(quint64{memoryLeft({machine, group, addressSpace}, {100'000'000, 1'000'000'000})}, left);
+    QFETCH(quint64, leftToMap);
+    const MemoryUse found = memoryLeft({machine, group, addressSpace}, {100'000'000, 1'000'000'000});
+    QCOMPARE(quint64{found.resident}, left);
+    QCOMPARE(quint64{found.addressSpace}, leftToMap);
   }
-  /// Of this machine: there is some, and this program takes some of it.
+  /// Of this machine: there is some, and this program takes some of it; what lies in files only of its
+  /// addresses.
   void memoryOfThisProgramIsKnown() {
-    const MemoryUse use = memoryUse();
-    QVERIFY(use.resident > 1'000'000 && use.addressSpace > use.resident);
-    QVERIFY(memoryLimits().machine > use.resident && memoryLimits().machine != noMemoryLimit);
+    constexpr std::size_t bytes = std::size_t{64} << 20;
+    const MemoryUse before = memoryUse();
+    const std::vector<char> touched(bytes, 'x');
+    const MemoryUse more = memoryUse();
+    QVERIFY(more.resident >= before.resident + bytes / 2 && more.addressSpace > more.resident);
+    QVERIFY(memoryLimits().machine > more.resident && memoryLimits().machine != noMemoryLimit);
+    void* scratch = mapScratch(bytes);
+    QVERIFY(scratch != nullptr);
+    std::fill_n(static_cast<char*>(scratch), bytes, touched.back());
+    const MemoryUse mapped = memoryUse();
+    unmapScratch(scratch, bytes);
+    QVERIFY(mapped.resident < more.resident + bytes / 2);
+    QVERIFY(mapped.addressSpace >= more.addressSpace + bytes);
   }
 
   void aFullDiskIsKnown() {

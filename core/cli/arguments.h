@@ -19,6 +19,7 @@
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/storage.h"
 #include "relucent/pipeline/tidy.h"
@@ -112,10 +113,11 @@ struct Tidy {
   pipeline::TidySettings settings;
 };
 /// What `bench` times: programs of their own, or single parts of core.
-enum class BenchSuite { parts, inverse, engine, acquisition };
+enum class BenchSuite { parts, inverse, engine, acquisition, scale };
 inline constexpr EnumName<BenchSuite> benchSuiteNames[]{{BenchSuite::inverse, "inverse"},
                                                         {BenchSuite::engine, "engine"},
-                                                        {BenchSuite::acquisition, "acquisition"}};
+                                                        {BenchSuite::acquisition, "acquisition"},
+                                                        {BenchSuite::scale, "scale"}};
 constexpr EnumNames<BenchSuite> namesOf(BenchSuite) {
   return {"benchmark", benchSuiteNames};
 }
@@ -123,6 +125,7 @@ struct Bench {
   BenchSuite suite = BenchSuite::parts;
   std::string name;  // of parts: only those that contain it
   pipeline::AcquisitionBenchSettings acquisition;
+  pipeline::ScaleBenchSettings scale;
   std::filesystem::path chart;  // of `acquisition`: where to; empty: none
   engine::BackendChoice backend = engine::BackendChoice::automatic;  // of `engine`
   std::filesystem::path cache;

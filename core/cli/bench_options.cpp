@@ -24,6 +24,31 @@ void addAcquisition(CLI::App* sub, Bench& command) {
   group->add_option("--chart", command.chart, "Draws quality against photographs (SVG)")->type_name("FILE");
 }
 
+void addScale(CLI::App* sub, Bench& command) {
+  pipeline::ScaleBenchSettings& settings = command.scale;
+  CLI::Option_group* group = sub->add_option_group("scale", "Options of `scale`");
+  group
+      ->add_option_function<std::vector<std::string>>(
+          "--sizes",
+          [&settings](const std::vector<std::string>& texts) {
+            settings.sizes.clear();
+            for (const std::string& text : texts) {
+              const std::size_t slash = text.find('/');
+              if (slash == std::string::npos)
+                throw WrongUsage("'" + text + "' is no pair of sizes: write 1920x1080/1600x1200");
+              settings.sizes.push_back({parseSize(text.substr(0, slash)), parseSize(text.substr(slash + 1))});
+            }
+          },
+          "Projector and camera; may be given several times")
+      ->type_name("WxH/WxH")
+      ->default_str("1024x768/640x480 1920x1080/1600x1200 3840x2160/1600x1200");
+  group->add_option("--scale-venue", settings.venue, "A simulated venue")
+      ->type_name("NAME")
+      ->capture_default_str();
+  group->add_option("--paths", settings.pathsPerPixel, "Light paths traced for each camera pixel")
+      ->capture_default_str();
+}
+
 }  // namespace
 
 std::function<Command()> addBenchOptions(CLI::App* sub) {
@@ -33,9 +58,12 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
       "Only benchmarks with this in their name; `engine`: frames of a show; `inverse` (minutes): all "
       "inverses "
       "and how well they compensate, beside the paper's figures; `acquisition` (an hour): every scheme, its "
-      "cost and its error against the true transport");
+      "cost and its error against the true transport; `scale` (an hour): what every stage takes at full "
+      "scale, "
+      "Full HD and 4K");
   addNamed(sub, "--backend", "Device of `engine`", command->backend);
   addAcquisition(sub, *command);
+  addScale(sub, *command);
   addCache(sub, command->cache);
   return [command] {
     command->suite = valueNamed<BenchSuite>(command->name).value_or(BenchSuite::parts);

@@ -155,6 +155,19 @@ struct Executor {
     return outcomeOf(result);
   }
 
+  CommandResult benchScale(const Bench& command) const {
+    pipeline::ScaleBenchSettings settings = command.scale;
+    settings.after.push_back({"report", [&](const std::filesystem::path& calibration,
+                                            const std::filesystem::path& out, Progress& part) {
+                                report::ReportSettings wanted;
+                                wanted.out = out;
+                                wanted.out += ".html";
+                                wanted.evaluate = false;
+                                report::makeReport(calibration, wanted, command.cache, part);
+                              }});
+    return outcomeOf(pipeline::benchScale(settings, command.cache, progress));
+  }
+
   CommandResult operator()(const Bench& command) const {
     switch (command.suite) {
       case BenchSuite::inverse:
@@ -164,6 +177,9 @@ struct Executor {
       case BenchSuite::acquisition:
         refuse(problems(command.acquisition));
         return benchAcquisition(command);
+      case BenchSuite::scale:
+        refuse(problems(command.scale));
+        return benchScale(command);
       case BenchSuite::parts:
         break;
     }

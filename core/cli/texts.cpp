@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "relucent/base/message.h"
@@ -219,6 +220,36 @@ std::string textOf(const pipeline::AcquisitionBenchResult& result) {
         run.venue, nameOf(run.mode), run.threshold, nameOf(run.colours), run.exposures, run.linearization,
         run.seconds, run.transport.frobenius, 100.0 * run.transport.relightNatural,
         100.0 * run.transport.relightRandom, run.transport.energy, run.windows, run.refined);
+  return text;
+}
+
+std::string textOf(const pipeline::ScaleBenchResult& result) {
+  std::string text;
+  const pipeline::ScaleBenchRun* before = nullptr;
+  for (const pipeline::ScaleBenchRun& run : result.runs) {
+    text +=
+        fmt::format("{} {}x{} / {}x{}: {} photographs, {:.1f} million leaves, forecast {:.2f} GB of memory\n",
+                    result.venue, run.sizes.projector.width, run.sizes.projector.height,
+                    run.sizes.camera.width, run.sizes.camera.height, run.exposures,
+                    1e-6 * static_cast<double>(run.leaves), 1e-9 * static_cast<double>(run.forecastBytes));
+    text += fmt::format("  {:<14} {:>8} {:>10} {:>13} {:>7}\n", "stage", "s", "memory, GB", "+ mapped, GB",
+                        "growth");
+    const std::vector<double> growth =
+        before ? pipeline::growthOf(*before, run) : std::vector<double>(run.stages.size(), std::nan(""));
+    for (std::size_t i = 0; i < run.stages.size(); ++i) {
+      const pipeline::ScaleStage& stage = run.stages[i];
+      text += fmt::format("  {:<14} {:>8.1f} {:>10.2f} {:>13.2f} {:>7}\n", stage.name, stage.seconds,
+                          1e-9 * static_cast<double>(stage.memoryBytes),
+                          1e-9 * static_cast<double>(stage.filesBytes),
+                          std::isfinite(growth[i]) ? fmt::format("{:.2f}", growth[i]) : "");
+    }
+    text += fmt::format(
+        "  photographs {:.2f} GB, results {:.2f} GB; {:.0f} s from the last photograph to the first still; "
+        "windows {:.2f} dB, refined {:.2f} dB\n",
+        1e-9 * static_cast<double>(run.photographBytes), 1e-9 * static_cast<double>(run.resultBytes),
+        run.secondsToStill, run.windows, run.refined);
+    before = &run;
+  }
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
@@ -33,5 +34,6 @@ std::string textOf(const pipeline::TidyResult& result);
 std::string textOf(const pipeline::BenchResult& result);
 std::string textOf(const pipeline::InverseBenchResult& result);
 std::string textOf(const pipeline::AcquisitionBenchResult& result);
+std::string textOf(const pipeline::ScaleBenchResult& result);
 
 }  // namespace relucent::cli

@@ -33,14 +33,6 @@ constexpr Trial trials[] = {{acquisition::AcquisitionMode::adaptive, 0.006},
                             {acquisition::AcquisitionMode::multiplexed, 0.012},
                             {acquisition::AcquisitionMode::multiplexed, 0.006}};
 
-double meanPsnr(const EvaluateResult& result, compensation::Method method) {
-  double sum = 0.0;
-  for (const ImageScore& image : result.images)
-    for (const MethodScore& score : image.methods)
-      if (score.method == method) sum += score.psnrReachable;
-  return sum / static_cast<double>(result.images.size());
-}
-
 CalibrateSettings settingsOf(const venue::VenueSettings& venue, const Trial& trial) {
   CalibrateSettings settings;
   settings.rig = venue;

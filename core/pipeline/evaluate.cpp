@@ -198,6 +198,14 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   return evaluation;
 }
 
+double meanPsnr(const EvaluateResult& result, compensation::Method method) {
+  double sum = 0.0;
+  for (const ImageScore& image : result.images)
+    for (const MethodScore& score : image.methods)
+      if (score.method == method) sum += score.psnrReachable;
+  return sum / static_cast<double>(result.images.size());
+}
+
 EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, const fs::path& cache,
                         Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())

@@ -55,6 +55,9 @@ struct EvaluateResult {
   std::vector<ImageScore> images;
 };
 
+/// PSNR of the reachable pixels with a method, mean of the images, dB.  Contract: it was compared.
+double meanPsnr(const EvaluateResult& result, compensation::Method method);
+
 /// Compares every method through the true transport of the simulated venue that was calibrated.
 /// Throws: Error{input} if the calibration is of a real venue: its truth is not known.
 EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,

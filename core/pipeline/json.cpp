@@ -214,6 +214,33 @@ calibration::Json toJson(const AcquisitionBenchResult& result) {
           {"stops", std::move(stops)}};
 }
 
+calibration::Json toJson(const ScaleBenchResult& result) {
+  calibration::Json runs = calibration::Json::array();
+  for (const ScaleBenchRun& run : result.runs) {
+    calibration::Json stages = calibration::Json::object();
+    for (const ScaleStage& stage : run.stages)
+      stages[stage.name] = {{"seconds", stage.seconds},
+                            {"memory_bytes", stage.memoryBytes},
+                            {"mapped_files_bytes", stage.filesBytes}};
+    runs.push_back({{"projector", sizeToJson(run.sizes.projector)},
+                    {"camera", sizeToJson(run.sizes.camera)},
+                    {"camera_used", sizeToJson(run.used)},
+                    {"exposures", run.exposures},
+                    {"leaves", run.leaves},
+                    {"forecast_memory_bytes", run.forecastBytes},
+                    {"photograph_bytes", run.photographBytes},
+                    {"result_bytes", run.resultBytes},
+                    {"seconds_to_still", run.secondsToStill},
+                    {"stages", std::move(stages)},
+                    {"windows", run.windows},
+                    {"refined", run.refined}});
+  }
+  calibration::Json growth = calibration::Json::array();
+  for (std::size_t i = 1; i < result.runs.size(); ++i)
+    growth.push_back(growthOf(result.runs[i - 1], result.runs[i]));
+  return {{"venue", result.venue}, {"runs", std::move(runs)}, {"growth_of_seconds", std::move(growth)}};
+}
+
 calibration::Json toJson(const TidyResult& result) {
   const auto share = [](const DiskShare& of) {
     return calibration::Json{{"files", of.files}, {"bytes", of.bytes}};

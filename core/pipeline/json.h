@@ -13,6 +13,7 @@
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/pipeline/written_files.h"
@@ -41,6 +42,7 @@ calibration::Json toJson(const TidyResult& result);
 calibration::Json toJson(const BenchResult& result);
 calibration::Json toJson(const InverseBenchResult& result);
 calibration::Json toJson(const AcquisitionBenchResult& result);
+calibration::Json toJson(const ScaleBenchResult& result);
 calibration::Json toJson(const std::vector<venue::VenueDescription>& venues);
 
 }  // namespace relucent::pipeline

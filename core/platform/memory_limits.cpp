@@ -77,7 +77,7 @@ MemoryUse memoryUse() {
   std::uint64_t mapped = 0, resident = 0, ofFiles = 0;
   pages >> mapped >> resident >> ofFiles;
   const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return {page * (resident - std::min(ofFiles, resident)), page * mapped};
+  return {page * (resident - std::min(ofFiles, resident)), page * mapped, page * ofFiles};
 }
 
 MemoryUse memoryLeft(const MemoryLimits& limits, const MemoryUse& use) {

@@ -20,6 +20,7 @@ struct MemoryLimits {
 struct MemoryUse {
   std::uint64_t resident = 0;  // without files that are mapped: the system takes that back when it runs short
   std::uint64_t addressSpace = 0;  // with them
+  std::uint64_t ofFiles = 0;       // what of these is in memory now
   bool operator==(const MemoryUse&) const = default;
 };
 

@@ -195,6 +195,10 @@ class TestArguments : public QObject {
     QVERIFY(parsed<Bench>("bench windows").suite == BenchSuite::parts);
     QVERIFY(parsed<Bench>("bench engine --backend opengl").backend == BackendChoice::openGl);
     QVERIFY(parsed<Bench>("bench engine").suite == BenchSuite::engine);
+    const Bench scale = parsed<Bench>("bench scale --sizes 64x48/40x30 --sizes 80x60/50x40");
+    QVERIFY(scale.suite == BenchSuite::scale);
+    QVERIFY(
+        (scale.scale.sizes == std::vector<pipeline::VenueSizes>{{{64, 48}, {40, 30}}, {{80, 60}, {50, 40}}}));
     const AcquisitionBenchSettings chosen =
         parsed<Bench>("bench acquisition --venue corner --acquisition sen --threshold 0.02 --threshold 0.05")
             .acquisition;

@@ -9,6 +9,7 @@
 #include "relucent/platform/folder_lock.h"
 #include "relucent/platform/interruption_signals.h"
 #include "relucent/platform/memory_limits.h"
+#include "relucent/platform/memory_peak.h"
 #include "relucent/platform/process.h"
 #include "relucent/platform/scratch_memory.h"
 #include "relucent/platform/shell.h"
@@ -170,6 +171,18 @@ class TestPlatform : public QObject {
     unmapScratch(scratch, bytes);
     QVERIFY(mapped.resident < more.resident + bytes / 2);
     QVERIFY(mapped.addressSpace >= more.addressSpace + bytes);
+  }
+
+  /// Also of memory that is given back before anybody asks.
+  void theMostMemoryIsRemembered() {
+    constexpr std::size_t bytes = std::size_t{64} << 20;
+    MemoryPeak peak(std::chrono::milliseconds(1));
+    const MemoryUse before = peak.value();
+    {
+      const std::vector<char> touched(bytes, 'x');
+      QTRY_VERIFY(peak.value().resident >= before.resident + bytes / 2);
+    }
+    QVERIFY(peak.value().resident >= before.resident + bytes / 2);
   }
 
   void aFullDiskIsKnown() {

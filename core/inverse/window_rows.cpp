@@ -22,15 +22,21 @@ struct Candidate {
 /// Tiles' candidates in one array: those of tile t are [start[t], start[t + 1]).
 struct Candidates {
   std::vector<std::size_t> start;
-  std::vector<Candidate> list;
+  LargeVector<Candidate> list;
 };
 
 using Reach = std::vector<std::pair<std::uint32_t, float>>;
 
+/// How strongly rows reach tiles, in one array: row r's are [start[r], start[r + 1]).
+struct Reaches {
+  std::vector<std::size_t> start;
+  LargeVector<Reach::value_type> list;
+};
+
 /// How strongly one row's near field reaches each tile, those that it reaches most.
-Reach reachOf(std::size_t row, const NearField& near, const transport::NodeLayout& layout,
-              const Rasters& tiles, int tileLevel) {
-  Reach reach;
+void findReach(std::size_t row, const NearField& near, const transport::NodeLayout& layout,
+               const Rasters& tiles, int tileLevel, Reach& reach) {
+  reach.clear();
   for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
     transport::Node node = layout.node(near.node[leaf]);
     const NearField::Value value = near.value(row, leaf);
@@ -62,21 +68,41 @@ Reach reachOf(std::size_t row, const NearField& near, const transport::NodeLayou
                      });
     reach.resize(mostTilesOfARow);
   }
-  return reach;
+}
+
+/// Of all rows. A row has far more places on the way than tiles in the end: only some rows at a time have
+/// room for them.
+Reaches reachesOf(const NearField& near, const transport::NodeLayout& layout, const Rasters& tiles,
+                  int tileLevel) {
+  constexpr std::size_t rowsAtOnce = 16384;
+  const std::size_t rows = near.unmix.size();
+  Reaches result;
+  result.start.assign(1, 0);
+  result.start.reserve(rows + 1);
+  std::vector<Reach> found(std::min(rowsAtOnce, rows));
+  for (std::size_t begin = 0; begin < rows; begin += rowsAtOnce) {
+    const std::size_t count = std::min(rowsAtOnce, rows - begin);
+    parallelFor(0, count, 256,
+                [&](std::size_t i) { findReach(begin + i, near, layout, tiles, tileLevel, found[i]); });
+    for (std::size_t i = 0; i < count; ++i) {
+      result.list.insert(result.list.end(), found[i].begin(), found[i].end());
+      result.start.push_back(result.list.size());
+    }
+  }
+  return result;
 }
 
 /// The view by columns: for every tile the rows that reach it.
-Candidates candidatesOf(const std::vector<Reach>& reach, std::size_t tiles) {
+Candidates candidatesOf(const Reaches& reach, std::size_t tiles) {
   Candidates result;
   result.start.assign(tiles + 1, 0);
-  for (const Reach& reached : reach)
-    for (const auto& tile : reached) ++result.start[tile.first + 1];
+  for (const auto& tile : reach.list) ++result.start[tile.first + 1];
   for (std::size_t tile = 0; tile < tiles; ++tile) result.start[tile + 1] += result.start[tile];
   result.list.resize(result.start.back());
   std::vector<std::size_t> next(result.start.begin(), result.start.end() - 1);
-  for (std::size_t row = 0; row < reach.size(); ++row)
-    for (const auto& tile : reach[row])
-      result.list[next[tile.first]++] = {static_cast<std::uint32_t>(row), tile.second};
+  for (std::size_t row = 0; row + 1 < reach.start.size(); ++row)
+    for (std::size_t i = reach.start[row]; i < reach.start[row + 1]; ++i)
+      result.list[next[reach.list[i].first]++] = {static_cast<std::uint32_t>(row), reach.list[i].second};
   return result;
 }
 
@@ -85,10 +111,7 @@ Candidates candidatesOf(const std::vector<Reach>& reach, std::size_t tiles) {
 WindowRows chooseWindowRows(const NearField& near, const transport::NodeLayout& layout, const Rasters& tiles,
                             const WindowSettings& settings) {
   int tileLevel = std::countr_zero(static_cast<unsigned>(settings.tile));
-  std::vector<Reach> reach(near.unmix.size());
-  parallelFor(0, reach.size(), 256,
-              [&](std::size_t row) { reach[row] = reachOf(row, near, layout, tiles, tileLevel); });
-  Candidates candidates = candidatesOf(reach, tiles.count());
+  Candidates candidates = candidatesOf(reachesOf(near, layout, tiles, tileLevel), tiles.count());
 
   auto most = static_cast<std::size_t>(settings.rows);
   WindowRows result;

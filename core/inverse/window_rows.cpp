@@ -33,42 +33,121 @@ struct Reaches {
   LargeVector<Reach::value_type> list;
 };
 
-/// How strongly one row's near field reaches each tile, those that it reaches most.
-void findReach(std::size_t row, const NearField& near, const transport::NodeLayout& layout,
-               const Rasters& tiles, int tileLevel, Reach& reach) {
-  reach.clear();
-  for (std::size_t leaf = near.start[row]; leaf < near.start[row + 1]; ++leaf) {
-    transport::Node node = layout.node(near.node[leaf]);
-    const NearField::Value value = near.value(row, leaf);
-    float light = value[0] + value[1] + value[2];
-    auto projector = static_cast<std::size_t>(node.projector);
-    Size grid = tiles.size(projector);
-    int finer = std::max(0, node.level - tileLevel), coarser = std::max(0, tileLevel - node.level);
-    light /= static_cast<float>(std::size_t{1} << (2 * finer));
-    for (int y = (node.y << finer) >> coarser; y <= (((node.y + 1) << finer) - 1) >> coarser; ++y)
-      for (int x = (node.x << finer) >> coarser; x <= (((node.x + 1) << finer) - 1) >> coarser; ++x)
-        if (x < grid.width && y < grid.height)
-          reach.emplace_back(static_cast<std::uint32_t>(tiles.offset(projector) + indexOf(grid, {x, y})),
-                             light);
+/// The tiles that a leaf lies in, and its light in each.
+struct Patch {
+  std::size_t offset = 0;  // of the projector's tiles
+  Size grid;
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // both ends included, some of them beyond the grid
+  float light = 0.0f;
+
+  std::size_t tiles() const {
+    return static_cast<std::size_t>(x1 - x0 + 1) * static_cast<std::size_t>(y1 - y0 + 1);
   }
-  std::sort(reach.begin(), reach.end());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < reach.size(); ++i) {
-    if (kept > 0 && reach[kept - 1].first == reach[i].first)
-      reach[kept - 1].second += reach[i].second;
-    else
-      reach[kept++] = reach[i];
+  std::uint32_t tileAt(int x, int y) const {
+    return static_cast<std::uint32_t>(offset + indexOf(grid, {x, y}));
   }
-  reach.resize(kept);
-  std::erase_if(reach, [](const auto& tile) { return !(tile.second > 0.0f); });
-  if (reach.size() > mostTilesOfARow) {
-    std::nth_element(reach.begin(), reach.begin() + mostTilesOfARow, reach.end(),
+  bool contains(std::uint32_t tile) const {
+    if (tile < offset || tile >= offset + grid.count()) return false;
+    const Pixel at = pixelAt(grid, tile - offset);
+    return at.x >= x0 && at.x <= x1 && at.y >= y0 && at.y <= y1;
+  }
+};
+
+Patch patchOf(const transport::Node& node, const NearField::Value& value, const Rasters& tiles,
+              int tileLevel) {
+  const auto projector = static_cast<std::size_t>(node.projector);
+  const int finer = std::max(0, node.level - tileLevel), coarser = std::max(0, tileLevel - node.level);
+  auto last = [&](int at) { return (((at + 1) << finer) - 1) >> coarser; };
+  return {tiles.offset(projector),
+          tiles.size(projector),
+          (node.x << finer) >> coarser,
+          (node.y << finer) >> coarser,
+          last(node.x),
+          last(node.y),
+          (value[0] + value[1] + value[2]) / static_cast<float>(std::size_t{1} << (2 * finer))};
+}
+
+/// Finds how strongly one row's near field reaches each tile, those that it reaches most.
+class ReachFinder {
+ public:
+  ReachFinder(const NearField& near, const transport::NodeLayout& layout, const Rasters& tiles, int tileLevel)
+      : near_(near), layout_(layout), tiles_(tiles), tileLevel_(tileLevel) {}
+
+  /// Valid until the next call.
+  const Reach& of(std::size_t row) {
+    reach_.clear();
+    wide_.clear();
+    for (std::size_t leaf = near_.start[row]; leaf < near_.start[row + 1]; ++leaf) {
+      const Patch patch = patchOf(layout_.node(near_.node[leaf]), near_.value(row, leaf), tiles_, tileLevel_);
+      if (patch.tiles() > mostTilesOfARow)
+        wide_.push_back(patch);
+      else
+        addAll(patch);
+    }
+    std::ranges::stable_sort(wide_, {}, &Patch::tiles);
+    for (const Patch& patch : wide_) addWide(patch);
+    sum();
+    keepStrongest();
+    return reach_;
+  }
+
+ private:
+  void addAll(const Patch& patch) {
+    for (int y = patch.y0; y <= std::min(patch.y1, patch.grid.height - 1); ++y)
+      for (int x = patch.x0; x <= std::min(patch.x1, patch.grid.width - 1); ++x)
+        reach_.emplace_back(patch.tileAt(x, y), patch.light);
+  }
+
+  /// Where nothing narrower is, its tiles are equals: of these only the first can be among the strongest.
+  void addWide(const Patch& patch) {
+    known_.clear();
+    for (const auto& tile : reach_) known_.push_back(tile.first);
+    std::ranges::sort(known_);
+    known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+    for (std::uint32_t tile : known_)
+      if (patch.contains(tile)) reach_.emplace_back(tile, patch.light);
+    std::size_t alone = 0;
+    for (int y = patch.y0; y <= std::min(patch.y1, patch.grid.height - 1); ++y)
+      for (int x = patch.x0; x <= std::min(patch.x1, patch.grid.width - 1); ++x) {
+        if (alone == mostTilesOfARow) return;
+        const std::uint32_t tile = patch.tileAt(x, y);
+        if (std::ranges::binary_search(known_, tile)) continue;
+        reach_.emplace_back(tile, patch.light);
+        ++alone;
+      }
+  }
+
+  /// One entry a tile, those that get light.
+  void sum() {
+    std::ranges::sort(reach_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < reach_.size(); ++i) {
+      if (kept > 0 && reach_[kept - 1].first == reach_[i].first)
+        reach_[kept - 1].second += reach_[i].second;
+      else
+        reach_[kept++] = reach_[i];
+    }
+    reach_.resize(kept);
+    std::erase_if(reach_, [](const auto& tile) { return !(tile.second > 0.0f); });
+  }
+
+  void keepStrongest() {
+    if (reach_.size() <= mostTilesOfARow) return;
+    std::nth_element(reach_.begin(), reach_.begin() + mostTilesOfARow, reach_.end(),
                      [](const auto& a, const auto& b) {
                        return a.second != b.second ? a.second > b.second : a.first < b.first;
                      });
-    reach.resize(mostTilesOfARow);
+    reach_.resize(mostTilesOfARow);
   }
-}
+
+  const NearField& near_;
+  const transport::NodeLayout& layout_;
+  const Rasters& tiles_;
+  int tileLevel_;
+  Reach reach_;
+  std::vector<Patch> wide_;
+  std::vector<std::uint32_t> known_;
+};
 
 /// Of all rows. A row has far more places on the way than tiles in the end: only some rows at a time have
 /// room for them.
@@ -82,8 +161,10 @@ Reaches reachesOf(const NearField& near, const transport::NodeLayout& layout, co
   std::vector<Reach> found(std::min(rowsAtOnce, rows));
   for (std::size_t begin = 0; begin < rows; begin += rowsAtOnce) {
     const std::size_t count = std::min(rowsAtOnce, rows - begin);
-    parallelFor(0, count, 256,
-                [&](std::size_t i) { findReach(begin + i, near, layout, tiles, tileLevel, found[i]); });
+    parallelChunks(0, count, 64, [&](std::size_t, std::size_t first, std::size_t last) {
+      ReachFinder finder(near, layout, tiles, tileLevel);
+      for (std::size_t i = first; i < last; ++i) found[i] = finder.of(begin + i);
+    });
     for (std::size_t i = 0; i < count; ++i) {
       result.list.insert(result.list.end(), found[i].begin(), found[i].end());
       result.start.push_back(result.list.size());

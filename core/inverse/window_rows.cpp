@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <utility>
 
 #include "relucent/base/parallel.h"
@@ -46,10 +47,9 @@ struct Patch {
   std::uint32_t tileAt(int x, int y) const {
     return static_cast<std::uint32_t>(offset + indexOf(grid, {x, y}));
   }
-  bool contains(std::uint32_t tile) const {
-    if (tile < offset || tile >= offset + grid.count()) return false;
-    const Pixel at = pixelAt(grid, tile - offset);
-    return at.x >= x0 && at.x <= x1 && at.y >= y0 && at.y <= y1;
+  /// Of a narrower leaf: leaves overlap only where one holds the other.
+  bool holds(const Patch& other) const {
+    return offset == other.offset && other.x0 >= x0 && other.x0 <= x1 && other.y0 >= y0 && other.y0 <= y1;
   }
 };
 
@@ -76,45 +76,50 @@ class ReachFinder {
   /// Valid until the next call.
   const Reach& of(std::size_t row) {
     reach_.clear();
+    narrow_.clear();
     wide_.clear();
     for (std::size_t leaf = near_.start[row]; leaf < near_.start[row + 1]; ++leaf) {
       const Patch patch = patchOf(layout_.node(near_.node[leaf]), near_.value(row, leaf), tiles_, tileLevel_);
-      if (patch.tiles() > mostTilesOfARow)
-        wide_.push_back(patch);
-      else
-        addAll(patch);
+      (patch.tiles() > mostTilesOfARow ? wide_ : narrow_).push_back(patch);
     }
-    std::ranges::stable_sort(wide_, {}, &Patch::tiles);
-    for (const Patch& patch : wide_) addWide(patch);
+    for (const Patch& patch : narrow_) addFirst(patch, patch.tiles());
+    if (isNested())
+      for (const Patch& patch : wide_) addFirst(patch, patch.tiles());
+    else
+      addStrongestWide();
     sum();
     keepStrongest();
     return reach_;
   }
 
  private:
-  void addAll(const Patch& patch) {
+  /// The first tiles of a patch, in their order. Returns: how many there were.
+  std::size_t addFirst(const Patch& patch, std::size_t most) {
+    std::size_t added = 0;
     for (int y = patch.y0; y <= std::min(patch.y1, patch.grid.height - 1); ++y)
-      for (int x = patch.x0; x <= std::min(patch.x1, patch.grid.width - 1); ++x)
+      for (int x = patch.x0; x <= std::min(patch.x1, patch.grid.width - 1) && added < most; ++x, ++added)
         reach_.emplace_back(patch.tileAt(x, y), patch.light);
+    return added;
   }
 
-  /// Where nothing narrower is, its tiles are equals: of these only the first can be among the strongest.
-  void addWide(const Patch& patch) {
-    known_.clear();
-    for (const auto& tile : reach_) known_.push_back(tile.first);
-    std::ranges::sort(known_);
-    known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
-    for (std::uint32_t tile : known_)
-      if (patch.contains(tile)) reach_.emplace_back(tile, patch.light);
-    std::size_t alone = 0;
-    for (int y = patch.y0; y <= std::min(patch.y1, patch.grid.height - 1); ++y)
-      for (int x = patch.x0; x <= std::min(patch.x1, patch.grid.width - 1); ++x) {
-        if (alone == mostTilesOfARow) return;
-        const std::uint32_t tile = patch.tileAt(x, y);
-        if (std::ranges::binary_search(known_, tile)) continue;
-        reach_.emplace_back(tile, patch.light);
-        ++alone;
-      }
+  /// Whether a wide leaf holds another leaf: trees that are divided where they need to be have such.
+  bool isNested() const {
+    return std::ranges::any_of(wide_, [&](const Patch& patch) {
+      auto within = [&](const Patch& other) { return &other != &patch && patch.holds(other); };
+      return std::ranges::any_of(narrow_, within) || std::ranges::any_of(wide_, within);
+    });
+  }
+
+  /// A wide leaf's tiles are equals where nothing else is: the first can be among the strongest, and those of
+  /// darker leaves cannot beside them.
+  void addStrongestWide() {
+    std::ranges::stable_sort(wide_, std::greater(), &Patch::light);
+    std::size_t brighter = 0;
+    for (std::size_t i = 0; i < wide_.size(); ++i) {
+      const bool asBright = i > 0 && wide_[i].light == wide_[i - 1].light;
+      if (brighter >= mostTilesOfARow && !asBright) return;
+      brighter += addFirst(wide_[i], mostTilesOfARow);
+    }
   }
 
   /// One entry a tile, those that get light.
@@ -145,8 +150,7 @@ class ReachFinder {
   const Rasters& tiles_;
   int tileLevel_;
   Reach reach_;
-  std::vector<Patch> wide_;
-  std::vector<std::uint32_t> known_;
+  std::vector<Patch> narrow_, wide_;
 };
 
 /// Of all rows. A row has far more places on the way than tiles in the end: only some rows at a time have

@@ -12,6 +12,7 @@
 #include "relucent/multiplexing/regression.h"
 #include "relucent/multiplexing/rows.h"
 #include "relucent/transport/draft.h"
+#include "relucent/transport/shared_colours.h"
 
 namespace relucent::acquisition {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/acquisition/mixed_rows.h"
 
+#include "relucent/transport/shared_colours.h"
+
 namespace relucent::acquisition {
 namespace {
 

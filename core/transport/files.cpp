@@ -11,6 +11,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/transport/npz.h"
+#include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "relucent/base/random.h"
 #include "relucent/transport/block_sparse.h"
+#include "relucent/transport/shared_colours.h"
 
 namespace relucent {
 

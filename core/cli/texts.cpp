@@ -19,6 +19,11 @@ std::string lines(const std::vector<Message>& sentences) {
   return text;
 }
 
+/// Percent of a share to one decimal, and never "-0.0".
+double percentOf(double share) {
+  return std::round(1000.0 * share) / 10.0 + 0.0;
+}
+
 }  // namespace
 
 std::string textOf(const pipeline::CalibrateResult& result) {
@@ -29,7 +34,7 @@ std::string textOf(const pipeline::CalibrateResult& result) {
              "camera's "
              "pixels are flagged.\n",
              result.patterns, result.exposures, seconds, result.connections, result.leaves,
-             100.0 * result.unresolvedEnergy, 100.0 * result.flaggedShare) +
+             percentOf(result.unresolvedEnergy), percentOf(result.flaggedShare)) +
          lines(result.findings);
 }
 

@@ -127,12 +127,12 @@
         <translation>النوافذ</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>النوافذ والخطوات</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>الأفضل الممكن، صور ثابتة</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>كل الانعكاسات، للأفلام</translation>
     </message>
 </context>
 <context>
@@ -242,7 +242,7 @@
     <name>StoppedEarly</name>
     <message>
         <source>Measuring was stopped at blocks of %1 px</source>
-        <translation>أُوقف القياس عند كتل من %1 px</translation>
+        <translation>أُوقف القياس عند كتل من ⁨%1 px⁩</translation>
     </message>
     <message>
         <source>All that follows is as coarse. Go on measuring any time.</source>
@@ -339,7 +339,7 @@
     <name>acquisition.stopped-early</name>
     <message>
         <source>Measuring was stopped at blocks of {} px: what is finer is missing, and pictures are compensated less sharply; go on measuring any time as long as nothing has moved</source>
-        <translation>أُوقف القياس عند كتل من {} px: ما هو أدق ناقص، وتُعوَّض الصور بحدّة أقل؛ تابع القياس في أي وقت ما دام شيء لم يتحرّك</translation>
+        <translation>أُوقف القياس عند كتل من ⁨{} px⁩: ما هو أدق ناقص، وتُعوَّض الصور بحدّة أقل؛ تابع القياس في أي وقت ما دام شيء لم يتحرّك</translation>
     </message>
 </context>
 <context>
@@ -348,12 +348,12 @@
         <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
         <comment>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</comment>
         <translation>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطات أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
-            <numerusform>أُوقف عند كتل من {} px؛ المتوقع {} dB، ونحو {} dB مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطات أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
+            <numerusform>أُوقف عند كتل من ⁨{} px⁩؛ المتوقع ⁨{} dB⁩، ونحو ⁨{} dB⁩ مع {} لقطة أخرى، {}؛ تابع القياس في أي وقت ما لم يتحرّك شيء</numerusform>
         </translation>
     </message>
 </context>
@@ -2481,10 +2481,6 @@
         <translation>خطأ أنماط الاختبار</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>تُتوقع أنماط الاختبار من القياس ثم تُصوَّر: هذا مقدار الفرق بينهما.</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>المتابعة رغم ذلك</translation>
     </message>
@@ -2617,43 +2613,17 @@
         <source>blocks are divided only where light needs it</source>
         <translation>لا تُقسَّم الكتل إلا حيث يقتضي الضوء</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>لا أنماط متوقعة؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-            <numerusform>نمط واحد متوقع؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-            <numerusform>نمطان متوقعان؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-            <numerusform>%n أنماط متوقعة؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-            <numerusform>%n نمطًا متوقعًا؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-            <numerusform>%n نمط متوقع؛ يُعرف العدد بدقة عند بدء كل مستوى</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>لا أنماط</numerusform>
-            <numerusform>نمط واحد</numerusform>
-            <numerusform>نمطان</numerusform>
-            <numerusform>%n أنماط</numerusform>
-            <numerusform>%n نمطًا</numerusform>
-            <numerusform>%n نمط</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
-        <translation>أُوقف عند %1 px</translation>
+        <translation>أُوقف عند ⁨%1 px⁩</translation>
     </message>
     <message>
         <source>Measuring was stopped at blocks of %1 px</source>
-        <translation>أُوقف القياس عند كتل من %1 px</translation>
+        <translation>أُوقف القياس عند كتل من ⁨%1 px⁩</translation>
     </message>
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء.</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1؛ الخطأ نحو %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2669,12 +2639,12 @@
     <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB بلا لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB مع لقطة واحدة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB مع لقطتين أخريين، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
-            <numerusform>المتوقع %1 dB، ونحو %2 dB مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ بلا لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ مع لقطة واحدة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ مع لقطتين أخريين، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ مع %n لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
+            <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ مع %n لقطة أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
         </translation>
     </message>
     <message>
@@ -2703,7 +2673,7 @@
     </message>
     <message>
         <source>%1 dB</source>
-        <translation>%1 dB</translation>
+        <translation>⁨%1 dB⁩</translation>
     </message>
     <message>
         <source>dB says how close the picture comes to the one wanted, where it can be reached at all: 20 dB looks rough, 30 dB good, and every 6 dB halve what is off.</source>
@@ -2723,7 +2693,7 @@
     </message>
     <message>
         <source>%1 px blocks</source>
-        <translation>كتل من %1 px</translation>
+        <translation>كتل من ⁨%1 px⁩</translation>
     </message>
     <message>
         <source>Expected now</source>
@@ -2731,7 +2701,7 @@
     </message>
     <message>
         <source>Blocks of %1 px. Expected now: %2. In the end: %3.</source>
-        <translation>كتل من %1 px. المتوقع الآن: %2. في النهاية: %3.</translation>
+        <translation>كتل من ⁨%1 px⁩. المتوقع الآن: %2. في النهاية: %3.</translation>
     </message>
     <message>
         <source>In the end</source>
@@ -2857,8 +2827,42 @@
         <translation>ينتهي نحو ⁨%1⁩. ⁨%2⁩</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
+        <source>Put the camera back</source>
         <translation>أعد الكاميرا إلى مكانها</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>تُتوقَّع أنماط الاختبار من القياس ثم تُصوَّر: هذا هو الفرق بينهما، بما فيه ضجيج اللقطات.</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>لأن القياس أُوقف مبكرًا فليس فيها كتل أدق من ⁨%1 px⁩: لا يدلّ هذا على ما هو أدق من الضوء.</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1؛ الضوء صحيح في حدود %2 تقريبًا</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>لا أنماط متوقعة مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>نمط واحد متوقع مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>نمطان متوقعان مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n أنماط متوقعة مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمطًا متوقعًا مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمط متوقع مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>لا أنماط مع كل الفحوص</numerusform>
+            <numerusform>نمط واحد مع كل الفحوص</numerusform>
+            <numerusform>نمطان مع كل الفحوص</numerusform>
+            <numerusform>%n أنماط مع كل الفحوص</numerusform>
+            <numerusform>%n نمطًا مع كل الفحوص</numerusform>
+            <numerusform>%n نمط مع كل الفحوص</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3276,6 +3280,90 @@
         <source>Mark what is sharp</source>
         <translation>علّم ما هو حاد</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>فُحص من قبل. افحص مرة أخرى إذا حُرّكت الكاميرا أو جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>متابعة</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>أزمنة التعريض</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>صورة جهاز العرض: ترى الكاميرا %1 منها</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>إلى اليسار</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>إلى اليمين</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>في الأعلى</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>في الأسفل</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>تنقص مواضع داخلها: في الظل، أو أعتم من أن تراها الكاميرا.</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>الناقص: %1. وجّه الكاميرا إلى هناك، أو أبعدها.</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>تُرى %1 من صورة جهاز العرض</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>تُرى %1 من صورة جهاز العرض %2</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>كل تعريض من مضاعفات %1</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>يتغيّر ضوء جهاز العرض بهذه السرعة: كل لقطة تضمّه كاملًا.</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>اسمح بأي تعريض</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>التعريضات الأقصر من %1 ترتعش</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>يتغيّر ضوء جهاز العرض خلال هذا الزمن.</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>استخدم مضاعفات %1</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>فُحص من قبل</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>هذه التعريضات محفوظة. «إعادة الفحص» ينظر عبر الكاميرا.</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>لم يُفحص بعد</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3360,10 +3448,6 @@
         <translation>خريطة الخطأ، الوسيط %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>الحد الأقصى %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>المسافة</translation>
     </message>
@@ -3404,10 +3488,6 @@
         <translation>النتيجة</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>المقطوع بالحد الأقصى</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>الضوء الباقي في التجمّعات</translation>
     </message>
@@ -3430,14 +3510,6 @@
     <message>
         <source>%1 of light</source>
         <translation>%1 من الضوء</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>بلا الحد الأقصى يغطي تجمّع واحد %1 من الصورة.</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>السطح مموّه عبر البكسلات المتجاورة، فتتصل المجموعات. الحد الأقصى يفصل بينها.</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3501,6 +3573,38 @@
     <message>
         <source>error</source>
         <translation>خطأ</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>الحد %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>أكثر من %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>نحو %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>ما يقطعه حد الحجم</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>الأفلام، إطارات في الثانية</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>ما يبلغه هذا الحاسوب بدقة Full HD بالضوء الذي تبقيه العتبة. لا تغيّره المجموعات: تُحلّ الأفلام في نوافذ متداخلة.</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>بلا حد للحجم لغطّى تجمّع واحد %1 من الصورة.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>السطح ضبابي بين البكسلات المتجاورة فتتصل المجموعات. يبقيها الحد منفصلة.</translation>
     </message>
 </context>
 <context>
@@ -3901,10 +4005,6 @@
         <source>Found while measuring</source>
         <translation>ما وُجد أثناء القياس</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>خطأ الجمعية %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3947,6 +4047,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>⁨%1⁩ من الضوء الكامل</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>الألوان في حدود %1</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>البواقي</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>المصوَّر ناقص المنحنى، % من الكامل</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>بُعد ضوء كل مستوى عن المنحنى</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>في حدود ⁨±%1⁩</translation>
     </message>
 </context>
 <context>
@@ -4058,10 +4178,6 @@ projector %2</source>
         <translation>أمِل الكاميرا عكس عقارب الساعة.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>أعد الكاميرا إلى مكانها</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>ما رأته الكاميرا وما تراه الآن</translation>
     </message>
@@ -4099,19 +4215,19 @@ projector %2</source>
     </message>
     <message>
         <source>%1 px to the right</source>
-        <translation>⁨%1⁩ px إلى اليمين</translation>
+        <translation>⁨%1 px⁩ إلى اليمين</translation>
     </message>
     <message>
         <source>%1 px to the left</source>
-        <translation>⁨%1⁩ px إلى اليسار</translation>
+        <translation>⁨%1 px⁩ إلى اليسار</translation>
     </message>
     <message>
         <source>%1 px down</source>
-        <translation>⁨%1⁩ px إلى الأسفل</translation>
+        <translation>⁨%1 px⁩ إلى الأسفل</translation>
     </message>
     <message>
         <source>%1 px up</source>
-        <translation>⁨%1⁩ px إلى الأعلى</translation>
+        <translation>⁨%1 px⁩ إلى الأعلى</translation>
     </message>
     <message>
         <source>%1°</source>
@@ -4140,6 +4256,10 @@ projector %2</source>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>أدر الكاميرا حتى يتشابه النصفان. إن كانا متشابهين فقد تغيّر الضوء أو السطح.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>أعد الكاميرا إلى مكانها</translation>
     </message>
 </context>
 <context>
@@ -4553,7 +4673,7 @@ projector %2</source>
     </message>
     <message>
         <source>%1 fps, %2 ms, %3 of the pixels at their limit</source>
-        <translation>%1 fps، ‏%2 ms، ‏%3 من البكسلات عند حدها</translation>
+        <translation>⁨%1 fps⁩، ‏⁨%2 ms⁩، ‏%3 من البكسلات عند حدها</translation>
     </message>
     <message>
         <source>Screen unplugged</source>
@@ -4593,27 +4713,15 @@ projector %2</source>
     </message>
     <message>
         <source>The camera&apos;s view has moved by %1 px sideways and %2 px up or down.</source>
-        <translation>تحرك منظر الكاميرا ⁨%1⁩ px جانبيًا و⁨%2⁩ px رأسيًا.</translation>
-    </message>
-    <message>
-        <source>Push the camera back</source>
-        <translation>أعد الكاميرا إلى مكانها</translation>
+        <translation>تحرك منظر الكاميرا ⁨%1 px⁩ جانبيًا و⁨%2 px⁩ رأسيًا.</translation>
     </message>
     <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>يعرض الضوء الكامل ويبيّن إلى أين تُدار الكاميرا لتنظر إلى حيث كانت تنظر.</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>تحرك منظر الكاميرا ⁨%1⁩ px. أعدها إلى مكانها ثم صوّر مرة أخرى.</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>الكاميرا أو جهاز العرض في مكان آخر. أعد الكاميرا إلى مكانها أو وجّهها وقِس من جديد.</translation>
-    </message>
-    <message>
         <source>Limit for %1 frames a second: %2 ms</source>
-        <translation>الحد لـ⁨%1⁩ إطارًا في الثانية: ⁨%2⁩ ms</translation>
+        <translation>الحد لـ⁨%1⁩ إطارًا في الثانية: ⁨%2 ms⁩</translation>
     </message>
     <message>
         <source>the processor</source>
@@ -4634,6 +4742,18 @@ projector %2</source>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>أعد الكاميرا إلى مكانها</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>تحرك منظر الكاميرا ⁨%1 px⁩. أعدها إلى مكانها ثم صوّر مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>الكاميرا أو جهاز العرض في موضع آخر. أعد الكاميرا إلى مكانها، أو وجّهها وقِس من جديد.</translation>
     </message>
 </context>
 <context>
@@ -4852,10 +4972,6 @@ projector %2</source>
         <translation>ما سيراه الجمهور، دون تصحيح على يسار الفاصل ومصحّحًا على يمينه</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>أسطع ضوء ضمن المدى؛ مظلّل بخطوط حيث لا يكفي</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>فرق اللون بين المطلوب والمتوقّع</translation>
     </message>
@@ -4945,7 +5061,7 @@ projector %2</source>
     </message>
     <message>
         <source>under 1 ms</source>
-        <translation>أقل من 1 ms</translation>
+        <translation>أقل من ⁨1 ms⁩</translation>
     </message>
     <message>
         <source>Uncorrected, too</source>
@@ -4960,12 +5076,68 @@ projector %2</source>
         <translation>كل شيء يمكن بلوغه</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>المظلَّل: ⁨%1⁩ يبقى داكنًا جدًا</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>لا ملاحظة</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>ما قيس قديم: يخصّ إعدادات سابقة</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>ما زال صالحًا، وما تراه ناتج عنه، حتى يُقاس من جديد.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>شاشة جهاز العرض مفصولة.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>على السطح الآن: الصورة المصحّحة.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>على السطح الآن: الصورة دون تصحيح.</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>أوقف العرض</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>اعرض على السطح</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>يعرض هذه الصورة على السطح حتى توقفه أو تغادر.</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>أظهر دون تصحيح</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>أظهر مع التصحيح</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>لا معاينة بعد.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>شاشة جهاز العرض غير موجودة. صِلها ووسّع سطح المكتب إليها.</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>الخرج على تلك الشاشة. أغلقه أولًا.</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>أسطع ضوء يمكن بلوغه؛ مخطّط حيث يتعذّر بلوغ المحتوى</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>المخطّط: %1 لا يمكن بلوغه</translation>
     </message>
 </context>
 <context>
@@ -5297,14 +5469,6 @@ projector %2</source>
         <translation>قيمة واحدة</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>نسبة من الصف</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>النسبة من أقوى ارتباط في الصف، بأعشار الواحد بالمئة</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>ما يبقى</translation>
     </message>
@@ -5339,10 +5503,6 @@ projector %2</source>
     <message>
         <source>Light from elsewhere</source>
         <translation>ضوء من مواضع أخرى</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>أقل من %1 من أقوى ارتباط في الصف</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5391,6 +5551,22 @@ projector %2</source>
         <source>%1 on average</source>
         <translation>⁨%1⁩ في المتوسط</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>نوع القطع</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>نسبة من كل بكسل</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>نسبة من أقوى ضوء لكل بكسل في الكاميرا، بأعشار المئة</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>أقل من %1 من أقوى ضوء يصل كل بكسل في الكاميرا</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5432,18 +5608,6 @@ projector %2</source>
             <numerusform>%n لقطة</numerusform>
             <numerusform>%n لقطة</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>ترتيب</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>ترتيب ⁨%1⁩</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>أُوقف الترتيب.</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5524,6 +5688,18 @@ projector %2</source>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>يجري البحث عما يمكن إخلاؤه. لا يُحذف شيء بعد.</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>إخلاء مساحة القرص</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>مساحة القرص لـ%1</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>أُوقف إخلاء المساحة.</translation>
     </message>
 </context>
 <context>
@@ -5999,10 +6175,6 @@ projector %2</source>
         <translation>%1 من %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>ترتيب…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>إخلاء القرص مما لا يحتاج إليه ⁨%1⁩</translation>
     </message>
@@ -6014,16 +6186,20 @@ projector %2</source>
         <source>Resume %1</source>
         <translation>استئناف ⁨%1⁩</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>إخلاء مساحة…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>خطوة «%1» تعمل الآن. يمكن أن ينتظر الترتيب حتى تنتهي.</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>حاول بعد ذلك مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 قيد العمل. يمكن إخلاء المساحة بعد انتهائه.</translation>
     </message>
 </context>
 <context>
@@ -6336,6 +6512,13 @@ projector %2</source>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>البحث عمّا يتعذّر تصحيحه</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>تحديد الجزء المرئي من الصورة</translation>
     </message>
 </context>
 <context>

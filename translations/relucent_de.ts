@@ -127,12 +127,12 @@
         <translation>Fenster</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>Fenster und Schritte</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>Bestmöglich, Standbilder</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>Alle Reflexe, für Filme</translation>
     </message>
 </context>
 <context>
@@ -2445,10 +2445,6 @@
         <translation>Fehler der Testmuster</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>Testmuster werden aus der Messung vorhergesagt und dann fotografiert: So weit liegen beide auseinander.</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>Trotzdem weiter</translation>
     </message>
@@ -2569,20 +2565,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>Blöcke werden nur geteilt, wo das Licht es braucht</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n Muster</numerusform>
-            <numerusform>%n Muster</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
-            <numerusform>%n Muster erwartet; genau bekannt, sobald jede Stufe beginnt</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>Gestoppt bei %1 px</translation>
@@ -2594,10 +2576,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat.</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1; Fehler etwa %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2789,8 +2767,34 @@
         <translation>Ende gegen %1. %2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Kamera zurückschieben</translation>
+        <source>Put the camera back</source>
+        <translation>Kamera zurückstellen</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>Testmuster werden aus der Messung vorhergesagt und dann fotografiert: So weit liegen beide auseinander, das Rauschen der Fotos eingeschlossen.</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>Vorzeitig beendet, haben sie keine feineren Blöcke als %1 px: Über feineres Licht sagt das nichts.</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1; Licht auf etwa %2 genau</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n Muster mit allen Prüfungen erwartet; genau bekannt, wenn jede Stufe beginnt</numerusform>
+            <numerusform>%n Muster mit allen Prüfungen erwartet; genau bekannt, wenn jede Stufe beginnt</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n Muster mit allen Prüfungen</numerusform>
+            <numerusform>%n Muster mit allen Prüfungen</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3204,6 +3208,90 @@
         <source>Mark what is sharp</source>
         <translation>Scharfes markieren</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>Schon geprüft. Erneut prüfen, wenn Kamera oder Projektor bewegt wurden.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>Belichtungszeiten</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>Das Bild des Projektors: Die Kamera sieht %1 davon</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>oben</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>unten</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>Es fehlen Stellen darin: im Schatten oder zu dunkel für die Kamera.</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>Es fehlt: %1. Richten Sie die Kamera dorthin, oder stellen Sie sie weiter weg.</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>%1 vom Bild des Projektors ist zu sehen</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>%1 vom Bild des Projektors %2 ist zu sehen</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>Jede Belichtung ist ein Vielfaches von %1</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>So schnell ändert sich das Licht des Projektors: Jedes Foto hat alles davon.</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>Jede Belichtung zulassen</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>Belichtungen kürzer als %1 flackern</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>Das Licht des Projektors ändert sich in dieser Zeit.</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>Vielfache von %1 verwenden</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>Schon geprüft</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>Diese Belichtungen sind gespeichert. „Erneut prüfen“ blickt durch die Kamera.</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Noch nicht geprüft</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3288,10 +3376,6 @@
         <translation>Fehlerkarte, Median %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>max. %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Abstand</translation>
     </message>
@@ -3332,10 +3416,6 @@
         <translation>Ergebnis</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>Gekappt</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>Licht in Clustern</translation>
     </message>
@@ -3358,14 +3438,6 @@
     <message>
         <source>%1 of light</source>
         <translation>%1 des Lichts</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>Ohne Obergrenze würde ein Cluster %1 des Bilds bedecken.</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>Die Oberfläche ist über benachbarte Pixel hinweg unscharf, daher verbinden sich Gruppen. Die Obergrenze hält sie getrennt.</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3409,6 +3481,38 @@
     <message>
         <source>error</source>
         <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>Grenze %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>über %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>etwa %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>Von der Größengrenze abgeschnitten</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>Filme, Bilder je Sekunde</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>Was dieser Computer in Full HD mit dem Licht schafft, das die Schwelle behält. Die Gruppen ändern daran nichts: Filme werden in überlappenden Fenstern gelöst.</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>Ohne Größengrenze würde ein Cluster %1 des Bildes einnehmen.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>Die Fläche ist über Nachbarpixel hinweg unscharf, sodass Gruppen zusammenwachsen. Die Grenze hält sie getrennt.</translation>
     </message>
 </context>
 <context>
@@ -3801,10 +3905,6 @@
         <source>Found while measuring</source>
         <translation>Beim Messen bemerkt</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>%1 Additivitätsfehler</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3843,6 +3943,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>%1 des vollen Lichts</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>Farben auf %1 genau</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>Abweichungen</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>Foto minus Kurve, % der vollen</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>Wie weit das Licht jeder Stufe von der Kurve liegt</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>innerhalb ±%1</translation>
     </message>
 </context>
 <context>
@@ -3954,10 +4074,6 @@ Projektor %2</translation>
         <translation>Neigen Sie die Kamera gegen den Uhrzeigersinn.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Kamera zurückschieben</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>Was die Kamera sah und was sie jetzt sieht</translation>
     </message>
@@ -4036,6 +4152,10 @@ Projektor %2</translation>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>Drehen Sie die Kamera, bis beide Hälften gleich aussehen. Tun sie das schon, hat sich das Licht oder die Fläche geändert.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Kamera zurückstellen</translation>
     </message>
 </context>
 <context>
@@ -4488,20 +4608,8 @@ Projektor %2</translation>
         <translation>Die Ansicht der Kamera hat sich um %1 px seitlich und %2 px auf oder ab verschoben.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Kamera zurückschieben</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>Zeigt volles Licht und wohin die Kamera zu drehen ist, damit sie blickt wie zuvor.</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>Die Ansicht der Kamera ist um %1 px verschoben. Schieben Sie sie zurück und fotografieren Sie erneut.</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>Kamera oder Projektor stehen anders. Schieben Sie die Kamera zurück oder richten Sie sie aus und messen Sie neu.</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4526,6 +4634,18 @@ Projektor %2</translation>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Kamera zurückstellen</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>Der Blick der Kamera hat sich um %1 px verschoben. Stellen Sie sie zurück und fotografieren Sie erneut.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>Kamera oder Projektor stehen anders. Stellen Sie die Kamera zurück, oder richten Sie neu aus und messen Sie erneut.</translation>
     </message>
 </context>
 <context>
@@ -4744,10 +4864,6 @@ Projektor %2</translation>
         <translation>Was das Publikum sehen wird, links der Trennlinie unkorrigiert, rechts korrigiert</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>Das hellste erreichbare Licht; schraffiert, wo es zu wenig ist</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>Farbabstand zwischen Soll und Vorhersage</translation>
     </message>
@@ -4852,12 +4968,68 @@ Projektor %2</translation>
         <translation>Alles ist erreichbar</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>Schraffiert: %1 bleibt zu dunkel</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>keine Anmerkung</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>Das Gemessene ist veraltet: Es gehört zu früheren Einstellungen</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>Es gilt weiter, und was Sie sehen, folgt daraus, bis neu gemessen wird.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Der Bildschirm des Projektors ist abgesteckt.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>Jetzt auf der Fläche: das korrigierte Bild.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>Jetzt auf der Fläche: das unkorrigierte Bild.</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>Beenden</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>Auf die Fläche werfen</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>Zeigt dieses Bild auf der Fläche, bis Sie es beenden oder weggehen.</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>Unkorrigiert zeigen</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>Korrigiert zeigen</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>Es gibt noch keine Vorschau.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>Der Bildschirm des Projektors fehlt. Stecken Sie ihn an und erweitern Sie den Desktop darauf.</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>Auf diesem Bildschirm läuft die Ausgabe. Schließen Sie sie zuerst.</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>Das hellste erreichbare Licht; schraffiert, wo der Inhalt unerreichbar ist</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>Schraffiert: %1 unerreichbar</translation>
     </message>
 </context>
 <context>
@@ -5185,14 +5357,6 @@ Projektor %2</translation>
         <translation>Ein Wert</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>Zeilenanteil</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>Anteil an der stärksten Verbindung der Zeile, in Zehntelprozent</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>Was bleibt</translation>
     </message>
@@ -5227,10 +5391,6 @@ Projektor %2</translation>
     <message>
         <source>Light from elsewhere</source>
         <translation>Licht von anderswo</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>Unter %1 der stärksten Verbindung der Zeile</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5275,6 +5435,22 @@ Projektor %2</translation>
         <source>%1 on average</source>
         <translation>%1 im Mittel</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>Art des Schnitts</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>Anteil je Pixel</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>Anteil am stärksten Licht jedes Kamerapixels, in Zehntelprozent</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>Unter %1 des stärksten Lichts, das jedes Kamerapixel bekommt</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5312,18 +5488,6 @@ Projektor %2</translation>
             <numerusform>%n Foto</numerusform>
             <numerusform>%n Fotos</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>Aufräumen</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>%1 aufräumen</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>Das Aufräumen wurde beendet.</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5404,6 +5568,18 @@ Projektor %2</translation>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>Es wird nachgesehen, was frei werden kann. Noch wird nichts entfernt.</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>Speicherplatz schaffen</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>Speicherplatz von %1</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>Das Freigeben wurde abgebrochen.</translation>
     </message>
 </context>
 <context>
@@ -5871,10 +6047,6 @@ Projektor %2</translation>
         <translation>%1 von %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>Aufräumen…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Laufwerk von dem befreien, was %1 nicht braucht</translation>
     </message>
@@ -5886,16 +6058,20 @@ Projektor %2</translation>
         <source>Resume %1</source>
         <translation>%1 fortsetzen</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>Platz schaffen…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>Die Seite „%1“ arbeitet gerade. Das Aufräumen kann bis danach warten.</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>Versuchen Sie es danach noch einmal.</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 arbeitet. Platz lässt sich schaffen, wenn das beendet ist.</translation>
     </message>
 </context>
 <context>
@@ -6208,6 +6384,13 @@ Projektor %2</translation>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>Suche nach nicht Korrigierbarem</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>Sucht, welcher Teil des Bildes zu sehen ist</translation>
     </message>
 </context>
 <context>

@@ -103,20 +103,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n pattern</numerusform>
-            <numerusform>%n patterns</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n pattern expected; known exactly as each level begins</numerusform>
-            <numerusform>%n patterns expected; known exactly as each level begins</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%n photograph(s)</source>
         <translation>
             <numerusform>%n photograph</numerusform>
@@ -135,6 +121,20 @@
         <translation>
             <numerusform>%n new photograph is safe: resume any time. Until then the earlier measurement is used.</numerusform>
             <numerusform>%n new photographs are safe: resume any time. Until then the earlier measurement is used.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n pattern expected with all checks; known exactly as each level begins</numerusform>
+            <numerusform>%n patterns expected with all checks; known exactly as each level begins</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n pattern with all checks</numerusform>
+            <numerusform>%n patterns with all checks</numerusform>
         </translation>
     </message>
 </context>

@@ -127,12 +127,12 @@
         <translation>Ventanas</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>Ventanas y pasos</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>Lo mejor posible, imágenes fijas</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>Todos los rebotes, para vídeo</translation>
     </message>
 </context>
 <context>
@@ -2445,10 +2445,6 @@
         <translation>Error de los patrones de prueba</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>Los patrones de prueba se predicen a partir de la medición y luego se fotografían: esta es la diferencia entre ambos.</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>Continuar igualmente</translation>
     </message>
@@ -2569,20 +2565,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>los bloques solo se dividen donde la luz lo requiere</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n patrón previsto; se sabe con exactitud al empezar cada nivel</numerusform>
-            <numerusform>%n patrones previstos; se sabe con exactitud al empezar cada nivel</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n patrón</numerusform>
-            <numerusform>%n patrones</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>Detenido en %1 px</translation>
@@ -2594,10 +2576,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido.</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1; error aproximado: %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2789,8 +2767,34 @@
         <translation>Termina hacia las %1. %2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
+        <source>Put the camera back</source>
         <translation>Recolocar la cámara</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>Los patrones de prueba se predicen a partir de la medición y luego se fotografían: esta es la diferencia, incluido el ruido de las fotografías.</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>Detenida antes de tiempo, no tienen bloques más finos que %1 px: no dice nada de la luz más fina.</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1; luz exacta en torno a %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n patrón previsto con todas las comprobaciones; se sabe con exactitud al empezar cada nivel</numerusform>
+            <numerusform>%n patrones previstos con todas las comprobaciones; se sabe con exactitud al empezar cada nivel</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n patrón con todas las comprobaciones</numerusform>
+            <numerusform>%n patrones con todas las comprobaciones</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3204,6 +3208,90 @@
         <source>Mark what is sharp</source>
         <translation>Marcar lo nítido</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>Ya comprobado. Compruebe otra vez si se movió la cámara o el proyector.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continuar</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>Tiempos de exposición</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>La imagen del proyector: la cámara ve el %1</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>a la izquierda</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>a la derecha</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>arriba</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>abajo</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>Faltan zonas interiores: en sombra o demasiado oscuras para la cámara.</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>Falta: %1. Apunte la cámara hacia allí o aléjela.</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>Se ve el %1 de la imagen del proyector</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>Se ve el %1 de la imagen del proyector %2</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>Cada exposición es múltiplo de %1</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>La luz del proyector cambia así de rápido: cada fotografía la recoge entera.</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>Permitir cualquier exposición</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>Las exposiciones más cortas que %1 parpadean</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>La luz del proyector cambia en ese tiempo.</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>Usar múltiplos de %1</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>Ya comprobado</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>Estas exposiciones están guardadas. «Comprobar de nuevo» mira por la cámara.</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Aún sin comprobar</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3288,10 +3376,6 @@
         <translation>Mapa de error, mediana %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>límite %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Distancia</translation>
     </message>
@@ -3332,10 +3416,6 @@
         <translation>Resultado</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>Cortado por límite</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>Luz dentro de clústeres</translation>
     </message>
@@ -3358,14 +3438,6 @@
     <message>
         <source>%1 of light</source>
         <translation>%1 de la luz</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>Sin el límite, un solo clúster cubriría el %1 de la imagen.</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>La superficie está desenfocada entre píxeles vecinos y los grupos se unen. El límite los mantiene separados.</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3409,6 +3481,38 @@
     <message>
         <source>error</source>
         <translation>error</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>límite %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>más de %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>unas %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>Cortada por el límite</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>Vídeo, imágenes por segundo</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>Lo que este ordenador consigue en Full HD con la luz que conserva Umbral. Los grupos no lo cambian: el vídeo se resuelve en ventanas que se solapan.</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>Sin límite de tamaño, un clúster ocuparía el %1 de la imagen.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>La superficie se desenfoca entre píxeles vecinos y los grupos se unen. El límite los mantiene separados.</translation>
     </message>
 </context>
 <context>
@@ -3801,10 +3905,6 @@
         <source>Found while measuring</source>
         <translation>Hallado al medir</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>Error de aditividad: %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3843,6 +3943,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>%1 de la luz plena</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>Colores con error de %1</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>Residuos</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>Fotografiado menos curva, % del máximo</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>Cuánto se aparta de la curva la luz de cada nivel</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>dentro de ±%1</translation>
     </message>
 </context>
 <context>
@@ -3954,10 +4074,6 @@ proyector %2</translation>
         <translation>Incline la cámara en sentido contrario a las agujas del reloj.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Recolocar la cámara</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>Lo que la cámara veía y lo que ve ahora</translation>
     </message>
@@ -4036,6 +4152,10 @@ proyector %2</translation>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>Gire la cámara hasta que ambas mitades se parezcan. Si ya se parecen, ha cambiado la luz o la superficie.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Recolocar la cámara</translation>
     </message>
 </context>
 <context>
@@ -4488,20 +4608,8 @@ proyector %2</translation>
         <translation>La vista de la cámara se ha desplazado %1 px de lado y %2 px arriba o abajo.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Recolocar la cámara</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>Muestra luz plena y hacia dónde girar la cámara para que mire adonde miraba.</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>La vista de la cámara se ha movido %1 px. Recolóquela y fotografíe de nuevo.</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4526,6 +4634,18 @@ proyector %2</translation>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>Los dispositivos están en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Recolocar la cámara</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>La vista de la cámara se ha movido %1 px. Recolóquela y fotografíe otra vez.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
     </message>
 </context>
 <context>
@@ -4744,10 +4864,6 @@ proyector %2</translation>
         <translation>Lo que verá el público, sin corregir a la izquierda del divisor y corregido a la derecha</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>La luz más intensa alcanzable; rayada donde es insuficiente</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>Diferencia de color entre lo deseado y lo previsto</translation>
     </message>
@@ -4852,12 +4968,68 @@ proyector %2</translation>
         <translation>Se alcanza todo</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>Rayado: %1 queda demasiado oscuro</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>sin nota</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>Lo medido está desactualizado: corresponde a ajustes anteriores</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>Sigue sirviendo, y lo que ve se deriva de ello, hasta que se mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>La pantalla del proyector está desconectada.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>Ahora en la superficie: la imagen corregida.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>Ahora en la superficie: la imagen sin corregir.</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>Dejar de proyectar</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>Proyectar en la superficie</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>Muestra esta imagen en la superficie hasta que la detenga o salga.</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>Mostrar sin corregir</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>Mostrar corregida</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>Aún no hay vista previa.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>No está la pantalla del proyector. Conéctela y extienda el escritorio a ella.</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>La salida está en esa pantalla. Ciérrela primero.</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>La luz más intensa que se alcanza; rayado donde el contenido queda fuera de alcance</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>Rayado: %1 fuera de alcance</translation>
     </message>
 </context>
 <context>
@@ -5185,14 +5357,6 @@ proyector %2</translation>
         <translation>Un valor</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>Parte de la fila</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>Parte de la conexión más intensa de la fila, en décimas de porcentaje</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>Lo que queda</translation>
     </message>
@@ -5227,10 +5391,6 @@ proyector %2</translation>
     <message>
         <source>Light from elsewhere</source>
         <translation>Luz de otros puntos</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>Por debajo del %1 de la conexión más intensa de la fila</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5275,6 +5435,22 @@ proyector %2</translation>
         <source>%1 on average</source>
         <translation>%1 de media</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>Tipo de corte</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>Parte por píxel</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>Parte de la luz más fuerte de cada píxel de la cámara, en décimas de porcentaje</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>Por debajo del %1 de la luz más fuerte que recibe cada píxel de la cámara</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5312,18 +5488,6 @@ proyector %2</translation>
             <numerusform>%n fotografía</numerusform>
             <numerusform>%n fotografías</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>Ordenar</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>Ordenar %1</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>Se detuvo la tarea de ordenar.</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5404,6 +5568,18 @@ proyector %2</translation>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>Se busca lo que se puede liberar. Todavía no se elimina nada.</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>Liberar espacio en disco</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>Espacio en disco de %1</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>Se detuvo la liberación de espacio.</translation>
     </message>
 </context>
 <context>
@@ -5871,10 +6047,6 @@ proyector %2</translation>
         <translation>%1 de %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>Ordenar…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Liberar el disco de lo que %1 no necesita</translation>
     </message>
@@ -5886,16 +6058,20 @@ proyector %2</translation>
         <source>Resume %1</source>
         <translation>Reanudar %1</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>Liberar espacio…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>%1 está trabajando. Ordenar puede esperar a que termine.</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>Inténtelo de nuevo después.</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 está trabajando. Se podrá liberar espacio cuando termine.</translation>
     </message>
 </context>
 <context>
@@ -6208,6 +6384,13 @@ proyector %2</translation>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>Buscando lo que no se puede corregir</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>Buscando qué parte de la imagen se ve</translation>
     </message>
 </context>
 <context>

@@ -127,12 +127,12 @@
         <translation>Fenêtres</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>Fenêtres et itérations</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>Optimum, images fixes</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>Tous les rebonds, pour la vidéo</translation>
     </message>
 </context>
 <context>
@@ -2445,10 +2445,6 @@
         <translation>Erreur des motifs de test</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>Les motifs de test sont prédits d’après la mesure, puis photographiés&#x202f;: voici leur écart.</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>Continuer ainsi</translation>
     </message>
@@ -2569,20 +2565,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>les blocs ne sont divisés que là où la lumière l’exige</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n motif prévu&#x202f;; connu exactement au début de chaque niveau</numerusform>
-            <numerusform>%n motifs prévus&#x202f;; connus exactement au début de chaque niveau</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n motif</numerusform>
-            <numerusform>%n motifs</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>Arrêté à %1 px</translation>
@@ -2594,10 +2576,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé.</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1&#x202f;; erreur d’environ %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2789,8 +2767,34 @@
         <translation>Fin vers %1. %2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
+        <source>Put the camera back</source>
         <translation>Replacer la caméra</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>Les motifs d’essai sont prédits à partir de la mesure, puis photographiés : voici leur écart, bruit des photos compris.</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>Arrêtée avant la fin, la mesure n’a pas de blocs plus fins que %1 px : cela ne dit rien de la lumière plus fine.</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1 ; lumière juste à %2 près environ</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n motif prévu avec tous les contrôles ; connu exactement au début de chaque niveau</numerusform>
+            <numerusform>%n motifs prévus avec tous les contrôles ; connu exactement au début de chaque niveau</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n motif avec tous les contrôles</numerusform>
+            <numerusform>%n motifs avec tous les contrôles</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3204,6 +3208,90 @@
         <source>Mark what is sharp</source>
         <translation>Marquer ce qui est net</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>Déjà contrôlé. Contrôlez à nouveau si la caméra ou le projecteur a bougé.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continuer</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>Temps de pose</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>L’image du projecteur : la caméra en voit %1</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>à gauche</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>à droite</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>en haut</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>en bas</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>Il manque des endroits à l’intérieur : dans l’ombre, ou trop sombres pour la caméra.</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>Il manque : %1. Orientez la caméra par là, ou reculez-la.</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>%1 de l’image du projecteur est vu</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>%1 de l’image du projecteur %2 est vu</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>Chaque pose est un multiple de %1</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>La lumière du projecteur change à ce rythme : chaque photo la contient en entier.</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>Permettre toute pose</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>Les poses plus courtes que %1 scintillent</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>La lumière du projecteur change pendant ce temps.</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>Utiliser des multiples de %1</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>Déjà contrôlé</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>Ces temps de pose sont conservés. « Revérifier » regarde par la caméra.</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Pas encore contrôlé</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3288,10 +3376,6 @@
         <translation>Carte d’erreur, médiane %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>plafond %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Distance</translation>
     </message>
@@ -3332,10 +3416,6 @@
         <translation>Résultat</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>Coupé par le plafond</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>Lumière dans les groupes</translation>
     </message>
@@ -3358,14 +3438,6 @@
     <message>
         <source>%1 of light</source>
         <translation>%1 de la lumière</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>Sans le plafond, un seul groupe couvrirait %1 de l’image.</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>La surface est floue entre pixels voisins, et les groupes se rejoignent. Le plafond les sépare.</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3409,6 +3481,38 @@
     <message>
         <source>error</source>
         <translation>erreur</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>limite %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>plus de %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>environ %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>Coupée par la limite</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>Vidéo, images par seconde</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>Ce que cet ordinateur atteint en Full HD avec la lumière que garde Seuil. Les groupes n’y changent rien : la vidéo est résolue dans des fenêtres qui se recouvrent.</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>Sans limite de taille, un groupe couvrirait %1 de l’image.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>La surface est floue d’un pixel à l’autre, si bien que les groupes se rejoignent. La limite les sépare.</translation>
     </message>
 </context>
 <context>
@@ -3801,10 +3905,6 @@
         <source>Found while measuring</source>
         <translation>Constaté pendant la mesure</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>erreur d’additivité %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3843,6 +3943,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>%1 de la pleine lumière</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>Couleurs à %1 près</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>Résidus</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>Photographié moins courbe, % du maximum</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>Écart entre la lumière de chaque niveau et la courbe</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>à ±%1 près</translation>
     </message>
 </context>
 <context>
@@ -3954,10 +4074,6 @@ projecteur %2</translation>
         <translation>Inclinez la caméra dans le sens inverse des aiguilles d’une montre.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Replacer la caméra</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>Ce que la caméra voyait et ce qu’elle voit maintenant</translation>
     </message>
@@ -4036,6 +4152,10 @@ projecteur %2</translation>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>Tournez la caméra jusqu’à ce que les deux moitiés se ressemblent. Si c’est déjà le cas, la lumière ou la surface a changé.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Replacer la caméra</translation>
     </message>
 </context>
 <context>
@@ -4488,20 +4608,8 @@ projecteur %2</translation>
         <translation>La vue de la caméra s’est décalée de %1 px sur le côté et de %2 px en hauteur.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Replacer la caméra</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>Affiche la pleine lumière et où tourner la caméra pour qu’elle regarde où elle regardait.</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>La vue de la caméra a bougé de %1 px. Replacez-la, puis photographiez de nouveau.</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>La caméra ou le projecteur a bougé. Replacez la caméra, ou visez et remesurez.</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4526,6 +4634,18 @@ projecteur %2</translation>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Replacer la caméra</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>La vue de la caméra a bougé de %1 px. Replacez-la, puis photographiez à nouveau.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>La caméra ou le projecteur est ailleurs. Replacez la caméra, ou visez et mesurez à nouveau.</translation>
     </message>
 </context>
 <context>
@@ -4744,10 +4864,6 @@ projecteur %2</translation>
         <translation>Ce que verra le public, non corrigé à gauche du séparateur et corrigé à droite</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>La lumière la plus forte atteignable&#x202f;; hachurée là où elle ne suffit pas</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>Écart de couleur entre l’image voulue et l’image prévue</translation>
     </message>
@@ -4852,12 +4968,68 @@ projecteur %2</translation>
         <translation>Tout est accessible</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>Hachuré&#x202f;: %1 reste trop sombre</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>sans remarque</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>La mesure est périmée : elle correspond à des réglages antérieurs</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>Elle reste utilisable, et ce que vous voyez en découle, jusqu’à la prochaine mesure.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>L’écran du projecteur est débranché.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>Sur la surface : l’image corrigée.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>Sur la surface : l’image sans correction.</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>Projeter sur la surface</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>Montre cette image sur la surface jusqu’à ce que vous l’arrêtiez ou partiez.</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>Montrer sans correction</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>Montrer avec correction</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>Il n’y a pas encore d’aperçu.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>L’écran du projecteur est absent. Branchez-le et étendez-y le bureau.</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>La sortie occupe cet écran. Fermez-la d’abord.</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>La lumière la plus forte possible ; hachuré là où le contenu est hors d’atteinte</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>Hachuré : %1 hors d’atteinte</translation>
     </message>
 </context>
 <context>
@@ -5185,14 +5357,6 @@ projecteur %2</translation>
         <translation>Une valeur</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>Part de la ligne</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>Part de la liaison la plus forte de la ligne, en dixièmes de pour cent</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>Ce qui reste</translation>
     </message>
@@ -5227,10 +5391,6 @@ projecteur %2</translation>
     <message>
         <source>Light from elsewhere</source>
         <translation>Lumière d’ailleurs</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>Sous %1 de la liaison la plus forte de la ligne</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5275,6 +5435,22 @@ projecteur %2</translation>
         <source>%1 on average</source>
         <translation>%1 en moyenne</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>Type de coupe</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>Part de chaque pixel</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>Part de la lumière la plus forte de chaque pixel de la caméra, en dixièmes de pour cent</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>Sous %1 de la lumière la plus forte que reçoit chaque pixel de la caméra</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5312,18 +5488,6 @@ projecteur %2</translation>
             <numerusform>%n photo</numerusform>
             <numerusform>%n photos</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>Faire le ménage</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>Faire le ménage dans %1</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>Le ménage a été arrêté.</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5404,6 +5568,18 @@ projecteur %2</translation>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>Recherche de ce qui peut être libéré. Rien n’est encore supprimé.</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>Libérer de l’espace disque</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>Espace disque de %1</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>La libération d’espace a été arrêtée.</translation>
     </message>
 </context>
 <context>
@@ -5871,10 +6047,6 @@ projecteur %2</translation>
         <translation>%1 sur %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>Ménage…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Libérer le disque de ce dont %1 n’a pas besoin</translation>
     </message>
@@ -5886,16 +6058,20 @@ projecteur %2</translation>
         <source>Resume %1</source>
         <translation>Reprendre %1</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>Libérer de l’espace…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>L’étape « %1 » est en cours. Le ménage peut attendre qu’elle soit finie.</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>Réessayez ensuite.</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 est en cours. L’espace pourra être libéré ensuite.</translation>
     </message>
 </context>
 <context>
@@ -6208,6 +6384,13 @@ projecteur %2</translation>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>Recherche de ce qui ne peut être corrigé</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>Recherche de la part visible de l’image</translation>
     </message>
 </context>
 <context>

@@ -127,12 +127,12 @@
         <translation>Finestre</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>Finestre e passi</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>Ottimale, immagini fisse</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>Tutti i rimbalzi, per i video</translation>
     </message>
 </context>
 <context>
@@ -2445,10 +2445,6 @@
         <translation>Errore dei pattern di prova</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>I pattern di prova vengono previsti dalla misura e poi fotografati: questa è la differenza tra i due.</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>Continua comunque</translation>
     </message>
@@ -2569,20 +2565,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>i blocchi si dividono solo dove la luce lo richiede</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n pattern previsto; noto con esattezza all’inizio di ogni livello</numerusform>
-            <numerusform>%n pattern previsti; noti con esattezza all’inizio di ogni livello</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n pattern</numerusform>
-            <numerusform>%n pattern</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>Fermato a %1 px</translation>
@@ -2594,10 +2576,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso.</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1; errore di circa %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2789,8 +2767,34 @@
         <translation>Finisce verso le %1. %2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
+        <source>Put the camera back</source>
         <translation>Rimetti a posto la fotocamera</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>I motivi di prova vengono previsti dalla misura e poi fotografati: questa è la differenza, rumore delle foto compreso.</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>Interrotta in anticipo, non hanno blocchi più fini di %1 px: non dice nulla della luce più fine.</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1; luce esatta entro circa %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n motivo previsto con tutti i controlli; noto con esattezza quando inizia ogni livello</numerusform>
+            <numerusform>%n motivi previsti con tutti i controlli; noto con esattezza quando inizia ogni livello</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n motivo con tutti i controlli</numerusform>
+            <numerusform>%n motivi con tutti i controlli</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3204,6 +3208,90 @@
         <source>Mark what is sharp</source>
         <translation>Segna ciò che è nitido</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>Già controllato. Controllare di nuovo se fotocamera o proiettore sono stati spostati.</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>Continua</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>Tempi di esposizione</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>L’immagine del proiettore: la fotocamera ne vede %1</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>a sinistra</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>a destra</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>in alto</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>in basso</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>Mancano punti al suo interno: in ombra o troppo scuri per la fotocamera.</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>Manca: %1. Puntare lì la fotocamera o allontanarla.</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>Si vede %1 dell’immagine del proiettore</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>Si vede %1 dell’immagine del proiettore %2</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>Ogni esposizione è un multiplo di %1</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>La luce del proiettore cambia a quel ritmo: ogni foto la contiene tutta.</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>Consenti ogni esposizione</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>Le esposizioni più brevi di %1 sfarfallano</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>La luce del proiettore cambia in quel tempo.</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>Usa multipli di %1</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>Già controllato</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>Queste esposizioni sono conservate. «Controlla di nuovo» guarda attraverso la fotocamera.</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Non ancora controllato</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3288,10 +3376,6 @@
         <translation>Mappa errori, mediana %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>limite %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>Distanza</translation>
     </message>
@@ -3332,10 +3416,6 @@
         <translation>Risultato</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>Tagliato dal limite</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>Luce conservata nei cluster</translation>
     </message>
@@ -3358,14 +3438,6 @@
     <message>
         <source>%1 of light</source>
         <translation>%1 della luce</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>Senza limite, un solo cluster coprirebbe %1 dell’immagine.</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>La superficie è sfocata tra pixel vicini, perciò i gruppi si uniscono. Il limite li tiene separati.</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3409,6 +3481,38 @@
     <message>
         <source>error</source>
         <translation>errore</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>limite %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>oltre %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>circa %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>Tagliata dal limite</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>Video, fotogrammi al secondo</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>Quanto riesce a fare questo computer in Full HD con la luce che Soglia conserva. I gruppi non lo cambiano: i video sono risolti in finestre che si sovrappongono.</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>Senza limite di dimensione, un cluster coprirebbe %1 dell’immagine.</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>La superficie è sfocata tra pixel vicini, quindi i gruppi si uniscono. Il limite li tiene separati.</translation>
     </message>
 </context>
 <context>
@@ -3801,10 +3905,6 @@
         <source>Found while measuring</source>
         <translation>Rilevato durante la misura</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>Errore di additività %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3843,6 +3943,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>%1 della luce piena</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>Colori entro %1</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>Residui</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>Fotografato meno curva, % del massimo</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>Quanto dista dalla curva la luce di ogni livello</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>entro ±%1</translation>
     </message>
 </context>
 <context>
@@ -3954,10 +4074,6 @@ proiettore %2</translation>
         <translation>Inclinare la fotocamera in senso antiorario.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Rimetti a posto la fotocamera</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>Ciò che la fotocamera vedeva e ciò che vede ora</translation>
     </message>
@@ -4036,6 +4152,10 @@ proiettore %2</translation>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>Ruotare la fotocamera finché le due metà si somigliano. Se si somigliano già, è cambiata la luce o la superficie.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Rimetti a posto la fotocamera</translation>
     </message>
 </context>
 <context>
@@ -4488,20 +4608,8 @@ proiettore %2</translation>
         <translation>La vista della fotocamera si è spostata di %1 px di lato e %2 px in altezza.</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>Rimetti a posto la fotocamera</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>Mostra luce piena e dove ruotare la fotocamera perché guardi dove guardava.</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>La vista della fotocamera si è spostata di %1 px. Rimetterla a posto, poi fotografare di nuovo.</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>La fotocamera o il proiettore sono altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4526,6 +4634,18 @@ proiettore %2</translation>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>I dispositivi sono in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>Rimetti a posto la fotocamera</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>L’inquadratura si è spostata di %1 px. Rimettere a posto la fotocamera, poi fotografare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>Fotocamera o proiettore stanno altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
     </message>
 </context>
 <context>
@@ -4744,10 +4864,6 @@ proiettore %2</translation>
         <translation>Ciò che vedrà il pubblico, a sinistra del divisore senza correzione e a destra con correzione</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>La luce massima raggiungibile; tratteggio dove è insufficiente</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>Differenza di colore tra il desiderato e il previsto</translation>
     </message>
@@ -4852,12 +4968,68 @@ proiettore %2</translation>
         <translation>Tutto è raggiungibile</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>Tratteggiato: %1 resta troppo scuro</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>nessuna nota</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>La misura non è aggiornata: appartiene a impostazioni precedenti</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>Resta utilizzabile, e ciò che si vede ne deriva, finché non si misura di nuovo.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Lo schermo del proiettore è scollegato.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>Ora sulla superficie: l’immagine corretta.</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>Ora sulla superficie: l’immagine senza correzione.</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>Interrompi</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>Proietta sulla superficie</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>Mostra questa immagine sulla superficie finché non si ferma o si esce.</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>Mostra senza correzione</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>Mostra corretta</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>Non c’è ancora un’anteprima.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>Lo schermo del proiettore non c’è. Collegarlo ed estendervi il desktop.</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>L’uscita è su quello schermo. Chiuderla prima.</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>La luce più intensa raggiungibile; tratteggiato dove il contenuto è irraggiungibile</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>Tratteggiato: %1 irraggiungibile</translation>
     </message>
 </context>
 <context>
@@ -5185,14 +5357,6 @@ proiettore %2</translation>
         <translation>Un valore</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>Quota della riga</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>Quota della connessione più forte della riga, in decimi di percento</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>Cosa resta</translation>
     </message>
@@ -5227,10 +5391,6 @@ proiettore %2</translation>
     <message>
         <source>Light from elsewhere</source>
         <translation>Luce da altrove</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>Sotto %1 della connessione più forte della riga</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5275,6 +5435,22 @@ proiettore %2</translation>
         <source>%1 on average</source>
         <translation>%1 in media</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>Tipo di taglio</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>Quota di ogni pixel</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>Quota della luce più forte di ogni pixel della fotocamera, in decimi di percento</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>Sotto %1 della luce più forte che riceve ogni pixel della fotocamera</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5312,18 +5488,6 @@ proiettore %2</translation>
             <numerusform>%n foto</numerusform>
             <numerusform>%n foto</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>Riordina</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>Riordina %1</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>Il riordino è stato fermato.</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5404,6 +5568,18 @@ proiettore %2</translation>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>Ricerca di ciò che si può liberare. Non si rimuove ancora nulla.</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>Libera spazio su disco</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>Spazio su disco di %1</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>La liberazione di spazio è stata interrotta.</translation>
     </message>
 </context>
 <context>
@@ -5871,10 +6047,6 @@ proiettore %2</translation>
         <translation>%1 di %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>Riordina…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>Liberare il disco da ciò che non serve a %1</translation>
     </message>
@@ -5886,16 +6058,20 @@ proiettore %2</translation>
         <source>Resume %1</source>
         <translation>Riprendi %1</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>Libera spazio…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>%1 è al lavoro. Il riordino può aspettare che finisca.</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>Riprovare dopo.</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 è al lavoro. Lo spazio si potrà liberare alla fine.</translation>
     </message>
 </context>
 <context>
@@ -6208,6 +6384,13 @@ proiettore %2</translation>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>Ricerca di ciò che non è correggibile</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>Ricerca della parte visibile dell’immagine</translation>
     </message>
 </context>
 <context>

@@ -127,12 +127,12 @@
         <translation>局所窓</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>局所窓＋反復</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>最高画質、静止画</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>相互反射すべて、動画用</translation>
     </message>
 </context>
 <context>
@@ -2436,10 +2436,6 @@
         <translation>テストパターンの誤差</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>テストパターンを測定から予測し、撮影して比べた差です。</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>このまま続行</translation>
     </message>
@@ -2557,18 +2553,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>光に応じて必要な所だけブロックを分割します</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>約 %n 枚の見込み。各レベルの開始時に確定します</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>パターン %n 枚</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>%1 px で終了</translation>
@@ -2580,10 +2564,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます。</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1。誤差は約 %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2772,8 +2752,32 @@
         <translation>%1 頃に終了。%2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
+        <source>Put the camera back</source>
         <translation>カメラを元に戻す</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>テストパターンを測定結果から予測し、撮影して比べます。これはその差で、写真のノイズを含みます。</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>途中で止めたため、%1 px より細かいブロックはありません。それより細かい光については何も分かりません。</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1、光の誤差は約 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>確認を含めて %n パターンの見込み。正確な数は各段階の開始時に分かります</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>確認を含めて %n パターン</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3186,6 +3190,90 @@
         <source>Mark what is sharp</source>
         <translation>鮮明な所に印</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>確認済みです。カメラかプロジェクターを動かした場合は、もう一度確認してください。</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>続ける</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>露出時間</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>プロジェクターの画像：カメラに見えるのは %1</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>左</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>右</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>上</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>下</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>内側に見えない部分があります。影になっているか、カメラには暗すぎます。</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>見えない側：%1。カメラをそちらへ向けるか、後ろへ下げてください。</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>プロジェクターの画像の %1 が見えています</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>プロジェクター %2 の画像の %1 が見えています</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>露出はすべて %1 の倍数です</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>プロジェクターの光はこの周期で変わります。どの写真もその全体を含みます。</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>どの露出も使う</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>%1 より短い露出はちらつきます</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>プロジェクターの光はこの時間のうちに変わります。</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>%1 の倍数を使う</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>確認済み</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>これらの露出は保存されています。「再確認」でカメラの映像を見ます。</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>まだ確認していません</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3270,10 +3358,6 @@
         <translation>誤差マップ、中央値 %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>上限 %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>距離</translation>
     </message>
@@ -3314,10 +3398,6 @@
         <translation>結果</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>上限でカット</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>クラスター内に残る光</translation>
     </message>
@@ -3340,14 +3420,6 @@
     <message>
         <source>%1 of light</source>
         <translation>光の %1</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>上限がないと、1 つのクラスターが画像の %1 を占めます。</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>投影面では隣り合う画素にボケが広がり、グループがつながります。上限がそれを分けます。</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3386,6 +3458,38 @@
     <message>
         <source>error</source>
         <translation>誤差</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>上限 %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>%1 以上</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>約 %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>上限で切られた光</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>動画、毎秒フレーム数</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>しきい値で残した光を使って、このコンピューターがフル HD で出せる速さです。グループによって変わりません。動画は重なり合う局所窓で解きます。</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>上限がなければ、1 つのクラスターが画像の %1 を占めます。</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>面のぼけが隣の画素に広がるため、グループがつながります。上限がそれを分けます。</translation>
     </message>
 </context>
 <context>
@@ -3776,10 +3880,6 @@
         <source>Found while measuring</source>
         <translation>測定中の検出事項</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>加法性誤差 %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3817,6 +3917,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>全光の %1</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>色の誤差 %1 以内</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>撮影値 − 曲線、最大の %</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>各レベルの光と曲線との差</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>±%1 以内</translation>
     </message>
 </context>
 <context>
@@ -3928,10 +4048,6 @@ projector %2</source>
         <translation>カメラを反時計回りに傾けてください。</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>カメラを元に戻す</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>カメラが以前見ていたものと今見ているもの</translation>
     </message>
@@ -4010,6 +4126,10 @@ projector %2</source>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>左右が同じに見えるまでカメラを動かしてください。すでに同じなら、光か面が変わっています。</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>カメラを元に戻す</translation>
     </message>
 </context>
 <context>
@@ -4461,20 +4581,8 @@ projector %2</source>
         <translation>カメラの視野が左右に %1 px、上下に %2 px ずれました。</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>カメラを元に戻す</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>全光を投影し、元の向きに戻すにはカメラをどちらへ向けるかを示します。</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>カメラの視野が %1 px ずれました。元に戻して、もう一度撮影してください。</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測り直してください。</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4499,6 +4607,18 @@ projector %2</source>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>カメラを元に戻す</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>カメラの視野が %1 px ずれました。元に戻してから、もう一度撮影してください。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測定し直してください。</translation>
     </message>
 </context>
 <context>
@@ -4717,10 +4837,6 @@ projector %2</source>
         <translation>観客からの見え方。境界線の左が補正前、右が補正後</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>再現できる最大の明るさ。不足する部分は斜線で表示</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>目標と予測との色差</translation>
     </message>
@@ -4825,12 +4941,68 @@ projector %2</source>
         <translation>すべて届きます</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>斜線: %1 は暗すぎるまま</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>注記なし</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>測定結果は古くなっています。以前の設定のものです</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>測定し直すまでは引き続き使え、表示もそれに基づきます。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>プロジェクターの画面が外れています。</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>面に表示中：補正した画像。</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>面に表示中：補正なしの画像。</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>投影を止める</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>面に投影</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>停止するかページを離れるまで、この画像を面に映します。</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>補正なしを表示</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>補正ありを表示</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>プレビューはまだありません。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>プロジェクターの画面がありません。接続して、デスクトップを拡張してください。</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>その画面は出力が使っています。先に閉じてください。</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>出せる最も明るい光。内容に届かない部分は斜線</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>斜線：%1 は届きません</translation>
     </message>
 </context>
 <context>
@@ -5157,14 +5329,6 @@ projector %2</source>
         <translation>単一の値</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>行に対する割合</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>行で最も強い結合に対する割合（0.1 パーセント単位）</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>残るもの</translation>
     </message>
@@ -5199,10 +5363,6 @@ projector %2</source>
     <message>
         <source>Light from elsewhere</source>
         <translation>離れた場所からの光</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>行で最も強い結合の %1 未満</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5246,6 +5406,22 @@ projector %2</source>
         <source>%1 on average</source>
         <translation>平均 %1</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>切り方</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>画素ごとの割合</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>各カメラ画素の最も強い光に対する割合、0.1 % 単位</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>各カメラ画素が受ける最も強い光の %1 未満</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5282,18 +5458,6 @@ projector %2</source>
         <translation>
             <numerusform>写真 %n 枚</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>整理</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>%1 を整理</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>整理を中止しました。</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5374,6 +5538,18 @@ projector %2</source>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>空けられるものを調べています。まだ何も削除しません。</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>ディスクの空きを増やす</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>%1 のディスク使用量</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>空きを増やす処理を中止しました。</translation>
     </message>
 </context>
 <context>
@@ -5839,10 +6015,6 @@ projector %2</source>
         <translation>%2 中 %1</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>整理…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>%1 に要らないものをディスクから削除します</translation>
     </message>
@@ -5854,16 +6026,20 @@ projector %2</source>
         <source>Resume %1</source>
         <translation>%1 を再開</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>空きを増やす…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>「%1」が動作中です。整理は終わってからにしてください。</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>そのあとでもう一度お試しください。</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 の作業中です。終わってから空きを増やせます。</translation>
     </message>
 </context>
 <context>
@@ -6176,6 +6352,13 @@ projector %2</source>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>補正できない部分の検出</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>画像のどの部分が見えるかを調べています</translation>
     </message>
 </context>
 <context>

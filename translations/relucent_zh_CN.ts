@@ -127,12 +127,12 @@
         <translation>窗口</translation>
     </message>
     <message>
-        <source>Windows and steps</source>
-        <translation>窗口与迭代</translation>
-    </message>
-    <message>
         <source>Best possible, still pictures</source>
         <translation>最佳效果，静态图片</translation>
+    </message>
+    <message>
+        <source>All bounces, for films</source>
+        <translation>全部反射，用于视频</translation>
     </message>
 </context>
 <context>
@@ -2436,10 +2436,6 @@
         <translation>测试图案的误差</translation>
     </message>
     <message>
-        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ.</source>
-        <translation>测试图案先由测量预测，再拍照：这是两者之差。</translation>
-    </message>
-    <message>
         <source>Continue anyway</source>
         <translation>仍然继续</translation>
     </message>
@@ -2557,18 +2553,6 @@
         <source>blocks are divided only where light needs it</source>
         <translation>仅在光线需要处细分块</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected; known exactly as each level begins</source>
-        <translation>
-            <numerusform>预计 %n 个图案；每级开始时确定</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s)</source>
-        <translation>
-            <numerusform>%n 个图案</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Stopped at %1 px</source>
         <translation>停于 %1 px</translation>
@@ -2580,10 +2564,6 @@
     <message>
         <source>Finer light is missing. Go on any time, if nothing has moved.</source>
         <translation>缺少更精细的光。只要没有东西移动，可随时继续。</translation>
-    </message>
-    <message>
-        <source>%1; error about %2</source>
-        <translation>%1；误差约 %2</translation>
     </message>
     <message numerus="yes">
         <source>%n photograph(s)</source>
@@ -2772,8 +2752,32 @@
         <translation>约 %1 结束。%2</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>把相机推回原位</translation>
+        <source>Put the camera back</source>
+        <translation>把相机放回原位</translation>
+    </message>
+    <message>
+        <source>Test patterns are predicted from the measurement, then photographed: this is how far the two differ, the photographs&apos; noise included.</source>
+        <translation>先由测量结果预测测试图案，再拍照：这是两者之差，包括照片的噪声。</translation>
+    </message>
+    <message>
+        <source>Stopped early, they have no blocks finer than %1 px: this says nothing of finer light.</source>
+        <translation>由于提前停止，图案没有比 %1 px 更细的块：这不能说明更细的光。</translation>
+    </message>
+    <message>
+        <source>%1; light right within about %2</source>
+        <translation>%1；光的误差约 %2</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>预计 %n 个图案（含全部检查）；每级开始时才确切知道</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) with all checks</source>
+        <translation>
+            <numerusform>%n 个图案（含全部检查）</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3186,6 +3190,90 @@
         <source>Mark what is sharp</source>
         <translation>标出清晰处</translation>
     </message>
+    <message>
+        <source>Checked before. Check again if camera or projector were moved.</source>
+        <translation>已检查过。如果移动过相机或投影机，请重新检查。</translation>
+    </message>
+    <message>
+        <source>Continue</source>
+        <translation>继续</translation>
+    </message>
+    <message>
+        <source>Exposure times</source>
+        <translation>曝光时间</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s picture: the camera sees %1 of it</source>
+        <translation>投影画面：相机看到其中的 %1</translation>
+    </message>
+    <message>
+        <source>at the left</source>
+        <translation>左侧</translation>
+    </message>
+    <message>
+        <source>at the right</source>
+        <translation>右侧</translation>
+    </message>
+    <message>
+        <source>at the top</source>
+        <translation>上方</translation>
+    </message>
+    <message>
+        <source>at the bottom</source>
+        <translation>下方</translation>
+    </message>
+    <message>
+        <source>Missing are places within it: in shadow, or too dark for the camera.</source>
+        <translation>内部有看不到的地方：在阴影中，或对相机来说太暗。</translation>
+    </message>
+    <message>
+        <source>Missing: %1. Aim the camera there, or move it back.</source>
+        <translation>看不到：%1。请将相机朝向那里，或后移。</translation>
+    </message>
+    <message>
+        <source>%1 of the projector&apos;s picture is seen</source>
+        <translation>看到投影画面的 %1</translation>
+    </message>
+    <message>
+        <source>%1 of projector %2&apos;s picture is seen</source>
+        <translation>看到投影机 %2 画面的 %1</translation>
+    </message>
+    <message>
+        <source>Every exposure is a multiple of %1</source>
+        <translation>每次曝光都是 %1 的倍数</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes as quickly as that: each photograph has all of it.</source>
+        <translation>投影机的光以此周期变化：每张照片都包含完整周期。</translation>
+    </message>
+    <message>
+        <source>Allow any exposure</source>
+        <translation>允许任意曝光</translation>
+    </message>
+    <message>
+        <source>Exposures shorter than %1 flicker</source>
+        <translation>短于 %1 的曝光会闪烁</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s light changes within that time.</source>
+        <translation>投影机的光在这段时间内会变化。</translation>
+    </message>
+    <message>
+        <source>Use multiples of %1</source>
+        <translation>使用 %1 的倍数</translation>
+    </message>
+    <message>
+        <source>Checked before</source>
+        <translation>已检查过</translation>
+    </message>
+    <message>
+        <source>These exposures are kept. “Check again” looks through the camera.</source>
+        <translation>这些曝光已保存。“重新检查”会通过相机查看。</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>尚未检查</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -3270,10 +3358,6 @@
         <translation>误差图，中位数 %1</translation>
     </message>
     <message>
-        <source>cap %1</source>
-        <translation>上限 %1</translation>
-    </message>
-    <message>
         <source>Distance</source>
         <translation>距离</translation>
     </message>
@@ -3314,10 +3398,6 @@
         <translation>结果</translation>
     </message>
     <message>
-        <source>Cut by the cap</source>
-        <translation>被上限截断</translation>
-    </message>
-    <message>
         <source>Light kept in clusters</source>
         <translation>簇内保留的光量</translation>
     </message>
@@ -3340,14 +3420,6 @@
     <message>
         <source>%1 of light</source>
         <translation>光量的 %1</translation>
-    </message>
-    <message>
-        <source>Without the cap, one cluster would cover %1 of the picture.</source>
-        <translation>若不设上限，一个簇将覆盖画面的 %1。</translation>
-    </message>
-    <message>
-        <source>The surface is blurred across neighbouring pixels, so groups join up. The cap keeps them apart.</source>
-        <translation>表面的模糊跨越相邻像素，使簇连成一片。上限将它们分开。</translation>
     </message>
     <message numerus="yes">
         <source>%n cluster(s)</source>
@@ -3386,6 +3458,38 @@
     <message>
         <source>error</source>
         <translation>误差</translation>
+    </message>
+    <message>
+        <source>limit %1</source>
+        <translation>上限 %1</translation>
+    </message>
+    <message>
+        <source>over %1</source>
+        <translation>超过 %1</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>约 %1</translation>
+    </message>
+    <message>
+        <source>Cut off by the size limit</source>
+        <translation>被上限切掉</translation>
+    </message>
+    <message>
+        <source>Films, frames a second</source>
+        <translation>视频，每秒帧数</translation>
+    </message>
+    <message>
+        <source>What this computer manages in Full HD with the light that Threshold keeps. The groups make no difference to it: films are solved in overlapping windows.</source>
+        <translation>本机用阈值保留的光在全高清下能达到的速度。与分组无关：视频在相互重叠的窗口中求解。</translation>
+    </message>
+    <message>
+        <source>Without a size limit, one cluster would cover %1 of the picture.</source>
+        <translation>没有大小上限时，一个簇会占画面的 %1。</translation>
+    </message>
+    <message>
+        <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
+        <translation>表面在相邻像素间模糊，各组因而相连。上限使它们分开。</translation>
     </message>
 </context>
 <context>
@@ -3776,10 +3880,6 @@
         <source>Found while measuring</source>
         <translation>测量中的发现</translation>
     </message>
-    <message>
-        <source>%1 additivity error</source>
-        <translation>可加性误差 %1</translation>
-    </message>
     <message numerus="yes">
         <source>About %n test pattern(s)</source>
         <translation>
@@ -3817,6 +3917,26 @@
     <message>
         <source>%1 of full light</source>
         <translation>全光的 %1</translation>
+    </message>
+    <message>
+        <source>Colours within %1</source>
+        <translation>颜色误差 %1</translation>
+    </message>
+    <message>
+        <source>Residuals</source>
+        <translation>残差</translation>
+    </message>
+    <message>
+        <source>Photographed less fitted, % of full</source>
+        <translation>拍摄值减曲线，占最大值的 %</translation>
+    </message>
+    <message>
+        <source>How far each level&apos;s light is from the fitted curve</source>
+        <translation>每级的光与拟合曲线之差</translation>
+    </message>
+    <message>
+        <source>within ±%1</source>
+        <translation>在 ±%1 以内</translation>
     </message>
 </context>
 <context>
@@ -3928,10 +4048,6 @@ projector %2</source>
         <translation>把相机逆时针倾斜。</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>把相机推回原位</translation>
-    </message>
-    <message>
         <source>What the camera saw, and what it sees now</source>
         <translation>相机原来看到的和现在看到的</translation>
     </message>
@@ -4010,6 +4126,10 @@ projector %2</source>
     <message>
         <source>Turn the camera until both halves look alike. If they do, the light or the surface has changed.</source>
         <translation>转动相机直到两半看起来一样。如果已经一样，则是光线或表面变了。</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>把相机放回原位</translation>
     </message>
 </context>
 <context>
@@ -4461,20 +4581,8 @@ projector %2</source>
         <translation>相机视野左右移动了 %1 px，上下移动了 %2 px。</translation>
     </message>
     <message>
-        <source>Push the camera back</source>
-        <translation>把相机推回原位</translation>
-    </message>
-    <message>
         <source>Shows full light, and where the camera has to be turned to look where it looked.</source>
         <translation>显示全光，并指出相机应转向何处才能回到原来的视野。</translation>
-    </message>
-    <message>
-        <source>The camera&apos;s view has moved by %1 px. Push it back, then photograph again.</source>
-        <translation>相机视野移动了 %1 px。请推回原位后重新拍照。</translation>
-    </message>
-    <message>
-        <source>Camera or projector stand elsewhere. Push the camera back, or aim and measure again.</source>
-        <translation>相机或投影机换了位置。请把相机推回原位，或重新对准并测量。</translation>
     </message>
     <message>
         <source>Limit for %1 frames a second: %2 ms</source>
@@ -4499,6 +4607,18 @@ projector %2</source>
     <message>
         <source>The devices are in use at %1.</source>
         <translation>设备正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>Put the camera back</source>
+        <translation>把相机放回原位</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
+        <translation>相机视野移动了 %1 px。请将其放回原位，然后重新拍照。</translation>
+    </message>
+    <message>
+        <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
+        <translation>相机或投影机不在原处。请把相机放回原位，或重新对准并测量。</translation>
     </message>
 </context>
 <context>
@@ -4717,10 +4837,6 @@ projector %2</source>
         <translation>观众将看到的画面：分隔线左侧未补偿，右侧已补偿</translation>
     </message>
     <message>
-        <source>The brightest light that can be reached; hatched where it is too little</source>
-        <translation>可达的最高亮度；斜线处亮度不足</translation>
-    </message>
-    <message>
         <source>Colour difference between what is wanted and what is predicted</source>
         <translation>目标与预测之间的色差</translation>
     </message>
@@ -4825,12 +4941,68 @@ projector %2</source>
         <translation>全部可达</translation>
     </message>
     <message>
-        <source>Hatched: %1 stays too dark</source>
-        <translation>阴影线：%1 仍然太暗</translation>
-    </message>
-    <message>
         <source>no note</source>
         <translation>无备注</translation>
+    </message>
+    <message>
+        <source>What was measured is out of date: it belongs to earlier settings</source>
+        <translation>测量结果已过期：属于以前的设置</translation>
+    </message>
+    <message>
+        <source>It still works, and what you see follows from it, until it is measured again.</source>
+        <translation>在重新测量之前仍然可用，您看到的内容也由此得出。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>投影机的屏幕已断开。</translation>
+    </message>
+    <message>
+        <source>On the surface now: the corrected picture.</source>
+        <translation>当前在表面上：补偿后的画面。</translation>
+    </message>
+    <message>
+        <source>On the surface now: the uncorrected picture.</source>
+        <translation>当前在表面上：未补偿的画面。</translation>
+    </message>
+    <message>
+        <source>Stop shining</source>
+        <translation>停止投射</translation>
+    </message>
+    <message>
+        <source>Shine on surface</source>
+        <translation>投到表面</translation>
+    </message>
+    <message>
+        <source>Shows this picture on the surface until you stop it or leave.</source>
+        <translation>在表面上显示此画面，直到您停止或离开。</translation>
+    </message>
+    <message>
+        <source>Show uncorrected</source>
+        <translation>显示未补偿</translation>
+    </message>
+    <message>
+        <source>Show corrected</source>
+        <translation>显示已补偿</translation>
+    </message>
+    <message>
+        <source>There is no preview yet.</source>
+        <translation>尚无预览。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is not there. Plug it in and extend the desktop to it.</source>
+        <translation>找不到投影机的屏幕。请接上并将桌面扩展到它。</translation>
+    </message>
+    <message>
+        <source>The output is on that screen. Close it first.</source>
+        <translation>输出正在该屏幕上。请先关闭。</translation>
+    </message>
+    <message>
+        <source>The brightest light that can be reached; hatched where the content is out of reach</source>
+        <translation>可达到的最亮光；内容无法达到之处为斜线</translation>
+    </message>
+    <message>
+        <source>Hatched: %1 cannot be reached</source>
+        <translation>斜线：%1 无法达到</translation>
     </message>
 </context>
 <context>
@@ -5157,14 +5329,6 @@ projector %2</source>
         <translation>统一值</translation>
     </message>
     <message>
-        <source>Share of the row</source>
-        <translation>占行内比例</translation>
-    </message>
-    <message>
-        <source>Share of the row&apos;s strongest connection, in tenths of a percent</source>
-        <translation>占该行最强连接的比例，单位为千分之一</translation>
-    </message>
-    <message>
         <source>What stays</source>
         <translation>保留部分</translation>
     </message>
@@ -5199,10 +5363,6 @@ projector %2</source>
     <message>
         <source>Light from elsewhere</source>
         <translation>来自别处的光</translation>
-    </message>
-    <message>
-        <source>Below %1 of the row&apos;s strongest connection</source>
-        <translation>低于该行最强连接的 %1</translation>
     </message>
     <message>
         <source>Use suggested, %1</source>
@@ -5246,6 +5406,22 @@ projector %2</source>
         <source>%1 on average</source>
         <translation>平均 %1</translation>
     </message>
+    <message>
+        <source>Kind of cut</source>
+        <translation>截断方式</translation>
+    </message>
+    <message>
+        <source>Share of each pixel</source>
+        <translation>每像素占比</translation>
+    </message>
+    <message>
+        <source>Share of the strongest light of each camera pixel, in tenths of a percent</source>
+        <translation>占每个相机像素最强光的比例，以千分之一计</translation>
+    </message>
+    <message>
+        <source>Below %1 of the strongest light that each camera pixel gets</source>
+        <translation>低于每个相机像素所受最强光的 %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5282,18 +5458,6 @@ projector %2</source>
         <translation>
             <numerusform>%n 张照片</numerusform>
         </translation>
-    </message>
-    <message>
-        <source>Tidy</source>
-        <translation>清理</translation>
-    </message>
-    <message>
-        <source>Tidy %1</source>
-        <translation>清理 %1</translation>
-    </message>
-    <message>
-        <source>Tidying was stopped.</source>
-        <translation>清理已停止。</translation>
     </message>
     <message>
         <source>What was freed until then is free. Nothing that is needed is lost.</source>
@@ -5374,6 +5538,18 @@ projector %2</source>
     <message>
         <source>Looking up what could be freed. Nothing is removed yet.</source>
         <translation>正在查找可以腾出的空间。尚未删除任何内容。</translation>
+    </message>
+    <message>
+        <source>Free disk space</source>
+        <translation>释放磁盘空间</translation>
+    </message>
+    <message>
+        <source>Disk space of %1</source>
+        <translation>%1 的磁盘空间</translation>
+    </message>
+    <message>
+        <source>Freeing space was stopped.</source>
+        <translation>释放空间已停止。</translation>
     </message>
 </context>
 <context>
@@ -5839,10 +6015,6 @@ projector %2</source>
         <translation>%1 / %2</translation>
     </message>
     <message>
-        <source>Tidy…</source>
-        <translation>清理…</translation>
-    </message>
-    <message>
         <source>Free the disk of what %1 does not need</source>
         <translation>清除磁盘上 %1 不需要的内容</translation>
     </message>
@@ -5854,16 +6026,20 @@ projector %2</source>
         <source>Resume %1</source>
         <translation>继续 %1</translation>
     </message>
+    <message>
+        <source>Free space…</source>
+        <translation>释放空间…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
-        <source>%1 is at work. Tidying can wait until it has ended.</source>
-        <translation>“%1”正在工作。请等它结束后再清理。</translation>
-    </message>
-    <message>
         <source>Try again then.</source>
         <translation>之后请重试。</translation>
+    </message>
+    <message>
+        <source>%1 is at work. Space can be freed when it has ended.</source>
+        <translation>%1 正在工作。结束后可以释放空间。</translation>
     </message>
 </context>
 <context>
@@ -6176,6 +6352,13 @@ projector %2</source>
     <message>
         <source>Looking for what cannot be corrected</source>
         <translation>正在查找无法补偿之处</translation>
+    </message>
+</context>
+<context>
+    <name>stage.finding-what-is-seen</name>
+    <message>
+        <source>Finding which part of the picture is seen</source>
+        <translation>正在查找看到画面的哪一部分</translation>
     </message>
 </context>
 <context>

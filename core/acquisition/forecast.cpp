@@ -200,8 +200,9 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   return work;
 }
 
-double expectedError(const AcquisitionSettings& settings) {
-  return std::hypot(0.017, 0.25 * settings.relativeThreshold);
+double expectedDeviation(const AcquisitionSettings& settings) {
+  constexpr double usualThreshold = 0.012, usually = 0.009, power = 0.52;
+  return usually * std::pow(settings.relativeThreshold / usualThreshold, power);
 }
 
 }  // namespace relucent::acquisition

@@ -63,11 +63,11 @@ ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& 
 WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& settings,
                   const rig::ShotTimes& benchmark, const AcquisitionState& state);
 
-/// What Acquisition::verificationError is about to be with dense patterns, relative:
-///   sqrt(0.017^2 + (0.25 threshold)^2)
-/// Most of it is the noise of the test patterns' photographs. At 256x192 / 160x120, sensors of 15 000
-/// electrons and thresholds from 0.006 to 0.05 corner, depth, dome, plain, relief and statue were within a
-/// fifth of it, but for depth at 0.05 (0.031 instead of 0.021); glass has twice as much.
-double expectedError(const AcquisitionSettings& settings);
+/// By how much light that is predicted with dense patterns is about to be off the true light, relative:
+///   0.009 (threshold / 0.012)^0.52
+/// The medians of the errors of random patterns in the README's table, at 0.03, 0.012 and 0.006: 1.45 %,
+/// 0.91 % and 0.63 %; glass has twice as much. Acquisition::verificationError is larger and hardly depends on
+/// the threshold: most of it is noise of the test patterns' own photographs.
+double expectedDeviation(const AcquisitionSettings& settings);
 
 }  // namespace relucent::acquisition

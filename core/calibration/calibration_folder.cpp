@@ -241,6 +241,13 @@ void CalibrationFolder::setRig(Json rig) {
   replaceManifest(std::move(manifest));
 }
 
+void CalibrationFolder::takeAsCurrent(Stage stage, const std::string& inputs) {
+  if (entriesOf(stage) == nullptr) return;
+  Json manifest = *manifest_;
+  manifest["results"][std::string(nameOf(stage))].back()["inputs"] = inputs;
+  replaceManifest(std::move(manifest));
+}
+
 StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Json values,
                                      const std::function<void(const fs::path&)>& writeFiles) {
   require(access_ == Access::write, "the calibration {} is open for reading", path_.string());

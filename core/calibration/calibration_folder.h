@@ -73,6 +73,10 @@ class CalibrationFolder {
   StageResult store(Stage stage, const std::string& inputs, Json values,
                     const std::function<void(const std::filesystem::path& folder)>& writeFiles = {});
 
+  /// The newest result of a stage counts as one for these inputs from now on, whatever it was made of. None:
+  /// nothing happens. For copies of a manifest alone: the calibration itself never forgets.
+  void takeAsCurrent(Stage stage, const std::string& inputs);
+
   /// The newest result of a stage for these inputs.
   std::optional<StageResult> find(Stage stage, const std::string& inputs) const;
   /// The newest result of a stage for any inputs: perhaps stale.

@@ -145,6 +145,9 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
   Json projectors = Json::array();
   for (const linearization::ProjectorResponse& projector : linearization.projectors)
     projectors.push_back(toJson(projector.channels));
+  Json residuals = Json::array();
+  for (const linearization::ProjectorResponse& projector : linearization.projectors)
+    residuals.push_back(projector.residuals);
   Json cameras = Json::array();
   for (const hdr::CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
   return folder.store(Stage::linearization, inputs,
@@ -153,6 +156,8 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
                            {"exposures", linearization.exposures},
                            {"additivity_error", linearization.additivityError},
                            {"findings", linearization.findings},
+                           {"residuals", residuals},
+                           {"black_share", linearization.blackShare.value_or(-1.0)},
                            {"times", timesToJson(linearization.times)},
                            {"cost", toJson(cost)}});
 }
@@ -162,6 +167,12 @@ linearization::Linearization loadLinearization(const StageResult& result) {
     linearization::Linearization linearization;
     for (const Json& projector : listIn(values, "projectors"))
       linearization.projectors.push_back({curvesFrom(projector)});
+    // A calibration of an older version has neither of these.
+    const Json residuals = values.value("residuals", Json::array());
+    for (std::size_t p = 0; p < std::min(residuals.size(), linearization.projectors.size()); ++p)
+      linearization.projectors[p].residuals = residuals[p].get<std::array<std::vector<double>, 3>>();
+    if (const double share = values.value("black_share", -1.0); share >= 0.0)
+      linearization.blackShare = share;
     for (const Json& camera : listIn(values, "cameras")) linearization.cameras.push_back(cameraFrom(camera));
     linearization.exposures = values.at("exposures").get<std::vector<double>>();
     linearization.additivityError = values.at("additivity_error").get<std::vector<double>>();

@@ -32,6 +32,8 @@ class RoomWaiter {
   virtual Answer wait(const FullDisk& disk) = 0;
   /// The measurement goes on, or ends.
   virtual void over() {}
+  /// For how long somebody has paused the devices until now, in all: no part of a measurement's work.
+  virtual std::chrono::steady_clock::duration otherPauses() const { return {}; }
 };
 
 /// Room for what a measurement writes. Where there is too little, the measurement pauses until there is
@@ -39,10 +41,14 @@ class RoomWaiter {
 class RoomOnDisk {
  public:
   using Action = std::function<void()>;
+  using Duration = std::chrono::steady_clock::duration;
 
   /// Keeps references: `waiter` and `progress` outlive it. `waiter` null: nobody waits.
   RoomOnDisk(std::filesystem::path folder, RoomWaiter* waiter, const Progress& progress)
-      : folder_(std::move(folder)), waiter_(waiter), progress_(progress) {}
+      : folder_(std::move(folder)),
+        waiter_(waiter),
+        progress_(progress),
+        pausedBefore_(waiter != nullptr ? waiter->otherPauses() : Duration{}) {}
 
   /// Returns at once if `least` bytes are free, or if nobody waits. Else pauses until `enough` are: more,
   /// where it is to go on for a while before it pauses again. `pausing` is called before. Throws: Cancelled.
@@ -53,7 +59,11 @@ class RoomOnDisk {
   void write(std::uint64_t bytes, const Action& write, const Action& pausing = {});
 
   /// How long it has paused in all.
-  std::chrono::steady_clock::duration paused() const { return paused_; }
+  Duration paused() const { return paused_; }
+  /// That and all other pauses that the waiter knows of, since this was made.
+  Duration allPauses() const {
+    return paused_ + (waiter_ != nullptr ? waiter_->otherPauses() - pausedBefore_ : Duration{});
+  }
 
  private:
   /// Whether so much is free; else waits a moment, and whether somebody said so meanwhile.
@@ -62,8 +72,9 @@ class RoomOnDisk {
   std::filesystem::path folder_;
   RoomWaiter* waiter_;
   const Progress& progress_;
-  bool isTold_ = false;  // to go on with what is free: until the disk is full
-  std::chrono::steady_clock::duration paused_{};
+  Duration pausedBefore_;  // by the waiter's other pauses
+  bool isTold_ = false;    // to go on with what is free: until the disk is full
+  Duration paused_{};
 };
 
 }  // namespace relucent::calibration

@@ -126,4 +126,19 @@ std::array<double, allReasons.size()> sharesOf(const std::vector<Uncorrectable>&
   return shares;
 }
 
+UnreachableShares unreachableShares(const MeasuredVenue& venue, const Target& target) {
+  UnreachableShares shares;
+  double inside = 0.0;
+  const std::size_t pixels = venue.transport.cameras().size(0).count();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (!target.inside[i]) continue;
+    inside += 1.0;
+    if (target.reachable[i]) continue;
+    const bool isBright = venue.usable[i] && byBrightness(venue, target, i) == Uncorrectable::tooBright;
+    (isBright ? shares.tooBright : shares.tooDark) += 1.0;
+  }
+  if (!(inside > 0.0)) return {};
+  return {shares.tooDark / inside, shares.tooBright / inside};
+}
+
 }  // namespace relucent::compensation

@@ -59,4 +59,11 @@ std::vector<Uncorrectable> uncorrectableMap(const MeasuredVenue& venue, const Ta
 /// Share of the content's pixels with each reason, in the order of allReasons.
 std::array<double, allReasons.size()> sharesOf(const std::vector<Uncorrectable>& map);
 
+/// Shares of the content in the first camera's view that cannot be reached, by the projectors' limits alone:
+/// with Prediction::reachable they add up to one. What no projector lights is too dark.
+struct UnreachableShares {
+  double tooDark = 0.0, tooBright = 0.0;
+};
+UnreachableShares unreachableShares(const MeasuredVenue& venue, const Target& target);
+
 }  // namespace relucent::compensation

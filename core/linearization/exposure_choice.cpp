@@ -69,6 +69,29 @@ double saturationOf(const std::vector<Photograph>& whites, std::size_t camera) {
   return saturationMargin;
 }
 
+/// Times that may be asked for: any of a range, or only the whole multiples of a lamp's period in it.
+class Times {
+ public:
+  Times(rig::ExposureRange range, double unit) : range_(range), unit_(unit) {
+    const double least = unit_ > 0.0 ? unit_ * std::ceil(range_.shortest / unit_ - tiny) : range_.shortest;
+    if (least > range_.longest) unit_ = 0.0;  // none of them is within the range
+    if (unit_ > 0.0) range_.shortest = least;
+  }
+
+  double shortest() const { return range_.shortest; }
+  double longest() const { return nearest(range_.longest); }
+  /// No longer than wanted, if there is any.
+  double nearest(double seconds) const {
+    const double within = std::clamp(seconds, range_.shortest, range_.longest);
+    return unit_ > 0.0 ? unit_ * std::floor(within / unit_ + tiny) : within;
+  }
+
+ private:
+  static constexpr double tiny = 1e-6;
+  rig::ExposureRange range_;
+  double unit_;
+};
+
 /// The search for one camera's exposure.
 struct Search {
   std::string name;
@@ -107,7 +130,7 @@ struct Search {
   }
 
   /// Takes in a photograph at `seconds` and moves on towards the wanted level.
-  void learn(const image::Image& signal, const rig::ExposureRange& range) {
+  void learn(const image::Image& signal, const Times& times) {
     level = levelOf(signal);
     highlightsClip = brightestLit(signal) > clipping * saturation;
     double wanted = wantedShare * saturation;
@@ -116,7 +139,7 @@ struct Search {
     double next = level > clipping * saturation
                       ? seconds / (lit.empty() ? blindStep : 2.0)
                       : seconds * std::clamp(wanted / std::max(level, 1e-9), 1.0 / step, step);
-    next = std::clamp(next, range.shortest, range.longest);
+    next = times.nearest(next);
     settled = good || next == seconds;
     if (!settled) seconds = next;
   }
@@ -160,30 +183,30 @@ std::vector<double> wantedBy(const std::vector<Search>& searches, bool unsettled
 }
 
 /// From the shortest that a camera needs to the longest, in even steps.
-std::vector<double> spread(const std::vector<Search>& searches, const rig::ExposureRange& range) {
+std::vector<double> spread(const std::vector<Search>& searches, const Times& times) {
   std::vector<double> wanted = wantedBy(searches, false);
-  double shortest = wanted.back(), longest = std::min(longerBy * wanted.front(), range.longest);
+  double shortest = wanted.back(), longest = times.nearest(longerBy * wanted.front());
   double ratio = longest / shortest;
   if (ratio < 1.5) return {shortest};
   int steps = static_cast<int>(std::ceil(std::log(ratio) / std::log(largestStep) - 1e-9));
   std::vector<double> seconds;
   for (int i = 0; i < steps; ++i)
-    seconds.push_back(longest * std::pow(ratio, -static_cast<double>(i) / steps));
+    seconds.push_back(times.nearest(longest * std::pow(ratio, -static_cast<double>(i) / steps)));
   seconds.push_back(shortest);
-  return seconds;
+  return unique(std::move(seconds));
 }
 
 /// Shorter exposures for the highlights that clip at the shortest of `seconds`, in even steps.
-void addHighlights(std::vector<double>& seconds, const std::vector<Search>& searches,
-                   const rig::ExposureRange& range) {
+void addHighlights(std::vector<double>& seconds, const std::vector<Search>& searches, const Times& times) {
   double shortest = seconds.back(), least = shortest;
   for (const Search& search : searches)
     if (search.highlightsClip) least = std::min(least, search.highlights);
-  least = std::max(least, range.shortest);
+  least = times.nearest(least);
   if (least >= shortest) return;
   int steps = static_cast<int>(std::ceil(std::log(shortest / least) / std::log(largestStep) - 1e-9));
   for (int i = 1; i <= steps; ++i)
-    seconds.push_back(shortest * std::pow(least / shortest, static_cast<double>(i) / steps));
+    seconds.push_back(times.nearest(shortest * std::pow(least / shortest, static_cast<double>(i) / steps)));
+  seconds = unique(std::move(seconds));
 }
 
 std::vector<Message> remarks(const std::vector<Search>& searches) {
@@ -213,12 +236,12 @@ std::vector<Message> remarks(const std::vector<Search>& searches) {
 /// The search for the exposures of all cameras.
 class Exposing {
  public:
-  Exposing(rig::ShotTaker& shots, Progress& progress)
-      : shots_(shots), progress_(progress), range_(commonRange(shots.rig())) {
+  Exposing(rig::ShotTaker& shots, Progress& progress, double unit)
+      : shots_(shots), progress_(progress), times_(commonRange(shots.rig()), unit) {
     for (const auto& camera : shots.rig().cameras) {
       Search search;
       search.name = camera->name();
-      search.seconds = std::sqrt(range_.shortest * range_.longest);
+      search.seconds = times_.nearest(std::sqrt(times_.shortest() * times_.longest()));
       searches_.push_back(std::move(search));
     }
   }
@@ -230,8 +253,8 @@ class Exposing {
     findHighlights();
 
     ExposureChoice choice;
-    choice.seconds = spread(searches_, range_);
-    addHighlights(choice.seconds, searches_, range_);
+    choice.seconds = spread(searches_, times_);
+    addHighlights(choice.seconds, searches_, times_);
     choice.findings = remarks(searches_);
     photographRest(choice.seconds);
     for (const Search& search : searches_) choice.saturation.push_back(search.saturation);
@@ -258,7 +281,7 @@ class Exposing {
       Search& search = searches_[camera];
       search.saturation = saturationOf(all, camera);
       if (!search.settled)
-        search.learn(whites_.back().frames[indexIn(seconds, search.seconds)][camera].signal, range_);
+        search.learn(whites_.back().frames[indexIn(seconds, search.seconds)][camera].signal, times_);
     }
   }
 
@@ -297,7 +320,7 @@ class Exposing {
       // The percentile of what is lit is not that of the whole view.
       search.settled = false;
       search.seconds = seconds[camera];
-      search.learn(lit.signal, range_);
+      search.learn(lit.signal, times_);
     }
   }
 
@@ -314,8 +337,8 @@ class Exposing {
     };
     while (clips() && mayGoOn()) {
       double shortest = photographsOf(whites_).back().asked;
-      if (shortest <= range_.shortest) return;
-      take({std::max(range_.shortest, shortest / 4.0)});
+      if (shortest <= times_.shortest()) return;
+      take({times_.nearest(shortest / 4.0)});
     }
   }
 
@@ -330,11 +353,14 @@ class Exposing {
     all.insert(all.end(), open.begin(), open.end());
     std::erase_if(all, [&](double asked) { return asked > seconds.front() || asked < seconds.back(); });
     all = unique(std::move(all));
+    const auto alsoTake = [&](double wanted) {
+      if (std::ranges::count(all, times_.nearest(wanted)) == 0) open.push_back(times_.nearest(wanted));
+    };
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
-      if (all[i] > wideStep * all[i + 1]) open.push_back(all[i] / std::sqrt(1.3 * all[i] / all[i + 1]));
+      if (all[i] > wideStep * all[i + 1]) alsoTake(all[i] / std::sqrt(1.3 * all[i] / all[i + 1]));
     if (seconds.size() == 1)
       for (double shorter : {1.5, 3.0})
-        if (seconds[0] / shorter >= range_.shortest) open.push_back(seconds[0] / shorter);
+        if (seconds[0] / shorter >= times_.shortest()) alsoTake(seconds[0] / shorter);
     if (!open.empty()) take(unique(std::move(open)));
   }
 
@@ -357,7 +383,7 @@ class Exposing {
 
   rig::ShotTaker& shots_;
   Progress& progress_;
-  rig::ExposureRange range_;
+  Times times_;
   std::vector<Search> searches_;
   std::vector<rig::Shot> whites_;
   rig::Shot black_;
@@ -380,8 +406,8 @@ rig::ExposureRange commonRange(const rig::Rig& rig) {
   return range;
 }
 
-ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress) {
-  return Exposing(shots, progress).run();
+ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress, double unit) {
+  return Exposing(shots, progress, unit).run();
 }
 
 std::optional<rig::Shot> atExposures(const std::vector<rig::Shot>& shots, std::vector<double> seconds) {

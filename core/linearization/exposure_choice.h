@@ -34,8 +34,9 @@ rig::ExposureRange commonRange(const rig::Rig& rig);
 /// percentile of the lit pixels is 0.8 of saturation; black once on the way, to tell what is lit. Highlights
 /// that clip there, a caustic or a glint, get a shorter exposure.
 /// Several cameras share their exposures: the brightest view decides the shortest, the darkest the longest.
+/// `unit`: every exposure is a whole multiple of it, seconds, as far as the cameras' range allows; 0: any.
 /// Throws: Error{input} for a camera that sees no difference between white and black.
-ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress);
+ExposureChoice chooseExposures(rig::ShotTaker& shots, Progress& progress, double unit = 0.0);
 
 /// What photographs of one pattern show at the exposures of `seconds`, as one shot, the longest first; none
 /// if one of them was not photographed.

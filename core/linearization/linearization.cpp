@@ -93,6 +93,25 @@ rig::Shot blackOf(rig::ShotTaker& shots, const ExposureChoice& choice, const Thi
   return black;
 }
 
+/// Of the signals brought back to light, of all cameras.
+std::optional<double> blackShareOf(const ExposureChoice& choice,
+                                   const std::vector<hdr::CameraModel>& cameras) {
+  const double seconds = choice.black.exposuresAsked.back();
+  const std::optional<rig::Shot> white = atExposures(choice.whites, {seconds});
+  if (!white) return std::nullopt;
+  const auto sum = [&](const std::vector<rig::RawFrame>& frames) {
+    double light = 0.0;
+    for (std::size_t camera = 0; camera < frames.size(); ++camera) {
+      const std::vector<float>& signal = frames[camera].signal.data();
+      for (std::size_t i = 0; i < signal.size(); ++i)
+        light += cameras[camera].response[i % 3](static_cast<double>(signal[i]));
+    }
+    return light;
+  };
+  const double dark = sum(choice.black.frames.back()), lit = sum(white->frames.front());
+  return lit > 0.0 ? std::optional(std::max(0.0, dark / lit)) : std::nullopt;
+}
+
 void addFindings(std::vector<Message>& findings, const MosaicResult& measured, const std::string& projector,
                  double additivityLimit) {
   const std::vector<Message> additivity = additivityFindings(measured.additivity, projector, additivityLimit);
@@ -139,6 +158,10 @@ std::vector<Message> problems(const LinearizationSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.additivity-limit-out-of-range",
                                              "the additivity limit is between 0 and 1, not {}")
                         .with(settings.additivityLimit));
+  if (!(settings.exposureUnit >= 0.0 && settings.exposureUnit < 1.0))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("linearization.exposure-unit-out-of-range",
+                                             "a lamp's period is between 0 and 1 s, not {} s")
+                        .with(settings.exposureUnit));
   return found;
 }
 
@@ -150,7 +173,7 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
 
   Linearization result;
   Progress exposing = progress.part(0.1, RELUCENT_MESSAGE("stage.finding-exposure", "Finding the exposure"));
-  ExposureChoice choice = chooseExposures(shots, exposing);
+  ExposureChoice choice = chooseExposures(shots, exposing, settings.exposureUnit);
   result.exposures = choice.seconds;
   const Thinning thinning(rig.cameraRasters());
   for (rig::Shot& white : choice.whites) white = thinning.of(white);
@@ -161,6 +184,7 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
       progress.part(0.05, RELUCENT_MESSAGE("stage.measuring-camera", "Measuring the camera"));
   std::vector<hdr::CameraModel> cameras = respondingCameras(shots, choice, thinning, settings, calibrating);
 
+  result.blackShare = blackShareOf(choice, cameras);
   rig::Shot black = blackOf(shots, choice, thinning, progress);
   Progress mosaics = progress.part(0.75, progress.stage());
   const MosaicPhotographs photographs = photographMosaics(shots, cameras, choice, black, settings, mosaics);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace relucent::linearization {
 /// Per projector and channel: encoded drive -> relative radiance.
 struct ProjectorResponse {
   std::array<hdr::ResponseCurve, 3> channels;
+  /// Per channel and sample of its curve, how much more light the photographs have at that level than the
+  /// curve, relative to full; 0 where they do not say. Empty: not recorded.
+  std::array<std::vector<double>, 3> residuals{};
 
   /// Encoded drive for linear values; clamps to [0, 1].
   /// Large images go through tables: the resulting light, decode(encode(L)), is within
@@ -29,6 +33,7 @@ struct LinearizationSettings {
   double shadowPower = 2.0;        // level k at (k / (levels - 1))^shadowPower: denser in the shadows
   int noisePairs = 2;              // pairs of equal shots for the camera noise model; two are shot anyway
   double additivityLimit = 0.025;  // larger relative deviations are a finding
+  double exposureUnit = 0.0;       // exposures are whole multiples, seconds: a lamp's period; 0: any
   std::uint64_t seed = 1;          // of the mosaics
 };
 /// What is wrong with the settings; empty: nothing.
@@ -47,6 +52,9 @@ struct Linearization {
   std::vector<double> additivityError;
   /// Time that its shots took: a benchmark of the devices. Shots read from a log do not count.
   rig::ShotTimes times;
+  /// Light under black projectors, the room's included, relative to that under white ones, as all cameras see
+  /// it; none: not recorded.
+  std::optional<double> blackShare{};
   /// Findings (a white segment, a picture mode, flicker); empty: none.
   std::vector<Message> findings;
 };

@@ -31,6 +31,15 @@ hdr::ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<
   return hdr::curveFromRamp(x, y, weights);
 }
 
+/// At the samples of `curve`: dark, then every level.
+std::vector<double> residualsOf(const hdr::ResponseCurve& curve, const std::vector<double>& light,
+                                const std::vector<double>& residual) {
+  std::vector<double> residuals{0.0};
+  for (std::size_t i = 0; i < light.size(); ++i)
+    residuals.push_back(light[i] + residual[i] - curve.y()[i + 1]);
+  return residuals;
+}
+
 /// A projector's white in one region.
 struct RegionLight {
   double values = 0.0;  // that it lights
@@ -141,8 +150,11 @@ std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
   for (std::size_t p = 0; p < results.size(); ++p) {
     const ResponseFit& fit = whole.fits[p];
     results[p].additivity = additivity[p];
-    for (std::size_t c = 0; c < 3; ++c)
-      results[p].response.channels[c] = curveOf(shown.drives[p], fit.light[c], fit.deviation[c]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      hdr::ResponseCurve& curve = results[p].response.channels[c];
+      curve = curveOf(shown.drives[p], fit.light[c], fit.deviation[c]);
+      results[p].response.residuals[c] = residualsOf(curve, fit.light[c], fit.residual[c]);
+    }
     whole.white.push_back(regionLights(lights, p, thinning));
   }
 

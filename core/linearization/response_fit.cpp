@@ -199,16 +199,19 @@ class Unknowns {
                       leastFlicker, mostFlicker);
   }
 
-  ResponseFit result(const VectorXd& variances, double flicker) const {
+  /// `alone`: by how much each unknown would move without what is known a priori.
+  ResponseFit result(const VectorXd& variances, const VectorXd& alone, double flicker) const {
     ResponseFit fit;
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t k = 0; k < levels_; ++k) {
         Index at = toIndex(c * levels_ + k);
         fit.light[c].push_back(x_[at]);
         fit.deviation[c].push_back(std::sqrt(std::max(0.0, variances[at])));
+        fit.residual[c].push_back(alone[at]);
       }
       fit.light[c].push_back(1.0);
       fit.deviation[c].push_back(0.0);
+      fit.residual[c].push_back(0.0);
     }
     for (std::size_t m = 0; m < shots_.size(); ++m)
       fit.power.push_back(lit_[m] ? powerOf(x_, m) / scales_[toIndex(m)] : 1.0);
@@ -319,10 +322,11 @@ class Fit {
         flicker[p] = projectors_[p].flicker(known.block(first_[p], first_[p], count(p), count(p)));
       progress.report((round + 1.0) / flickerRounds);
     }
-    const VectorXd variances = covariance().diagonal();
+    const VectorXd variances = covariance().diagonal(), alone = alonePulls();
     std::vector<ResponseFit> result;
     for (std::size_t p = 0; p < projectors_.size(); ++p)
-      result.push_back(projectors_[p].result(variances.segment(first_[p], count(p)), flicker[p]));
+      result.push_back(projectors_[p].result(variances.segment(first_[p], count(p)),
+                                             alone.segment(first_[p], count(p)), flicker[p]));
     return result;
   }
 
@@ -376,6 +380,19 @@ class Fit {
         if (other != p) curvature.block(first_[other], first_[p], count(other), count(p)) = block.transpose();
       }
     }
+  }
+
+  /// Where the photographs alone would move each unknown, the others as they are.
+  VectorXd alonePulls() const {
+    MatrixXd curvature;
+    VectorXd descent;
+    linearize(Projection(products_, patternsOf(values())), curvature, descent);
+    const VectorXd most = curvature.diagonal();
+    const double least = 1e-9 * std::max(most.maxCoeff(), 1e-300);
+    VectorXd pulls = VectorXd::Zero(size_);
+    for (Index i = 0; i < size_; ++i)
+      if (most[i] > least) pulls[i] = descent[i] / most[i];
+    return pulls;
   }
 
   /// Levenberg's and Marquardt's steps.

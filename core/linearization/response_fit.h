@@ -50,6 +50,9 @@ std::vector<LevelLights> usualResponses(const std::vector<std::vector<double>>& 
 struct ResponseFit {
   LevelLights light;
   LevelLights deviation;  // standard deviations
+  /// How much more light the photographs alone have at a level, everything else as it was fitted: what is
+  /// left of chi^2 by the level, one step of Newton's. 0 where no photograph says.
+  LevelLights residual;
   std::vector<double>
       power;             // of the lamp in every photograph, relative to a straight line's start; 1 where dark
   double flicker = 0.0;  // relative standard deviation of that power about the line

@@ -45,11 +45,14 @@ class StageShots {
         journal_(folder.shotFolder()),
         earlier_(journal_),
         log_(earlier_, room_, rig),
-        taker_(rig, log_, std::string(nameOf(stage)), [this] { return workingTime(); }) {}
+        taker_(rig, log_, std::string(nameOf(stage)), [this] { return workingTime(); }),
+        begun_(workingTime()) {}
 
   rig::ShotTaker& taker() { return taker_; }
-  /// What earlier sessions took for the photographs that this one has read.
-  double earlierSeconds() const { return earlier_.seconds(); }
+  /// What this session took, pauses left out, and earlier ones for the photographs that this one has read.
+  double seconds() const { return (workingTime() - begun_).count() + earlier_.seconds(); }
+  /// Time of this session in which somebody was waited for.
+  void leaveOut(std::chrono::duration<double> waited) { waited_ += waited; }
   /// Waits for room for a result of about so many bytes.
   void waitForResult(std::uint64_t bytes) {
     const std::uint64_t needed = bytes + calibration::PatientShotLog::spare;
@@ -59,7 +62,7 @@ class StageShots {
  private:
   /// Pauses say nothing about how long the next shots take.
   std::chrono::duration<double> workingTime() const {
-    return std::chrono::steady_clock::now().time_since_epoch() - room_.paused();
+    return std::chrono::steady_clock::now().time_since_epoch() - room_.allPauses() - waited_;
   }
 
   calibration::RoomOnDisk room_;
@@ -67,7 +70,23 @@ class StageShots {
   calibration::EarlierShots earlier_;
   calibration::PatientShotLog log_;
   rig::ShotTaker taker_;
+  std::chrono::duration<double> waited_{}, begun_{};
 };
+
+std::chrono::duration<double> pausesOf(const calibration::RoomWaiter* waiter) {
+  return waiter != nullptr ? waiter->otherPauses() : std::chrono::steady_clock::duration{};
+}
+
+/// The same, with the time that an answer takes left out.
+sentinels::AlarmHandler patientHandler(const sentinels::AlarmHandler& handler, StageShots& stage) {
+  if (!handler) return {};
+  return [&handler, &stage](const sentinels::Alarm& alarm) {
+    const Stopwatch waiting;
+    const sentinels::Answer answer = handler(alarm);
+    stage.leaveOut(std::chrono::duration<double>(waiting.seconds()));
+    return answer;
+  };
+}
 
 /// At most: T, and its dozen images of what the cameras saw, before they are compressed.
 std::uint64_t bytesOf(const transport::Acquisition& acquisition) {
@@ -83,15 +102,14 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
                                 sentinels::AcquisitionObserver& observer,
                                 const OutlookObserver::Tell& outlook, calibration::RoomWaiter* room,
                                 Progress& progress) {
-  Stopwatch watch;
   rig::Rig used = reducedRig(folder, rig);
   StageShots stage(folder, calibration::Stage::acquisition, used, room, progress);
   rig::ShotTaker& shots = stage.taker();
   ensureMemory(used, settingsOf(folder), platform::memoryLeft());
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
   OutlookObserver looking(observer, outlook);
-  transport::Acquisition acquisition =
-      acquisition::acquire({shots, linearization, settings, handler, &looking}, progress);
+  transport::Acquisition acquisition = acquisition::acquire(
+      {shots, linearization, settings, patientHandler(handler, stage), &looking}, progress);
   if (std::optional<Outlook> last = lastOf(looking)) {
     acquisition.expected = {last->now, last->now};
     // The test patterns are photographed anew when it goes on.
@@ -107,8 +125,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
                                 stoppedEarly(acquisition.stoppedAt, acquisition.expected));
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   stage.waitForResult(bytesOf(acquisition));
-  calibration::storeAcquisition(folder, inputs, acquisition,
-                                costOf(watch.seconds() + stage.earlierSeconds(), shots));
+  calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
   return acquisition;
 }
 
@@ -132,10 +149,12 @@ linearization::Linearization measureLinearization(calibration::CalibrationFolder
   if (auto done = folder.find(calibration::Stage::linearization,
                               calibration::fingerprintOf(folder, calibration::Stage::linearization)))
     return calibration::loadLinearization(*done);
-  Stopwatch watch;
+  const std::chrono::duration<double> pausedBefore = pausesOf(room);
+  const Stopwatch choosingWatch;
   Progress choosing = progress.part(
       0.0, RELUCENT_MESSAGE("stage.choosing-camera-pixels", "Finding the camera pixels that are needed"));
   chooseReductions(folder, rig, choosing);
+  const double chose = choosingWatch.seconds() - (pausesOf(room) - pausedBefore).count();
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::linearization);
   rig::Rig used = reducedRig(folder, rig);
   StageShots stage(folder, calibration::Stage::linearization, used, room, progress);
@@ -144,8 +163,7 @@ linearization::Linearization measureLinearization(calibration::CalibrationFolder
       linearization::linearize(shots, settingsOf(folder).linearization, progress);
   for (Message& finding : findingsOf(reductionsOf(folder)))
     linearization.findings.push_back(std::move(finding));
-  calibration::storeLinearization(folder, inputs, linearization,
-                                  costOf(watch.seconds() + stage.earlierSeconds(), shots));
+  calibration::storeLinearization(folder, inputs, linearization, costOf(chose + stage.seconds(), shots));
   return linearization;
 }
 

@@ -313,8 +313,12 @@ std::vector<Reduction> reductionsFromJson(const calibration::Json& json) {
 calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
+  Sorted linearization = settings.linearization;
+  // Calibrations from before there was such a choice keep their fingerprints.
+  if (settings.linearization.exposureUnit > 0.0)
+    linearization["exposureUnit"] = settings.linearization.exposureUnit;
   return calibration::Json(Sorted{{"camera_pixels", reduction::toString(settings.pixels)},
-                                  {"linearization", settings.linearization},
+                                  {"linearization", std::move(linearization)},
                                   {"acquisition", settings.acquisition},
                                   {"threshold", settings.threshold},
                                   {"windows", settings.windows},
@@ -328,6 +332,8 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     Sorted sorted(json);
     settings.pixels = pixelsFromJson(sorted);
     settings.linearization = sorted.value("linearization", settings.linearization);
+    settings.linearization.exposureUnit =
+        sorted.value("linearization", Sorted::object()).value("exposureUnit", 0.0);
     settings.acquisition = sorted.value("acquisition", settings.acquisition);
     settings.threshold = sorted.value("threshold", settings.threshold);
     settings.windows = sorted.value("windows", settings.windows);

@@ -2,6 +2,7 @@
 #include "jobs/live_rig.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace relucent::gui {
 namespace {
@@ -32,8 +33,10 @@ LiveRig::LiveRig(int interval) : interval_(interval) {}
 void LiveRig::beforeShowing(std::size_t, rig::RigLight& light) {
   QMutexLocker lock(&guard_);
   if (paused_) {
+    pausedSince_ = now_();
     light.darken();
     while (paused_) resumed_.wait(&guard_);
+    pauses_ += now_() - *std::exchange(pausedSince_, std::nullopt);
     light.restore();
   }
   // Resuming ends no wait but a pause.
@@ -62,13 +65,27 @@ void LiveRig::beforePhotographing(std::size_t index, const rig::CaptureRequest& 
   QMutexLocker lock(&guard_);
   const auto exposure =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.seconds));
-  at(asked_, index) = Asked{Clock::now(), exposure};
+  at(asked_, index) = Asked{now_(), exposure};
 }
 
 void LiveRig::afterPhotographing(std::size_t index) noexcept {
   QMutexLocker lock(&guard_);
-  arrived_ = Clock::now() - asked_[index]->when - asked_[index]->exposure;
+  arrived_ = now_() - asked_[index]->when - asked_[index]->exposure;
   asked_[index].reset();
+}
+
+void LiveRig::setClock(std::function<Clock::time_point()> now) {
+  QMutexLocker lock(&guard_);
+  now_ = std::move(now);
+}
+
+LiveRig::Clock::duration LiveRig::paused() const {
+  QMutexLocker lock(&guard_);
+  return pauses_ + (pausedSince_ ? now_() - *pausedSince_ : Clock::duration{});
+}
+
+bool LiveRig::isCameraSilent() const {
+  return isCameraSilent(now_());
 }
 
 bool LiveRig::isCameraSilent(Clock::time_point now) const {

@@ -7,6 +7,7 @@
 #include <QWaitCondition>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,7 +45,8 @@ class LiveRig : public QObject, public rig::RigWatcher {
   /// A photograph is overdue: by three seconds beyond its exposure, and by twice as long as photographs
   /// before took to arrive, as still cameras need some: the second slowest of the last ones, so that one that
   /// was held up does not count.
-  bool isCameraSilent(Clock::time_point now = Clock::now()) const;
+  bool isCameraSilent() const;
+  bool isCameraSilent(Clock::time_point now) const;
   /// By all cameras, since the start.
   int photographs() const;
   /// Whose photograph came last; of no stage before there is one.
@@ -70,6 +72,10 @@ class LiveRig : public QObject, public rig::RigWatcher {
   void pause();
   void resume();
   bool isPaused() const;
+  /// For how long it has been paused, in all, as far as measuring had come to a pattern by then.
+  Clock::duration paused() const;
+  /// What the time is; for tests.
+  void setClock(std::function<Clock::time_point()> now);
 
  Q_SIGNALS:
   void seen();
@@ -81,6 +87,9 @@ class LiveRig : public QObject, public rig::RigWatcher {
   mutable QMutex guard_;
   QWaitCondition resumed_;
   bool paused_ = false;
+  Clock::duration pauses_{};  // that are over
+  std::optional<Clock::time_point> pausedSince_;
+  std::function<Clock::time_point()> now_ = [] { return Clock::now(); };
   struct Shown {
     bool dark = true, white = false;
   };

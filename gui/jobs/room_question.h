@@ -4,7 +4,10 @@
 #include <QMutex>
 #include <QObject>
 #include <QWaitCondition>
+#include <chrono>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "relucent/calibration/room_on_disk.h"
 
@@ -20,6 +23,11 @@ class RoomQuestion : public QObject, public calibration::RoomWaiter {
 
   Answer wait(const calibration::FullDisk& disk) override;
   void over() override;
+  std::chrono::steady_clock::duration otherPauses() const override { return pauses_ ? pauses_() : Pauses(); }
+  /// Who knows of them. Before a measurement begins, on its thread.
+  void countPauses(std::function<std::chrono::steady_clock::duration()> pauses) {
+    pauses_ = std::move(pauses);
+  }
 
   /// The disk that is waited for; none: nobody waits.
   std::optional<calibration::FullDisk> waiting() const;
@@ -30,6 +38,8 @@ class RoomQuestion : public QObject, public calibration::RoomWaiter {
   void changed();
 
  private:
+  using Pauses = std::chrono::steady_clock::duration;
+  std::function<Pauses()> pauses_;
   mutable QMutex guard_;
   QWaitCondition told_;
   std::optional<calibration::FullDisk> waiting_;

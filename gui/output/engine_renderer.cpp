@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "output/drive_pictures.h"
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/calibration/calibration_folder.h"
@@ -125,14 +126,8 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
 
 RenderedFrame EngineRenderer::encoded(const compensation::Compensation& solved, double seconds) {
   const Rasters& projectors = calibration_.venue.transport.projectors();
-  for (std::size_t i = 0; i < projectors.devices(); ++i) {
-    Size drive = projectors.size(i);
-    for (int y = 0; y < drive.height; ++y) {
-      std::size_t first = projectors.offset(i) + indexOf(drive, {0, y});
-      venue_->encoders[i].encodeLine(&solved.projector[3 * first], drive.width, y, &words_[first]);
-    }
-  }
-  return {drives(), solved.clipped, solved.iterations, seconds};
+  return {drivePictures(solved.projector, projectors, venue_->encoders), solved.clipped, solved.iterations,
+          seconds};
 }
 
 std::vector<QImage> EngineRenderer::drives() const {

@@ -3,7 +3,6 @@
 
 #include <QGuiApplication>
 #include <QImageReader>
-#include <QScreen>
 #include <algorithm>
 
 #include "output/output_playlist.h"
@@ -19,16 +18,6 @@ constexpr QSize largestCanvas(1920, 1080);
 constexpr int sampleInterval = 500;  // milliseconds
 constexpr std::size_t frameTimesKept = 120;
 constexpr int mirrorInterval = 67;  // milliseconds: 15 pictures a second show what moves
-
-/// Windows that are operated stand on that screen: keys have to be taken where they are hidden, and must be
-/// left to them where they are not.
-bool hidesWindows(const QScreen* screen) {
-  const QWindowList windows = QGuiApplication::topLevelWindows();
-  return std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
-    return window->isVisible() && window->screen() == screen &&
-           qobject_cast<const ProjectorWindow*>(window) == nullptr;
-  });
-}
 
 }  // namespace
 
@@ -107,8 +96,7 @@ void OutputProjection::play() {
   std::vector<ProjectorWindow*> windows;
   for (const ScreenIdentity& screen : screens_)
     windows.push_back(windows_.emplace_back(std::make_unique<ProjectorWindow>(screen)).get());
-  for (ProjectorWindow* window : windows)
-    window->setFlag(Qt::WindowDoesNotAcceptFocus, !hidesWindows(findScreen(window->display())));
+  for (ProjectorWindow* window : windows) window->takeKeysOnlyIfAlone();
   bool keepStep = std::all_of(windows.begin(), windows.end(),
                               [](const ProjectorWindow* window) { return window->surface().keepsStep(); });
   if (!keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);

@@ -4,6 +4,7 @@
 #include <QGuiApplication>
 #include <QKeyEvent>
 #include <QScreen>
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -14,6 +15,15 @@ namespace {
 std::chrono::milliseconds refreshOf(const QScreen* screen) {
   const double rate = screen->refreshRate() > 1.0 ? screen->refreshRate() : 60.0;
   return std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(1.0 / rate));
+}
+
+/// Windows that are operated stand on that screen.
+bool hidesWindows(const QScreen* screen) {
+  const QWindowList windows = QGuiApplication::topLevelWindows();
+  return std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
+    return window->isVisible() && window->screen() == screen &&
+           qobject_cast<const ProjectorWindow*>(window) == nullptr;
+  });
 }
 
 }  // namespace
@@ -31,6 +41,19 @@ ProjectorWindow::ProjectorWindow(ScreenIdentity display, QWindow* parent)
 }
 
 ProjectorWindow::~ProjectorWindow() = default;
+
+void ProjectorWindow::takeKeysOnlyIfAlone() {
+  setFlag(Qt::WindowDoesNotAcceptFocus, !hidesWindows(findScreen(display_)));
+}
+
+bool ProjectorWindow::isTaken(const ScreenIdentity& display) {
+  const QScreen* screen = findScreen(display);
+  const QWindowList windows = QGuiApplication::topLevelWindows();
+  return std::any_of(windows.begin(), windows.end(), [screen](const QWindow* window) {
+    const auto* projector = qobject_cast<const ProjectorWindow*>(window);
+    return projector != nullptr && projector->isShining() && projector->on_ == screen;
+  });
+}
 
 void ProjectorWindow::shine() {
   wanted_ = true;

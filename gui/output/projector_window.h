@@ -25,6 +25,11 @@ class ProjectorWindow : public QWindow {
   const ScreenIdentity& display() const { return display_; }
   /// How it is drawn.
   const WindowSurface& surface() const { return *surface_; }
+  /// Its keys are for where its display hides the windows that are operated; where it does not, they are
+  /// left to those. As the windows stand now; before it is shown.
+  void takeKeysOnlyIfAlone();
+  /// A projector's window shines on that display now.
+  static bool isTaken(const ScreenIdentity& display);
   /// Shows itself full screen on its display, and waits for it if it is absent.
   void shine();
   /// Hides, and stays hidden when the display returns.

@@ -14,6 +14,7 @@
 #include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
 #include "relucent/engine/bench/bench_transport.h"
+#include "relucent/engine/bench/noise_content.h"
 #include "relucent/engine/bench/reference_products.h"
 #include "relucent/engine/cpu_backend.h"
 #include "relucent/engine/opengl/gl_context.h"
@@ -78,25 +79,9 @@ double copied(const std::function<double()>& clock) {
   return 2.0 * static_cast<double>(bytes) / timing.best;
 }
 
-/// Content of no meaning, all of whose bytes differ.
-class Noise {
- public:
-  explicit Noise(Size size) : pixels_(4 * size.count()), size_(size) {
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
-      pixels_[i] = static_cast<std::uint8_t>(i * 2654435761u >> 24);
-  }
-  ContentFrame frame() const {
-    return {pixels_.data(), size_, 4 * static_cast<std::size_t>(size_.width), ContentFrame::Format::rgba8};
-  }
-
- private:
-  std::vector<std::uint8_t> pixels_;
-  Size size_;
-};
-
 void timeFrames(Bench& bench, EngineBackend& backend, const EngineVenue& engine, Size size,
                 double transportBytes) {
-  const Noise content(size);
+  const NoiseContent content(size);
   std::vector<std::uint32_t> words(engine.brightest.size());
   FrameReport report;
   const auto windows = static_cast<double>(engine.inverse.bytes());
@@ -119,7 +104,7 @@ void timeCpu(Bench& bench, const EngineVenue& engine, const EngineContent& conte
     const std::string name(backend.name());
     if (bench.result.device.empty()) bench.result.device = name;
     backend.setContent(content);
-    const Noise noise(size);
+    const NoiseContent noise(size);
     std::vector<std::uint32_t> words(engine.brightest.size());
     FrameReport report;
     backend.render(noise.frame(), {}, words, report);
@@ -136,7 +121,7 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& co
   bench.result.device = name;
   bench.result.copyBytesPerSecond = backend.copyBandwidth();
   backend.setContent(content);
-  const Noise noise(size);
+  const NoiseContent noise(size);
   std::vector<std::uint32_t> words(engine.brightest.size());
   FrameReport report;
   backend.render(noise.frame(), {}, words, report);

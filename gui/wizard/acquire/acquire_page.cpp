@@ -144,7 +144,7 @@ QString AcquirePage::hint() const {
     return tr("Measured in %1").arg(text(roundedDuration(cost().value_or(calibration::StageCost()).seconds)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
-    const auto patterns = static_cast<int>(work->shots);
+    const int patterns = patternsExpected();
     return groupedText(tr("About %n pattern(s), %1. Leave the room dark and still.", nullptr, patterns),
                        patterns)
         .arg(text(roundedDuration(work->seconds)));
@@ -174,7 +174,7 @@ void AcquirePage::updateCommands() {
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
-  pushBack_->show(tr("Push the camera back"));
+  pushBack_->show(tr("Put the camera back"));
   retry_->show(tr("Resume"));
 }
 
@@ -329,6 +329,7 @@ void AcquirePage::begin() {
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
   job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
+    room->countPauses([devices = work.devices] { return devices->live().paused(); });
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =

@@ -76,6 +76,9 @@ class AcquirePage : public DevicePage {
   /// Patterns, those that were read from the journal included, of as many as are expected by now: more when
   /// patterns are photographed again or levels turn out to need them.
   PatternCount patterns() const;
+  /// In all, references and checks included, by the levels that have begun: the one number of what is
+  /// expected, whoever shows it. Done, as many as there were.
+  int patternsExpected() const;
   /// Seconds that it still takes, by those patterns: it stands still while none is photographed. None before
   /// enough is known, and while the last are computed with.
   std::optional<double> secondsLeft() const;
@@ -111,8 +114,10 @@ class AcquirePage : public DevicePage {
   std::optional<WorkLeft> expected() const { return expected(session_.settings().acquisition); }
   /// The same at another fineness.
   std::optional<WorkLeft> expected(Fineness fineness) const { return expected(settingsOf(fineness)); }
-  /// What verificationError() is then about to be.
-  double expectedError(Fineness fineness) const { return acquisition::expectedError(settingsOf(fineness)); }
+  /// By how much what is predicted is then about to be off.
+  double expectedDeviation(Fineness fineness) const {
+    return acquisition::expectedDeviation(settingsOf(fineness));
+  }
   /// Coarsest first: as planned, as far as it is, or as it was, while that is remembered.
   std::vector<BlockLevel> levels() const;
   std::uint64_t freeBytes() const;
@@ -176,7 +181,6 @@ class AcquirePage : public DevicePage {
   void ended();
   void tick();
   void expect(const WorkLeft& left);
-  int patternsExpected() const;
   void lookAtResponse();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;

@@ -154,19 +154,27 @@ QWidget* resultPart(AcquirePage& model) {
   auto* quality = new ValueRow(AcquirePage::tr("Pictures expected at"));
   quality->setToolTip(qualityMeaning());
   for (ValueRow* row : {patterns, photographs, error, quality}) rows->addWidget(row);
-  rows->addWidget(labelOf(AcquirePage::tr("Test patterns are predicted from the measurement, then "
-                                          "photographed: this is how far the two differ."),
-                          "note"));
+  QLabel* meaning = labelOf({}, "note");
+  rows->addWidget(meaning);
   auto* findings = new Note(Note::Kind::amber);
   findings->setObjectName("findings");
   rows->addWidget(findings);
-  auto refresh = [&model, part, patterns, photographs, error, quality, findings] {
+  auto refresh = [&model, part, patterns, photographs, error, quality, meaning, findings] {
     const calibration::StageCost cost = model.cost().value_or(calibration::StageCost());
     const auto count = [](int number) { return countText(static_cast<std::uint64_t>(number)); };
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
     photographs->setValue(count(cost.exposures));
     error->setValue(percentText(model.verificationError().value_or(0.0)));
+    const QString differ = AcquirePage::tr(
+        "Test patterns are predicted from the measurement, then photographed: this is how far the two "
+        "differ, the photographs' noise included.");
+    meaning->setText(model.stoppedAt() == 0
+                         ? differ
+                         : differ + ' ' +
+                               AcquirePage::tr("Stopped early, they have no blocks finer than %1 px: this "
+                                               "says nothing of finer light.")
+                                   .arg(model.stoppedAt()));
     const std::optional<transport::ExpectedQuality> expected = model.expectedQuality();
     quality->setVisible(expected.has_value());
     if (expected) quality->setValue(qualityText(expected->now));
@@ -245,8 +253,8 @@ QWidget* planOf(AcquirePage& model) {
       const std::optional<WorkLeft> work = model.expected(fineness);
       const auto at = static_cast<std::size_t>(fineness);
       choices[at]->setSentence(
-          AcquirePage::tr("%1; error about %2")
-              .arg(sentences[static_cast<int>(fineness)], percentText(model.expectedError(fineness))));
+          AcquirePage::tr("%1; light right within about %2")
+              .arg(sentences[static_cast<int>(fineness)], percentText(model.expectedDeviation(fineness))));
       choices[at]->setRemark(
           work ? groupedText(AcquirePage::tr("%n photograph(s)", nullptr, work->exposures), work->exposures) +
                      "\n" + text(roundedDuration(work->seconds))

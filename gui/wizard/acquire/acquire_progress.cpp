@@ -42,11 +42,12 @@ PatternCount AcquirePage::patterns() const {
 /// In all, by the levels that have begun. The finest goes on while that makes predictions better: before it
 /// has as many patterns as were expected of it, nobody takes it for complete.
 int AcquirePage::patternsExpected() const {
+  if (isDone()) return cost().value_or(calibration::StageCost()).patterns;
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return 0;
   const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
   const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
-  acquisition::AcquisitionState state{trace_.growth().levels};
+  acquisition::AcquisitionState state{isTraceCurrent() ? trace_.growth().levels : std::vector<int>()};
   if (!state.levels.empty()) {
     const std::span before(state.levels.begin(), state.levels.end() - 1);
     const auto expected = acquisition::levelPatterns(projectors, settings, before);
@@ -71,6 +72,11 @@ std::optional<double> AcquirePage::secondsLeft() const {
 
 void AcquirePage::tick() {
   const int count = session_.live().photographs();
+  // It stands still while nothing is photographed on purpose.
+  if (isHeldUp()) {
+    lastCount_ = count;
+    return tellProgress();
+  }
   // Smoothed over some seconds.
   rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
   lastCount_ = count;

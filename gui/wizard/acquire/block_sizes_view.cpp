@@ -148,21 +148,17 @@ QWidget* blockSizesCard(AcquirePage& model) {
   auto refresh = [&model, card, view] {
     std::vector<BlockLevel> levels = model.levels();
     card->setVisible(!levels.empty());
-    double patterns = 0.0;
-    bool isPlan = false;
-    for (const BlockLevel& level : levels) {
-      patterns += level.patterns.likely;
-      isPlan = isPlan || !level.isKnown;
-    }
-    const auto count = static_cast<int>(std::llround(patterns));
+    const bool isPlan = std::ranges::any_of(levels, [](const BlockLevel& level) { return !level.isKnown; });
+    const int count = model.patternsExpected();
     if (model.isMeasuring())
       card->setSubtitle(AcquirePage::tr("blocks are divided only where light needs it"));
     else if (isPlan)
       card->setSubtitle(groupedText(
-          AcquirePage::tr("%n pattern(s) expected; known exactly as each level begins", nullptr, count),
+          AcquirePage::tr("%n pattern(s) expected with all checks; known exactly as each level begins",
+                          nullptr, count),
           count));
     else
-      card->setSubtitle(groupedText(AcquirePage::tr("%n pattern(s)", nullptr, count), count));
+      card->setSubtitle(groupedText(AcquirePage::tr("%n pattern(s) with all checks", nullptr, count), count));
     view->show(std::move(levels), model.isMeasuring());
   };
   refreshOn(model, card, refresh, &AcquirePage::progressChanged, &AcquirePage::settingsChanged,

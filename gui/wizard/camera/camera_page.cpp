@@ -11,6 +11,7 @@
 #include "relucent/base/message.h"
 #include "relucent/linearization/test_light.h"
 #include "relucent/platform/memory_limits.h"
+#include "text/message_text.h"
 #include "views/number_text.h"
 
 namespace relucent::gui {
@@ -32,6 +33,7 @@ struct CameraPage::Shared {
   std::optional<pipeline::RigCheck> check;
   std::optional<linearization::ExposureChoice> choice;
   std::vector<pipeline::PixelForecast> pixels;
+  std::vector<linearization::Coverage> coverage;
   std::optional<CameraLook> look;
   std::optional<double> tooBright, tooDark;
   std::size_t exposure = 0;
@@ -54,10 +56,10 @@ CameraPage::CameraPage(Session& session, QObject* parent)
             tellStatus();
           }),
       firstLooks_(
-          [this](CameraLook look) {
-            if (!isChecking()) return;
-            look_ = std::move(look);
-            best_ = std::max(best_, look_->sharpness);
+          [this](FirstLook first) {
+            // Of another venue, or of before.
+            if (!isChecking() || first.of != shared_) return;
+            look_ = std::move(first.look);
             tellAll();
           },
           [this](const Failure& failure) {
@@ -75,13 +77,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
   });
   connect(&session_, &Session::opened, this, [this] {
     finish();
-    check_.reset();
-    look_.reset();
-    exposures_ = {};
-    pixels_.clear();
-    tooBright_.reset();
-    tooDark_.reset();
-    best_ = 0.0;
+    forget();
     area_ = {};
     connect(&session_.live(), &LiveRig::seen, this, &CameraPage::lookAtCheck);
   });
@@ -90,6 +86,20 @@ CameraPage::CameraPage(Session& session, QObject* parent)
   connect(&job_, &Job::progressed, this, &CameraPage::tellProgress);
   connect(&job_, &Job::ended, this, &CameraPage::ended);
   updateCommands();
+}
+
+/// What was seen is of another venue or camera; what still arrives of it counts no more.
+void CameraPage::forget() {
+  goOn_ = startsAgain_ = false;
+  shared_ = nullptr;
+  check_.reset();
+  look_.reset();
+  exposures_ = {};
+  pixels_.clear();
+  coverage_.clear();
+  tooBright_.reset();
+  tooDark_.reset();
+  best_ = 0.0;
 }
 
 CameraPage::~CameraPage() {
@@ -138,10 +148,7 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
     rig.cameraAddress = address;
     rig.camera = size;
     session_.changeRig(rig);
-    look_.reset();
-    check_.reset();
-    exposures_ = {};
-    pixels_.clear();
+    forget();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
   }
@@ -156,6 +163,7 @@ QString CameraPage::hint() const {
   if (isChecking()) return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
   if (tooBright_ && *tooBright_ > 0.05)
     return tr("%1 is too bright in every exposure.").arg(percentText(*tooBright_));
+  if (isKept()) return tr("Checked before. Check again if camera or projector were moved.");
   if (!isChecked()) return tr("Look through the camera first.");
   return tr("Next: test patterns for the projector's response");
 }
@@ -164,10 +172,60 @@ void CameraPage::updateCommands() {
   const bool seen =
       isChecked() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
   const bool free = session_.areDevicesFree();
-  keep_->show(tr("Keep exposures"), seen && (free || isLooking()));
+  keep_->show(isKept() ? tr("Continue") : tr("Keep exposures"), seen && (free || isLooking()));
   pause_->show(tr("Pause"));
   again_->show(tr("Check again"), free && session_.isOpen());
   chooseAnother_->show(tr("Choose another camera"), free);
+}
+
+std::vector<double> CameraPage::exposures() const {
+  return isKept() ? session_.figures<calibration::Stage::camera>()->exposures : exposures_.seconds;
+}
+
+bool CameraPage::isKept() const {
+  return !isLooking() && exposures_.seconds.empty() && !needsCamera() &&
+         session_.figures<calibration::Stage::camera>().has_value();
+}
+
+QStringList CameraPage::keptVerdicts() const {
+  QStringList sentences;
+  if (isKept())
+    for (const Message& verdict : session_.figures<calibration::Stage::camera>()->verdicts)
+      sentences << fullSentence(verdict);
+  return sentences;
+}
+
+std::optional<double> CameraPage::flickerPeriod() const {
+  if (!check_) return std::nullopt;
+  for (const devices::CheckVerdict& verdict : check_->light.verdicts)
+    if ((verdict.finding == devices::Finding::lampFlickers ||
+         verdict.finding == devices::Finding::colourWheel) &&
+        verdict.frame > 0.0)
+      return verdict.frame;
+  return std::nullopt;
+}
+
+void CameraPage::setExposureUnit(double seconds) {
+  if (seconds == exposureUnit() || (!session_.areDevicesFree() && !isLooking())) return tellSettings();
+  changeUndoably(tr("Exposure times"), exposureUnit(), seconds,
+                 [this](double wanted) { keepExposureUnit(wanted); });
+}
+
+void CameraPage::keepExposureUnit(double seconds) {
+  if (!session_.areDevicesFree() && !isLooking()) return tellSettings();
+  try {
+    pipeline::CalibrateSettings settings = session_.settings();
+    settings.linearization.exposureUnit = seconds;
+    session_.changeSettings(settings);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+    return tellSettings();
+  }
+  startsAgain_ = isLooking();
+  if (isLooking())
+    finish();
+  else
+    start();
 }
 
 PageCommand* CameraPage::primary() const {
@@ -193,12 +251,12 @@ void CameraPage::lookAtCheck() {
   const bool isWhite = std::ranges::all_of(drive, [](float value) { return value >= 1.0f; });
   if (live.frame.signal.empty() || drive.empty() || !isWhite) return;
   if (area_ == image::Region{}) area_ = centre(live.frame.signal.size());
-  firstLooks_.ask([frame = std::move(live.frame), area = area_] {
+  firstLooks_.ask([of = shared_, frame = std::move(live.frame), area = area_] {
     CameraLook look;
     look.frame = frame;
     look.check = image::checkPhotograph(frame.signal, saturation, dark);
     look.sharpness = sharpness(frame.signal, area);
-    return look;
+    return FirstLook{of, look};
   });
 }
 
@@ -243,7 +301,8 @@ bool CameraPage::isFocusJudged() const {
 }
 
 void CameraPage::chooseExposure(std::size_t index) {
-  exposure_ = index;
+  // Noise looks sharp: that of another exposure is no mark for this one.
+  if (std::exchange(exposure_, index) != index) best_ = 0.0;
   if (shared_) {
     QMutexLocker lock(&shared_->guard);
     shared_->exposure = index;
@@ -275,8 +334,8 @@ void CameraPage::start() {
   shared_ = std::make_shared<Shared>();
   shared_->area = area_;
   lease_ = session_.leaseDevices(stepName);
-  job_.start([this, shared = shared_, work = workOf(session_),
-              settings = session_.settings().acquisition](Progress& progress) {
+  job_.start([this, shared = shared_, work = workOf(session_), settings = session_.settings().acquisition,
+              unit = exposureUnit()](Progress& progress) {
     Progress opening = progress.part(0.1, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->openUnproved(opening);
     if (work.devices->hasScreen()) {
@@ -295,16 +354,21 @@ void CameraPage::start() {
     rig::NoShotLog nothing;
     rig::ShotTaker shots(rig, nothing, "camera");
     Progress exposing =
-        progress.part(0.3, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
-    linearization::ExposureChoice choice = linearization::chooseExposures(shots, exposing);
+        progress.part(0.2, RELUCENT_MESSAGE("stage.finding-exposures", "Finding the exposures"));
+    linearization::ExposureChoice choice = linearization::chooseExposures(shots, exposing, unit);
     std::vector<pipeline::PixelForecast> pixels =
         pipeline::pixelForecasts(rig, choice, shots.times(), settings, platform::memoryLeft());
+    Progress covering = progress.part(
+        0.1, RELUCENT_MESSAGE("stage.finding-what-is-seen", "Finding which part of the picture is seen"));
+    std::vector<linearization::Coverage> coverage =
+        linearization::coverageOf(shots, choice.flood.front(), covering);
     // A large camera's photographs would take up the memory that measuring needs.
     choice.whites.clear();
     choice.black = {};
     {
       QMutexLocker lock(&shared->guard);
       shared->pixels = std::move(pixels);
+      shared->coverage = std::move(coverage);
       shared->choice = choice;
       // The one between bright parts and shadows.
       shared->exposure = choice.seconds.size() / 2;
@@ -333,6 +397,7 @@ void CameraPage::start() {
       look.frame = rig.cameras[0]->capture({{"camera", number}, 0, choice.seconds[exposure]});
       look.check = image::checkPhotograph(look.frame.signal, saturation, dark);
       look.sharpness = sharpness(look.frame.signal, area);
+      look.exposure = exposure;
       QMutexLocker lock(&shared->guard);
       if (exposure + 1 == choice.seconds.size()) shared->tooBright = look.check.tooBright;
       if (exposure == 0) shared->tooDark = look.check.tooDark;
@@ -359,6 +424,7 @@ void CameraPage::takeSharedState() {
     if (shared_->choice) {
       exposures_ = *std::exchange(shared_->choice, std::nullopt);
       pixels_ = shared_->pixels;
+      coverage_ = shared_->coverage;
       exposure_ = shared_->exposure;
       isChecking_ = false;
     }
@@ -368,8 +434,13 @@ void CameraPage::takeSharedState() {
     area_ = shared_->area;
     if (shared_->look) look_ = shared_->look;
   }
-  if (look_) best_ = std::max(best_, look_->sharpness);
+  learnBest();
   tellAll();
+}
+
+/// Of looks with the exposure that is looked with.
+void CameraPage::learnBest() {
+  if (look_ && look_->exposure == exposure_) best_ = std::max(best_, look_->sharpness);
 }
 
 void CameraPage::ended() {
@@ -379,6 +450,7 @@ void CameraPage::ended() {
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost.")});
   if (std::exchange(goOn_, false)) keepLook();
+  if (std::exchange(startsAgain_, false)) return start();
   tellResult();
 }
 

@@ -7,6 +7,7 @@
 #include "jobs/latest.h"
 #include "relucent/devices/camera_registry.h"
 #include "relucent/image/photograph_check.h"
+#include "relucent/linearization/coverage.h"
 #include "relucent/linearization/exposure_choice.h"
 #include "relucent/pipeline/reductions.h"
 #include "wizard/frame/page_model.h"
@@ -19,6 +20,7 @@ struct CameraLook {
   rig::RawFrame frame;
   image::PhotographCheck check;
   double sharpness = 0.0;
+  std::optional<std::size_t> exposure{};  // which one of those that were found; none: a check's
 };
 
 /// Step 2: framing, focus, and exposures that cover what is bright and what is dark. The projectors show
@@ -64,11 +66,26 @@ class CameraPage : public PageModel {
   const std::optional<CameraLook>& look() const { return look_; }
   /// The devices are being checked and exposures found.
   bool isChecking() const { return isLooking() && isChecking_; }
-  /// Exposures for this venue, longest first; empty until they are found.
-  const std::vector<double>& exposures() const { return exposures_.seconds; }
+  /// Exposures for this venue, longest first; as they were kept where nobody looks; empty until they are
+  /// found.
+  std::vector<double> exposures() const;
+  /// Exposures were found and kept, and the camera is not being looked through since.
+  bool isKept() const;
+  /// Of what is kept, on projector and camera.
+  QStringList keptVerdicts() const;
+  /// Which part of each projector's picture is seen; empty before it was looked for.
+  const std::vector<linearization::Coverage>& coverage() const { return coverage_; }
+  /// The time in which the projector's light changes, where exposures that are no whole multiples of it
+  /// flicker, seconds; none: the light is even, or was not checked.
+  std::optional<double> flickerPeriod() const;
+  /// What exposures are whole multiples of, seconds; 0: any.
+  double exposureUnit() const { return session_.settings().linearization.exposureUnit; }
+  /// Exposures are looked for again.
+  void setExposureUnit(double seconds);
   /// Which of them the camera looks with.
   std::size_t exposure() const { return exposure_; }
   void chooseExposure(std::size_t index);
+  Size projectorSize(std::size_t projector) const { return session_.projectorSize(projector); }
   /// Of the shortest: too bright in every exposure; of the longest: too dark in every one. None before they
   /// have been looked at.
   std::optional<double> tooBrightEverywhere() const { return tooBright_; }
@@ -85,7 +102,7 @@ class CameraPage : public PageModel {
   /// In the focus area there is something to judge: most of it is not too bright.
   bool isFocusJudged() const;
   /// Sharpness relative to the best so far, 0 to 1.
-  double focus() const { return best_ > 0.0 && look_ ? look_->sharpness / best_ : 0.0; }
+  double focus() const { return best_ > 0.0 && look_ ? std::min(1.0, look_->sharpness / best_) : 0.0; }
 
  Q_SIGNALS:
   /// It begins to look for cameras, or has.
@@ -100,6 +117,9 @@ class CameraPage : public PageModel {
   void exchangeCamera(const std::string& address, std::optional<Size> size);
   void goOn();
   void keepLook();
+  void keepExposureUnit(double seconds);
+  void forget();
+  void learnBest();
   void keepPixels(const reduction::PixelUse& use);
   void start();
   void watch(const image::Region& area);
@@ -123,10 +143,16 @@ class CameraPage : public PageModel {
   devices::CameraList cameras_;
   Latest<devices::CameraList> listing_;
   std::optional<pipeline::RigCheck> check_;
+  std::vector<linearization::Coverage> coverage_;
   PageCommand *keep_, *pause_, *again_, *chooseAnother_;
   bool isChecking_ = false;
-  Latest<CameraLook> firstLooks_;
-  bool goOn_ = false;  // the next step was asked for while looking
+  struct FirstLook {
+    std::shared_ptr<Shared> of;
+    CameraLook look;
+  };
+  Latest<FirstLook> firstLooks_;
+  bool goOn_ = false;         // the next step was asked for while looking
+  bool startsAgain_ = false;  // once it has ended
 };
 
 }  // namespace relucent::gui

@@ -5,7 +5,6 @@
 #include <QProgressBar>
 #include <QStackedWidget>
 
-#include "text/message_text.h"
 #include "theme/accessible_role.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -14,6 +13,7 @@
 #include "views/line_chart.h"
 #include "views/number_text.h"
 #include "wizard/camera/camera_choice_view.h"
+#include "wizard/camera/checks_view.h"
 #include "wizard/camera/pixel_use_view.h"
 
 namespace relucent::gui {
@@ -76,15 +76,6 @@ double tallest(const image::PhotographCheck& check) {
   return static_cast<double>(most) * 2.0;
 }
 
-/// How the devices work together, a line each.
-QString verdictLines(const std::optional<pipeline::RigCheck>& check) {
-  QStringList lines;
-  if (check)
-    for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*check))
-      lines << text(devices::messageOf(verdict));
-  return lines.join('\n');
-}
-
 /// Of the best so far: what noise alone takes away is no fault of the lens.
 constexpr double goodFocus = 0.9;
 
@@ -110,6 +101,8 @@ class FocusMeter : public QWidget {
     painter.drawRoundedRect(bar, 3, 3);
     painter.setBrush(value_ > goodFocus ? colours().good : colours().amber);
     painter.drawRoundedRect(QRectF(bar.left(), bar.top(), bar.width() * value_, bar.height()), 3, 3);
+    // Nothing was best before anything was seen.
+    if (!(value_ > 0.0)) return;
     painter.setPen(QPen(colours().text, 2.0));
     painter.drawLine(QPointF(bar.right(), 1), QPointF(bar.right(), 23));
   }
@@ -217,18 +210,10 @@ class CameraInspector {
                      [&model](int id) { model.chooseExposure(static_cast<std::size_t>(id)); });
     column->addWidget(pixelUseView(model));
     column->addWidget(lineOf());
-    column->addWidget(labelOf(CameraPage::tr("Checks"), "section"));
-    auto* sees = new Remark;
-    auto* bright = new Remark;
-    auto* dark = new Remark;
-    for (Remark* verdict : {sees, bright, dark}) column->addWidget(verdict);
-    auto* together = labelOf({}, "note");
-    together->setObjectName("device-verdicts");
-    column->addWidget(together);
+    column->addWidget(checksPart(model));
     column->addStretch(1);
 
-    auto refresh = [&model, histogram, focus, meter, group, sees, bright, dark, together] {
-      together->setText(verdictLines(model.check()));
+    auto refresh = [&model, histogram, focus, meter, group] {
       bool seen = model.look().has_value();
       if (seen) {
         histogram->setAxes(axisOf(0.0, 1.0, CameraPage::tr("Signal, share of full")),
@@ -237,40 +222,17 @@ class CameraInspector {
       } else {
         histogram->setCurves({});  // of another venue
       }
-      focus->setValue(seen ? focusText(model) : QString::fromUtf8("–"));
+      const bool isKnown = seen && (model.focus() > 0.0 || !model.isFocusJudged());
+      focus->setValue(isKnown ? focusText(model) : QString::fromUtf8("–"));
       meter->setValue(model.focus());
-      const std::vector<double>& exposures = model.exposures();
+      const std::vector<double> exposures = model.exposures();
       for (int i = 0; i < 4; ++i) {
         bool used = static_cast<std::size_t>(i) < exposures.size();
         group->button(i)->setVisible(used);
+        group->button(i)->setEnabled(!model.isKept());
         if (used) group->button(i)->setText(exposureText(exposures[static_cast<std::size_t>(i)]));
         if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());
       }
-      using Kind = Remark::Kind;
-      if (model.needsCamera())
-        sees->show(Kind::watch, CameraPage::tr("No camera is chosen yet"), {});
-      else if (exposures.empty())
-        sees->show(Kind::watch, CameraPage::tr("Looking for the projector's light"), {});
-      else
-        sees->show(Kind::good, CameraPage::tr("The camera sees the projector"),
-                   CameraPage::tr("White and black differ as they should."));
-      auto judge = [](Remark* verdict, const std::optional<double>& share, const QString& good,
-                      const QString& bad, const QString& advice) {
-        verdict->setVisible(share.has_value());
-        if (!share) return;
-        if (*share > 0.02)
-          verdict->show(Kind::warning, bad.arg(percentText(*share)), advice);
-        else
-          verdict->show(Kind::good, good,
-                        *share < 0.0005 ? CameraPage::tr("All of the view.")
-                                        : CameraPage::tr("All but %1 of the view.").arg(percentText(*share)));
-      };
-      judge(bright, model.tooBrightEverywhere(), CameraPage::tr("Bright parts are covered"),
-            CameraPage::tr("%1 is too bright in every exposure"),
-            CameraPage::tr("Close the lens a little, or shade lamps in the view."));
-      judge(dark, model.tooDarkEverywhere(), CameraPage::tr("Dark parts are covered"),
-            CameraPage::tr("%1 is too dark in every exposure"),
-            CameraPage::tr("The projector may not reach there. Where it should, open the lens."));
     };
     refreshOn(model, card, refresh, &CameraPage::settingsChanged, &CameraPage::resultChanged);
     return card;

@@ -15,6 +15,7 @@ namespace relucent::gui {
 namespace {
 
 constexpr int paletteColours = 8;
+constexpr Size filmSize{1920, 1080};
 
 /// A camera's share of what there is of all pixels.
 template <typename Value>
@@ -78,12 +79,21 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
       computing_([this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
                  [this](const Failure& failure) {
                    Q_EMIT failed({failure, tr("What is measured is safe.")});
-                 }) {
+                 }),
+      timing_(
+          [this](const engine::FrameCost& cost) {
+            frameCost_ = cost;
+            tellResult();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("What is measured is safe.")});
+          }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     settings_ = session_.settings().clustering;
     computing_.drop();
+    forgetFrames();
     prepared_ = nullptr;
     result_ = nullptr;
     preparedFor_.clear();
@@ -108,6 +118,7 @@ void ClusterPage::enter() {
 void ClusterPage::follow() {
   if (source_ != session_.acquisition()) {
     computing_.drop();
+    forgetFrames();
     source_ = nullptr;
     prepared_ = nullptr;
     result_ = nullptr;
@@ -143,6 +154,8 @@ void ClusterPage::prepare() {
 }
 
 void ClusterPage::compute() {
+  // Sliders are waited for, frames are not: what is half timed is timed after the groups.
+  if (!frameCost_) forgetFrames();
   if (prepared_)
     computing_.ask([prepared = prepared_, settings = settings_, camera = camera()](Progress& progress,
                                                                                    const auto& tellSoon) {
@@ -171,7 +184,33 @@ void ClusterPage::show(std::shared_ptr<const ClusterResult> result) {
     result = std::move(together);
   }
   result_ = std::move(result);
+  if (result_->exact) timeFrames();
   tellResult();
+}
+
+/// After the groups, which somebody waits for.
+void ClusterPage::timeFrames() {
+  if (!isLookedAt_ || session_.isMeasuring() || timedFor_ == preparedFor_) return;
+  timedFor_ = preparedFor_;
+  frameCost_.reset();
+  timing_.ask([prepared = prepared_](Progress& progress, const auto&) {
+    const transport::Acquisition& measured = *prepared->source;
+    return engine::measureFrameCost(
+        {prepared->transport, measured.black, measured.flood, pipeline::usablePixels(measured)}, filmSize,
+        progress);
+  });
+}
+
+void ClusterPage::forgetFrames() {
+  timing_.drop();
+  frameCost_.reset();
+  timedFor_.clear();
+}
+
+void ClusterPage::leave() {
+  isLookedAt_ = false;
+  // What is half timed is timed when somebody looks again.
+  if (!frameCost_) forgetFrames();
 }
 
 /// Nothing of another camera's errors stands in for this one's.
@@ -180,7 +219,12 @@ void ClusterPage::cameraChanged() {
   compute();
 }
 
-void ClusterPage::setSettings(const clustering::ClusteringSettings& settings) {
+void ClusterPage::setSettings(const clustering::ClusteringSettings& settings, const QString& what) {
+  changeUndoably(what, settings_, settings,
+                 [this](const clustering::ClusteringSettings& wanted) { adopt(wanted); });
+}
+
+void ClusterPage::adopt(const clustering::ClusteringSettings& settings) {
   settings_ = settings;
   compute();
 }

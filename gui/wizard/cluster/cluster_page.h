@@ -4,6 +4,7 @@
 #include "jobs/latest.h"
 #include "jobs/refining.h"
 #include "relucent/clustering/clustering.h"
+#include "relucent/engine/frame_cost.h"
 #include "views/colour_map.h"
 #include "wizard/devices/device_page.h"
 
@@ -45,10 +46,11 @@ class ClusterPage : public DevicePage {
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
   void enter() override;
-  void leave() override { isLookedAt_ = false; }
+  void leave() override;
 
   const clustering::ClusteringSettings& settings() const { return settings_; }
-  void setSettings(const clustering::ClusteringSettings& settings);
+  /// `what`: changed, in the list of what can be undone.
+  void setSettings(const clustering::ClusteringSettings& settings, const QString& what = tr("Clusters"));
   /// What the sliders gave last; they may have moved on. Of each set of sliders the map comes first.
   const std::shared_ptr<const ClusterResult>& result() const { return result_; }
   /// "21 480 clusters, median 12 px". Contract: there is a result.
@@ -56,6 +58,9 @@ class ClusterPage : public DevicePage {
   /// T is read and its connections are known: sliders are followed.
   bool isReady() const { return prepared_ != nullptr; }
   bool isComputing() const { return computing_.isBusy() || preparing_.isBusy(); }
+  /// What a frame of a film takes on this computer with the light that Threshold keeps, timed once for each
+  /// cut, after the groups; none before. The groups make no difference to it.
+  const std::optional<engine::FrameCost>& frameCost() const { return frameCost_; }
   /// The venue in full light.
   std::shared_ptr<const transport::Acquisition> acquisition() const { return session_.acquisition(); }
 
@@ -67,7 +72,10 @@ class ClusterPage : public DevicePage {
   void follow();
   void prepare();
   void cameraChanged() override;
+  void adopt(const clustering::ClusteringSettings& settings);
   void compute();
+  void timeFrames();
+  void forgetFrames();
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
 
@@ -79,6 +87,9 @@ class ClusterPage : public DevicePage {
   std::shared_ptr<const ClusterResult> result_;
   Latest<std::shared_ptr<const Prepared>> preparing_;
   Refining<std::shared_ptr<const ClusterResult>> computing_;
+  std::optional<engine::FrameCost> frameCost_;
+  std::string timedFor_;  // as preparedFor_
+  Refining<engine::FrameCost> timing_;
   bool isLookedAt_ = false;
 };
 

@@ -21,7 +21,7 @@ std::vector<CutHistogram::Bar> barsOf(const std::vector<clustering::ClusterSize>
   for (double from = 1.0; from < 1024.0; from *= 2.0) bars.push_back({from, 2.0 * from, 0.0});
   for (const clustering::ClusterSize& size : sizes) {
     if (size.unknowns == 0) continue;
-    // The upper end is the bar's own: what is as large as the cap stands below it.
+    // The upper end is the bar's own: what is as large as the limit stands below it.
     double inside = std::max(1.0, static_cast<double>(size.unknowns) - 0.5);
     auto bin = std::min(static_cast<std::size_t>(std::log2(inside)), bars.size() - 1);
     bars[bin].count += 1.0;
@@ -122,7 +122,7 @@ class ClusterStage : public QWidget {
     outline();
     sizes_->setBars(barsOf(result->sizes));
     sizes_->setCut(model_.settings().mostUnknowns);
-    sizes_->setCutText(ClusterPage::tr("cap %1").arg(model_.settings().mostUnknowns));
+    sizes_->setCutText(ClusterPage::tr("limit %1").arg(model_.settings().mostUnknowns));
     sizeCard_->setSubtitle(model_.sizesText());
   }
 
@@ -195,6 +195,15 @@ class SliderPart : public QWidget {
   QSlider* slider;
 };
 
+/// Faster than any screen is fast enough.
+QString framesText(const engine::FrameCost& cost) {
+  constexpr double most = 240.0;
+  const double frames = 1.0 / cost.seconds;
+  if (frames > most) return ClusterPage::tr("over %1").arg(static_cast<int>(most));
+  return ClusterPage::tr("about %1")
+      .arg(frames < 10.0 ? decimalText(frames, 1) : countText(static_cast<std::uint64_t>(frames)));
+}
+
 QWidget* inspectorOf(ClusterPage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
@@ -209,11 +218,16 @@ QWidget* inspectorOf(ClusterPage& model) {
   column->addWidget(lineOf());
   column->addWidget(labelOf(ClusterPage::tr("Result"), "section"));
   auto* clusters = new ValueRow(ClusterPage::tr("Clusters"));
-  auto* cut = new ValueRow(ClusterPage::tr("Cut by the cap"));
+  auto* cut = new ValueRow(ClusterPage::tr("Cut off by the size limit"));
   auto* kept = new ValueRow(ClusterPage::tr("Light kept in clusters"));
   auto* error = new ValueRow(ClusterPage::tr("Median error"));
   auto* most = new ValueRow(ClusterPage::tr("95 % of pixels below"));
-  for (ValueRow* row : {clusters, cut, kept, error, most}) column->addWidget(row);
+  auto* films = new ValueRow(ClusterPage::tr("Films, frames a second"));
+  films->setObjectName("frame-rate");
+  films->setToolTip(ClusterPage::tr(
+      "What this computer manages in Full HD with the light that Threshold keeps. The groups make no "
+      "difference to it: films are solved in overlapping windows."));
+  for (ValueRow* row : {clusters, cut, kept, error, most, films}) column->addWidget(row);
   auto* normal = new Note(Note::Kind::information);
   normal->setText(
       ClusterPage::tr("An error of 70 to 80 % is normal here."),
@@ -226,25 +240,29 @@ QWidget* inspectorOf(ClusterPage& model) {
   column->addWidget(percolated);
   column->addStretch(1);
 
-  auto change = [&model](auto apply) {
+  auto change = [&model](const QString& what, auto apply) {
     clustering::ClusteringSettings settings = model.settings();
     apply(settings);
-    model.setSettings(settings);
+    model.setSettings(settings, what);
   };
   QObject::connect(distance->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](clustering::ClusteringSettings& s) { s.patchRadius = value; });
+    change(ClusterPage::tr("Distance"),
+           [value](clustering::ClusteringSettings& s) { s.patchRadius = value; });
   });
   QObject::connect(share->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](clustering::ClusteringSettings& s) { s.patchCut = value / 100.0; });
+    change(ClusterPage::tr("Share of the brightest"),
+           [value](clustering::ClusteringSettings& s) { s.patchCut = value / 100.0; });
   });
   QObject::connect(largest->slider, &QSlider::valueChanged, &model, [change](int value) {
-    change([value](clustering::ClusteringSettings& s) { s.mostUnknowns = 16 * value; });
+    change(ClusterPage::tr("Largest cluster"),
+           [value](clustering::ClusteringSettings& s) { s.mostUnknowns = 16 * value; });
   });
   auto refresh = [=, &model] {
     const clustering::ClusteringSettings& settings = model.settings();
     distance->set(static_cast<int>(settings.patchRadius), ClusterPage::tr("%1 px").arg(settings.patchRadius));
     share->set(static_cast<int>(std::lround(100.0 * settings.patchCut)), percentText(settings.patchCut));
     largest->set(settings.mostUnknowns / 16, ClusterPage::tr("%1 px").arg(settings.mostUnknowns));
+    films->setValue(model.frameCost() ? framesText(*model.frameCost()) : QString::fromUtf8("–"));
     const auto& result = model.result();
     percolated->setVisible(false);
     normal->setVisible(false);
@@ -263,10 +281,11 @@ QWidget* inspectorOf(ClusterPage& model) {
         s.litProjectorPixels > 0 ? s.largestBeforeCap / static_cast<double>(s.litProjectorPixels) : 0.0;
     percolated->setVisible(joined > 0.2);
     percolated->setText(
-        ClusterPage::tr("Without the cap, one cluster would cover %1 of the picture.")
+        ClusterPage::tr("Without a size limit, one cluster would cover %1 of the picture.")
             .arg(percentText(joined)),
-        ClusterPage::tr("The surface is blurred across neighbouring pixels, so groups join up. The cap keeps "
-                        "them apart."));
+        ClusterPage::tr(
+            "The surface is blurred across neighbouring pixels, so groups join up. The limit keeps "
+            "them apart."));
   };
   refreshOn(model, card, refresh, &ClusterPage::settingsChanged, &ClusterPage::resultChanged);
   return card;

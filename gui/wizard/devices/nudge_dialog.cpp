@@ -62,7 +62,7 @@ QString adviceOn(const sentinels::Movement& moved) {
 
 NudgeDialog::NudgeDialog(Nudge& nudge, QWidget* parent) : QDialog(parent), nudge_(nudge) {
   setObjectName("nudge");
-  setWindowTitle(tr("Push the camera back"));
+  setWindowTitle(tr("Put the camera back"));
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(24, 24, 24, 24);
   row->setSpacing(24);

@@ -68,7 +68,7 @@ StepStatus LinearizePage::status() const {
   switch (session_.progress(calibration::Stage::linearization)) {
     case calibration::StageProgress::done:
       if (result_ && !result_->additivityError.empty())
-        return {StepState::done, tr("%1 additivity error")
+        return {StepState::done, tr("Colours within %1")
                                      .arg(percentText(*std::max_element(result_->additivityError.begin(),
                                                                         result_->additivityError.end())))};
       return {StepState::done, tr("Measured")};
@@ -151,7 +151,7 @@ const linearization::ProjectorResponse* LinearizePage::response() const {
 std::optional<double> LinearizePage::blackShare() const {
   if (session_.roomLight()) return session_.roomLight()->share;
   const std::shared_ptr<const transport::Acquisition> measured = session_.acquisition();
-  if (!measured) return std::nullopt;
+  if (!measured) return result_ ? result_->blackShare : std::nullopt;
   double black = 0.0, flood = 0.0;
   for (float value : measured->black) black += static_cast<double>(value);
   for (float value : measured->flood) flood += static_cast<double>(value);
@@ -186,6 +186,7 @@ void LinearizePage::measure(bool again) {
   lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
+    room->countPauses([devices = work.devices] { return devices->live().paused(); });
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =

@@ -2,7 +2,7 @@
 #include "wizard/linearize/linearize_view.h"
 
 #include <QComboBox>
-#include <QStackedWidget>
+#include <algorithm>
 #include <cmath>
 
 #include "relucent/base/message.h"
@@ -57,6 +57,61 @@ std::vector<charts::Curve> measured(const LinearizePage::Ramps& ramps) {
   return curves;
 }
 
+/// Of every level, light less the curve.
+std::vector<charts::Curve> residuals(const linearization::ProjectorResponse& response) {
+  std::vector<charts::Curve> curves;
+  for (std::size_t c = 0; c < 3; ++c) {
+    charts::Curve curve{{}, channels[c].style, channels[c].marker};  // the legend is the response's
+    const std::vector<double>& x = response.channels[c].x();
+    for (std::size_t i = 0; i < std::min(x.size(), response.residuals[c].size()); ++i)
+      curve.points.push_back({codes * x[i], percent * response.residuals[c][i]});
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+double largestResidual(const linearization::ProjectorResponse& response) {
+  double most = 0.0;
+  for (const std::vector<double>& channel : response.residuals)
+    for (double residual : channel) most = std::max(most, std::abs(residual));
+  return most;
+}
+
+/// A round figure that is no less, so that the axis has few digits.
+double roundedUp(double percents) {
+  const double decade = std::pow(10.0, std::floor(std::log10(std::max(percents, 1e-3))));
+  for (double digit : {1.0, 2.0, 5.0})
+    if (digit * decade >= percents) return digit * decade;
+  return 10.0 * decade;
+}
+
+/// How far the photographs are from the curve that was fitted; hidden where that was not recorded.
+QWidget* residualCard(LinearizePage& model) {
+  auto* card = new Card(LinearizePage::tr("Residuals"));
+  const auto level = axisOf(0.0, codes, LinearizePage::tr("Level sent to the projector"));
+  const QString title = LinearizePage::tr("Photographed less fitted, % of full");
+  auto* chart = new LineChart(level, axisOf(-1.0, 1.0, title));
+  chart->setObjectName("residual-chart");
+  chart->setAccessibleName(LinearizePage::tr("How far each level's light is from the fitted curve"));
+  card->body()->addWidget(chart, 1);
+  auto refresh = [&model, card, chart, level, title] {
+    const linearization::ProjectorResponse* known = model.isMeasuring() ? nullptr : model.response();
+    const bool isShown = known != nullptr && !known->residuals[0].empty();
+    card->setVisible(isShown);
+    if (!isShown) return;
+    const double most = largestResidual(*known);
+    const double high = roundedUp(percent * most);
+    chart->setAxes(level, axisOf(-high, high, title));
+    chart->setCurves(residuals(*known));
+    const QString within = LinearizePage::tr("within ±%1").arg(percentText(most));
+    card->setSubtitle(within);
+    chart->setAccessibleDescription(within);
+  };
+  refreshOn(model, card, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged,
+            &LinearizePage::progressChanged);
+  return card;
+}
+
 QWidget* liveCards(LinearizePage& model) {
   auto* row = new QWidget;
   auto* layout = new QHBoxLayout(row);
@@ -76,7 +131,10 @@ QWidget* liveCards(LinearizePage& model) {
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
   layout->addWidget(sent, 1);
   layout->addWidget(seen, 1);
-  auto refresh = [&model, pattern, photograph, seen] {
+  auto refresh = [&model, row, pattern, photograph, seen] {
+    // The residuals have this place once they are known.
+    const bool hasResiduals = model.response() != nullptr && !model.response()->residuals[0].empty();
+    row->setVisible(model.isMeasuring() || !hasResiduals);
     if (!model.isMeasuring()) return;
     LivePictures live = model.pictures();
     if (live.pattern.empty() || live.frame.signal.empty()) return;
@@ -86,7 +144,8 @@ QWidget* liveCards(LinearizePage& model) {
         LinearizePage::tr("%1, photograph %2")
             .arg(exposureText(live.frame.seconds), countText(static_cast<std::uint64_t>(live.photographs))));
   };
-  refreshOn(model, row, refresh, &LinearizePage::settingsChanged, &LinearizePage::progressChanged);
+  refreshOn(model, row, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged,
+            &LinearizePage::progressChanged);
   return row;
 }
 
@@ -103,6 +162,7 @@ QWidget* stageOf(LinearizePage& model) {
   response->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, response));
   response->body()->addWidget(chart, 1);
   column->addWidget(response, 3);
+  column->addWidget(residualCard(model), 2);
   column->addWidget(liveCards(model), 2);
   auto refresh = [&model, response, chart] {
     if (model.isMeasuring()) {

@@ -109,7 +109,7 @@ QWidget* proofPart(OutputPage& page) {
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
-  QPushButton* push = buttonOf(OutputPage::tr("Push the camera back"));
+  QPushButton* push = buttonOf(OutputPage::tr("Put the camera back"));
   push->setObjectName("push-back");
   push->setToolTip(
       OutputPage::tr("Shows full light, and where the camera has to be turned to look where it looked."));

@@ -124,12 +124,12 @@ QString OutputPage::hint() const {
                    ? tr("Confirm that the room is clear.")
                    : tr("The surface does not look as predicted. Find out whether something moved.");
       case OutputProof::Next::pushBack:
-        return tr("The camera's view has moved by %1 px. Push it back, then photograph again.")
+        return tr("The camera's view has moved by %1 px. Put it back, then photograph again.")
             .arg(decimalText(movedPixels(proof_.proof()->figures.moved), 1));
       case OutputProof::Next::measureAgain:
         return tr("Something has changed since it was measured. Measure again, then install.");
       case OutputProof::Next::aimAgain:
-        return tr("Camera or projector stand elsewhere. Push the camera back, or aim and measure again.");
+        return tr("Camera or projector stand elsewhere. Put the camera back, or aim and measure again.");
       case OutputProof::Next::install:
         return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
                              : tr("Playing. Hold A to compare.");
@@ -150,7 +150,7 @@ void OutputPage::updateCommands() {
                  !playlist_.isEmpty());
   prove_->show(tr("Take verification photograph"), proof_.isPossible());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
-  pushBack_->show(tr("Push the camera back"), proof_.isPossible());
+  pushBack_->show(tr("Put the camera back"), proof_.isPossible());
   measureAgain_->show(tr("Measure again"));
   aimAgain_->show(tr("Aim again"));
   goOnMeasuring_->show(goOnMeasuringText());

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "output/default_picture.h"
+#include "output/drive_pictures.h"
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/compensation/prediction.h"
@@ -58,8 +59,9 @@ void findUncorrectable(const compensation::MeasuredVenue& venue, const compensat
   auto shares = compensation::sharesOf(compensation::uncorrectableMap(venue, target, {}, quiet));
   preview.unlit = shares[static_cast<std::size_t>(compensation::Uncorrectable::unlit)] +
                   shares[static_cast<std::size_t>(compensation::Uncorrectable::shadowed)];
-  preview.tooDark = shares[static_cast<std::size_t>(compensation::Uncorrectable::tooDark)] + preview.unlit;
-  preview.tooBright = shares[static_cast<std::size_t>(compensation::Uncorrectable::tooBright)];
+  const compensation::UnreachableShares unreachable = compensation::unreachableShares(venue, target);
+  preview.tooDark = unreachable.tooDark;
+  preview.tooBright = unreachable.tooBright;
 }
 
 }  // namespace
@@ -72,11 +74,15 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
   const compensation::MeasuredVenue& venue = engine.measured.venue;
   const Rasters& cameras = venue.transport.cameras();
   compensation::Target target = fitTarget(*content, venue, targetOf(settings));
-  compensation::Prediction with =
-      compensation::predict(venue, target, engine.compensator->solve(settings.method, target, quiet));
-  compensation::Prediction without = compensation::predict(
-      venue, target, engine.compensator->solve(compensation::Method::none, target, quiet));
+  const compensation::Compensation corrected = engine.compensator->solve(settings.method, target, quiet),
+                                   warped =
+                                       engine.compensator->solve(compensation::Method::none, target, quiet);
+  const compensation::Prediction with = compensation::predict(venue, target, corrected),
+                                 without = compensation::predict(venue, target, warped);
   auto preview = std::make_shared<ContentPreview>();
+  const Rasters& projectors = venue.transport.projectors();
+  preview->sentWith = drivePictures(corrected.projector, projectors, engine.encoders);
+  preview->sentWithout = drivePictures(warped.projector, projectors, engine.encoders);
   preview->content = content;
   preview->picture = settings.picture;
   preview->with = image::imageFromStack(with.camera, cameras, 0);

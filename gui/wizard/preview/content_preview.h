@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QImage>
 #include <memory>
 #include <optional>
 
 #include "relucent/compensation/methods.h"
+#include "relucent/engine/drive_encoder.h"
 #include "relucent/pipeline/measured_venue.h"
 
 namespace relucent::gui {
@@ -27,16 +29,19 @@ struct ContentPreview {
   float white = 1.0f;
   compensation::Corners corners{};
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
-  double tooDark = 0.0, tooBright = 0.0;        // shares of the content
-  double unlit = 0.0;                           // of these, what no projector lights
+  double tooDark = 0.0, tooBright = 0.0;        // with what is reachable, the whole content
+  double unlit = 0.0;                           // share of the content that no projector lights
   std::shared_ptr<const image::Image> content;  // what was placed
   std::string picture;                          // where it came from
+  // What the projectors are sent for either, a picture each.
+  std::vector<QImage> sentWithout, sentWith;
 };
 
 /// Everything that predicting needs, made once for a threshold.
 struct PreviewEngine {
   pipeline::MeasuredCalibration measured;
   std::optional<compensation::Compensator> compensator;
+  std::vector<engine::DriveEncoder> encoders;  // of the projectors
 };
 
 /// The content in its place, by the settings' method and uncorrected. Takes as long as the method.

@@ -2,12 +2,16 @@
 #include "wizard/preview/preview_page.h"
 
 #include <QFileInfo>
+#include <QGuiApplication>
+#include <algorithm>
+#include <utility>
 
 #include "output/default_picture.h"
 #include "relucent/base/message.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "views/number_text.h"
+#include "wizard/devices/projector_screens.h"
 #include "wizard/session/results_beside.h"
 
 namespace relucent::gui {
@@ -36,6 +40,8 @@ void make(PreviewEngine& engine, const std::filesystem::path& path, Progress& pr
   compensation::CompensatorSettings settings;
   settings.clustering = pipeline::settingsOf(folder).clustering;
   engine.compensator.emplace(engine.measured.venue, engine.measured.inverse, settings);
+  for (const linearization::ProjectorResponse& response : engine.measured.linearization.projectors)
+    engine.encoders.emplace_back(response, 8, engine::Dither::blueNoise);
 }
 
 }  // namespace
@@ -47,6 +53,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           [this](std::shared_ptr<const ContentPreview> preview) {
             preview_ = std::move(preview);
             problem_.clear();
+            surface_.present(sent());
             adoptContent(preview_->picture, preview_->content);
             if (table_.empty()) compareNext();
             tellAll();
@@ -73,6 +80,11 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  shine_ = addCommand(Icon::projector, [this] { isShining() ? stopShining() : shine(); });
+  compare_ = addCommand(Icon::picture, [this] { setShinesCorrected(!shinesCorrected()); });
+  connect(&surface_, &SurfacePictures::changed, this, &PreviewPage::surfaceChanged);
+  for (auto signal : {&QGuiApplication::screenAdded, &QGuiApplication::screenRemoved})
+    connect(qGuiApp, signal, this, &PreviewPage::tellStatus);
   connect(&session_, &Session::opened, this, [this] {
     finish();
     settings_ = session_.settings().content;
@@ -95,6 +107,16 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   connect(&job_, &Job::progressed, this, &PreviewPage::tellProgress);
   connect(&job_, &Job::ended, this, &PreviewPage::prepared);
   updateCommands();
+}
+
+void PreviewPage::leave() {
+  looked_ = false;
+  stopShining();
+}
+
+void PreviewPage::finish() {
+  stopShining();
+  job_.cancel();
 }
 
 void PreviewPage::enter() {
@@ -129,8 +151,8 @@ void PreviewPage::prepare() {
 }
 
 void PreviewPage::prepared() {
-  const bool isLeased = session_.devicesUser() == stepName;
-  lease_.release();
+  const bool isLeased = session_.devicesUser() == stepName && !isShining();
+  if (!isShining()) lease_.release();
   if (job_.state() == Job::State::done) {
     engine_ = std::exchange(made_, nullptr);
     if (isLeased) session_.reload();
@@ -225,6 +247,13 @@ void PreviewPage::compareNext() {
   });
 }
 
+std::optional<Banner> PreviewPage::banner() const {
+  if (session_.progress(calibration::Stage::acquisition) != calibration::StageProgress::stale)
+    return stoppedEarly(session_, goOnMeasuring_);
+  return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
+                tr("It still works, and what you see follows from it, until it is measured again.")};
+}
+
 StepStatus PreviewPage::status() const {
   if (job_.isRunning())
     return {session_.progress(calibration::Stage::content) == calibration::StageProgress::open
@@ -244,6 +273,10 @@ StepStatus PreviewPage::status() const {
 }
 
 QString PreviewPage::hint() const {
+  if (isShining() && surface_.isScreenMissing()) return tr("The projector's screen is unplugged.");
+  if (isShining())
+    return shinesCorrected_ ? tr("On the surface now: the corrected picture.")
+                            : tr("On the surface now: the uncorrected picture.");
   if (job_.isRunning()) return job_.stage();
   if (!engine_)
     return session_.areDevicesFree() ? tr("The preview is not prepared.")
@@ -258,6 +291,52 @@ QString PreviewPage::hint() const {
 void PreviewPage::updateCommands() {
   goOnMeasuring_->show(goOnMeasuringText());
   accept_->show(tr("Go to output"), preview_ != nullptr && engine_ != nullptr && whyLocked().isEmpty());
+  const QString why = whyNotShining();
+  shine_->setGlyph(isShining() ? Icon::stop : Icon::projector);
+  shine_->show(isShining() ? tr("Stop shining") : tr("Shine on surface"), why.isEmpty());
+  shine_->setToolTip(why.isEmpty() ? tr("Shows this picture on the surface until you stop it or leave.")
+                                   : why);
+  compare_->show(shinesCorrected_ ? tr("Show uncorrected") : tr("Show corrected"));
+}
+
+std::vector<PageCommand*> PreviewPage::secondary() const {
+  if (isShining()) return {compare_, shine_};
+  return {shine_};
+}
+
+QString PreviewPage::whyNotShining() const {
+  if (isShining()) return {};
+  if (!preview_ || !engine_) return tr("There is no preview yet.");
+  if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
+  const std::vector<ScreenIdentity> screens = projectorScreens(session_);
+  if (screens.size() < preview_->sentWith.size())
+    return tr("The projector's screen is not there. Plug it in and extend the desktop to it.");
+  if (std::ranges::any_of(screens, &ProjectorWindow::isTaken))
+    return tr("The output is on that screen. Close it first.");
+  return {};
+}
+
+/// The devices are held meanwhile: nothing measures while the picture is in its way.
+void PreviewPage::shine() {
+  if (isShining() || !whyNotShining().isEmpty()) return;
+  lease_ = session_.leaseDevices(stepName);
+  shinesCorrected_ = true;
+  surface_.shine(projectorScreens(session_), sent());
+}
+
+const std::vector<QImage>& PreviewPage::sent() const {
+  return shinesCorrected_ ? preview_->sentWith : preview_->sentWithout;
+}
+
+void PreviewPage::setShinesCorrected(bool corrected) {
+  if (!isShining() || std::exchange(shinesCorrected_, corrected) == corrected) return;
+  surface_.present(sent());
+  tellStatus();
+}
+
+void PreviewPage::surfaceChanged() {
+  if (!isShining() && !job_.isRunning()) lease_.release();
+  tellStatus();
 }
 
 std::optional<double> PreviewPage::progress() const {

@@ -3,6 +3,7 @@
 
 #include "jobs/job.h"
 #include "jobs/latest.h"
+#include "output/surface_pictures.h"
 #include "wizard/devices/stopped_early.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/preview/content_preview.h"
@@ -28,13 +29,14 @@ class PreviewPage : public PageModel {
   }
   StepStatus status() const override;
   QString hint() const override;
-  std::optional<Banner> banner() const override { return stoppedEarly(session_, goOnMeasuring_); }
+  std::optional<Banner> banner() const override;
   QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
+  std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
-  void leave() override { looked_ = false; }
-  void finish() override { job_.cancel(); }
+  void leave() override;
+  void finish() override;
 
   bool isReady() const { return engine_ != nullptr; }
   std::size_t projectors() const { return session_.projectors(); }
@@ -58,6 +60,16 @@ class PreviewPage : public PageModel {
   const std::vector<MethodPreview>& table() const { return table_; }
   bool isComputing() const { return computing_.isBusy(); }
 
+  /// The picture is on the surface, from shine() until stopShining() or until the page is left.
+  bool isShining() const { return surface_.isShining(); }
+  /// As the method corrects it, or uncorrected for comparison.
+  bool shinesCorrected() const { return shinesCorrected_; }
+  void shine();
+  void stopShining() { surface_.stop(); }
+  void setShinesCorrected(bool corrected);
+  /// Why it cannot shine now; empty: it can, or does.
+  QString whyNotShining() const;
+
  protected:
   void updateCommands() override;
 
@@ -70,9 +82,11 @@ class PreviewPage : public PageModel {
   void compute();
   void compareNext();
   void accept();
+  const std::vector<QImage>& sent() const;
+  void surfaceChanged();
 
   Session& session_;
-  PageCommand *accept_, *goOnMeasuring_;
+  PageCommand *accept_, *goOnMeasuring_, *shine_, *compare_;
   DeviceLease lease_;
   Job job_;
   pipeline::ContentSettings settings_;
@@ -89,6 +103,8 @@ class PreviewPage : public PageModel {
   Latest<std::pair<int, MethodPreview>> comparing_;
   Latest<std::pair<std::string, std::shared_ptr<const image::Image>>> reading_;
   bool looked_ = false;  // now
+  bool shinesCorrected_ = true;
+  SurfacePictures surface_;
 };
 
 }  // namespace relucent::gui

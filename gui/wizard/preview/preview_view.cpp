@@ -67,8 +67,8 @@ class PreviewStage : public QWidget {
     views_[picture]->setAccessibleName(
         PreviewPage::tr("What the audience will see, uncorrected at the left of the divider and "
                         "corrected at the right"));
-    views_[reachable]->setAccessibleName(
-        PreviewPage::tr("The brightest light that can be reached; hatched where it is too little"));
+    views_[reachable]->setAccessibleName(PreviewPage::tr(
+        "The brightest light that can be reached; hatched where the content is out of reach"));
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
     addViewMenu(
@@ -102,7 +102,7 @@ class PreviewStage : public QWidget {
   QString legend() const {
     const double missing = 1.0 - shown_->reachableShare;
     return missing < 0.0005 ? PreviewPage::tr("All of it can be reached")
-                            : PreviewPage::tr("Hatched: %1 stays too dark").arg(percentText(missing));
+                            : PreviewPage::tr("Hatched: %1 cannot be reached").arg(percentText(missing));
   }
   Card* tableCard() {
     auto* card = new Card(PreviewPage::tr("Methods"));

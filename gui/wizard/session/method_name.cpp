@@ -27,7 +27,7 @@ QString methodName(compensation::Method method) {
     case compensation::Method::windows:
       return Names::tr("Windows");
     case compensation::Method::refined:
-      return Names::tr("Windows and steps");
+      return Names::tr("All bounces, for films");
     case compensation::Method::optimum:
       break;
   }

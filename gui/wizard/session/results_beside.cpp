@@ -8,6 +8,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/message.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/measured_again.h"
 
 namespace relucent::gui {
@@ -23,7 +24,8 @@ constexpr std::array measuredStages{Stage::linearization, Stage::acquisition};
 
 bool ResultsBeside::areNeeded(const Session& session) {
   return session.isMeasuring() || std::ranges::any_of(measuredStages, [&session](Stage stage) {
-           return session.mayReturnToEarlier(stage);
+           return session.mayReturnToEarlier(stage) ||
+                  session.progress(stage) == calibration::StageProgress::stale;
          });
 }
 
@@ -34,7 +36,13 @@ ResultsBeside::ResultsBeside(const std::filesystem::path& calibration) {
     // Before there is a way to the results: who opens a calibration for writing clears away what is half
     // written.
     CalibrationFolder folder = CalibrationFolder::open(path(), CalibrationFolder::Access::write);
-    for (Stage stage : measuredStages) pipeline::returnToEarlier(folder, stage);
+    for (Stage stage : measuredStages) {
+      pipeline::returnToEarlier(folder, stage);
+      // Of other settings than those of now: it is what there is until it is measured with these.
+      if (const std::string inputs = calibration::fingerprintOf(folder, stage);
+          !folder.isCurrent(stage, inputs))
+        folder.takeAsCurrent(stage, inputs);
+    }
   }
   std::error_code code;
   std::filesystem::create_directory_symlink(calibration / "results", path() / "results", code);

@@ -8,12 +8,12 @@
 
 namespace relucent::gui {
 
-/// A calibration's results as they were before it began to be measured again, to be read while that goes on
-/// or has not ended: a copy of its manifest, with the settings of those results, beside a link to them, which
-/// nobody changes. Gone with this.
+/// A calibration's results as they were before it began to be measured again, or before other settings were
+/// chosen, to be read until there are new ones: a copy of its manifest, in which they are current, beside a
+/// link to them, which nobody changes. Gone with this.
 class ResultsBeside {
  public:
-  /// Whether they are needed: the folder is a measurement's, or its settings are those of one.
+  /// Whether they are needed: the folder is a measurement's, or its settings are not those of its results.
   static bool areNeeded(const Session& session);
 
   /// Throws: Error{disk, format}.

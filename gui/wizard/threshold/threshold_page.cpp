@@ -78,7 +78,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   connect(&session_, &Session::opened, this, [this] {
     cut_ = session_.settings().threshold;
-    shareOfRow_ = cut_.shareOfRowMax > 0.0f;
+    shareOfPixel_ = cut_.shareOfRowMax > 0.0f;
     absoluteBefore_ = shareBefore_ = 0.0f;
     forget();
   });
@@ -113,7 +113,7 @@ void ThresholdPage::compute() {
   if (adopted_) {
     if (whole_ && keepsEverything(cut_)) kept_ = whole_;
     if (!keepsEverything(cut_)) {
-      if (whole_ && !shareOfRow_)
+      if (whole_ && !shareOfPixel_)
         kept_ = transport::estimatedAfterCut(*whole_, static_cast<double>(cut_.absolute));
       statistics_.ask([acquisition = adopted_, cut = cut_] {
         return transport::statisticsOf(acquisition->transport, cut);
@@ -162,23 +162,37 @@ std::optional<Banner> ThresholdPage::banner() const {
                 tr("Look at it again, then go on.")};
 }
 
-void ThresholdPage::setShareOfRow(bool share) {
-  if (std::exchange(shareOfRow_, share) == share) return;
-  // One way at a time; the other one drops nothing, and is found again as it was left.
+/// One way at a time; the other one drops nothing, and is found again as it was left.
+void ThresholdPage::setShareOfPixel(bool share) {
+  if (share == shareOfPixel_) return;
+  Choice after{cut_, share};
   if (share) {
-    absoluteBefore_ = std::exchange(cut_.absolute, 0.0f);
-    cut_.shareOfRowMax = shareBefore_;
+    absoluteBefore_ = std::exchange(after.cut.absolute, 0.0f);
+    after.cut.shareOfRowMax = shareBefore_;
   } else {
-    shareBefore_ = std::exchange(cut_.shareOfRowMax, 0.0f);
-    cut_.absolute = absoluteBefore_;
+    shareBefore_ = std::exchange(after.cut.shareOfRowMax, 0.0f);
+    after.cut.absolute = absoluteBefore_;
   }
-  compute();
+  change(tr("Kind of cut"), after);
 }
 
 void ThresholdPage::setAbsolute(double cut) {
-  shareOfRow_ = false;
-  cut_.shareOfRowMax = 0.0f;
-  cut_.absolute = static_cast<float>(cut);
+  Choice after{cut_, false};
+  after.cut.shareOfRowMax = 0.0f;
+  after.cut.absolute = static_cast<float>(cut);
+  change(tr("Cut"), after);
+}
+
+void ThresholdPage::change(const QString& what, const Choice& after) {
+  if (after.cut.absolute == cut_.absolute && after.cut.shareOfRowMax == cut_.shareOfRowMax &&
+      after.isShareOfPixel == shareOfPixel_)
+    return tellSettings();
+  changeUndoably(what, Choice{cut_, shareOfPixel_}, after, [this](const Choice& choice) { take(choice); });
+}
+
+void ThresholdPage::take(const Choice& choice) {
+  cut_ = choice.cut;
+  shareOfPixel_ = choice.isShareOfPixel;
   compute();
 }
 
@@ -202,10 +216,10 @@ void ThresholdPage::usePicked() {
 }
 
 void ThresholdPage::setShare(double share) {
-  shareOfRow_ = true;
-  cut_.absolute = 0.0f;
-  cut_.shareOfRowMax = static_cast<float>(share);
-  compute();
+  Choice after{cut_, true};
+  after.cut.absolute = 0.0f;
+  after.cut.shareOfRowMax = static_cast<float>(share);
+  change(tr("Cut"), after);
 }
 
 void ThresholdPage::forget() {

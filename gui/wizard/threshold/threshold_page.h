@@ -44,8 +44,8 @@ class ThresholdPage : public DevicePage {
   bool isNoiseSuggested() const { return noiseSuggested_; }
 
   const transport::ThresholdSettings& cut() const { return cut_; }
-  bool isShareOfRow() const { return shareOfRow_; }
-  void setShareOfRow(bool share);
+  bool isShareOfPixel() const { return shareOfPixel_; }
+  void setShareOfPixel(bool share);
   void setAbsolute(double cut);
   void setShare(double share);
   void useSuggested() { setAbsolute(suggested_); }
@@ -86,11 +86,18 @@ class ThresholdPage : public DevicePage {
   void compute();
   void suggest(const transport::TransportStatistics& whole);
   void accept();
+  /// What is decided here, as it is undone.
+  struct Choice {
+    transport::ThresholdSettings cut;
+    bool isShareOfPixel = false;
+  };
+  void change(const QString& what, const Choice& after);
+  void take(const Choice& choice);
 
   PageCommand *accept_, *goOnMeasuring_;
   std::shared_ptr<const transport::Acquisition> adopted_;
   transport::ThresholdSettings cut_;
-  bool shareOfRow_ = false, isLookedAt_ = false;
+  bool shareOfPixel_ = false, isLookedAt_ = false;
   float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
   std::optional<transport::TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;

@@ -77,8 +77,8 @@ QWidget* stageOf(ThresholdPage& model) {
     histogram->setAxis(axis);
     histogram->setBars(barsOf(model.whole()->histogram));
     double cut = static_cast<double>(model.cut().absolute);
-    histogram->setCut(model.isShareOfRow() ? std::numeric_limits<double>::quiet_NaN()
-                                           : std::max(cut, axis.low));
+    histogram->setCut(model.isShareOfPixel() ? std::numeric_limits<double>::quiet_NaN()
+                                             : std::max(cut, axis.low));
     QString kept = model.kept() ? percentText(model.kept()->energyKept) : QString();
     histogram->setCutText(cut > 0.0 ? ThresholdPage::tr("Cut at %1, keeps %2").arg(numberText(cut), kept)
                                     : ThresholdPage::tr("Everything is kept"));
@@ -91,12 +91,12 @@ QWidget* inspectorOf(ThresholdPage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
   column->addWidget(labelOf(ThresholdPage::tr("Leave out light below"), "section"));
-  auto* kind = new Segmented({ThresholdPage::tr("One value"), ThresholdPage::tr("Share of the row")});
+  auto* kind = new Segmented({ThresholdPage::tr("One value"), ThresholdPage::tr("Share of each pixel")});
   column->addWidget(kind);
   auto* share = new QSlider(Qt::Horizontal);
   share->setRange(0, 100);
   share->setAccessibleName(
-      ThresholdPage::tr("Share of the row's strongest connection, in tenths of a percent"));
+      ThresholdPage::tr("Share of the strongest light of each camera pixel, in tenths of a percent"));
   auto* shareText = labelOf({}, "note");
   column->addWidget(share);
   column->addWidget(shareText);
@@ -105,10 +105,9 @@ QWidget* inspectorOf(ThresholdPage& model) {
   typed->setAccessibleName(ThresholdPage::tr("Cut, camera signal a second"));
   QPushButton* usePicked = buttonOf(ThresholdPage::tr("Use picked pixel"));
   usePicked->setObjectName("use-picked");
-  auto* values = new QHBoxLayout;
-  values->addWidget(typed, 1);
-  values->addWidget(usePicked);
-  column->addLayout(values);
+  // Rows of their own: the button's words are long in some languages, the number must not be cut.
+  column->addWidget(typed);
+  column->addWidget(usePicked);
   QPushButton* suggest = buttonOf({});
   suggest->setObjectName("use-suggested");
   column->addWidget(suggest);
@@ -136,7 +135,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
   column->addStretch(1);
 
   QObject::connect(kind, &Segmented::chosen, &model,
-                   [&model](int index) { model.setShareOfRow(index == 1); });
+                   [&model](int index) { model.setShareOfPixel(index == 1); });
   QObject::connect(share, &QSlider::valueChanged, &model,
                    [&model](int value) { model.setShare(value / 1000.0); });
   QObject::connect(suggest, &QPushButton::clicked, &model, &ThresholdPage::useSuggested);
@@ -150,12 +149,15 @@ QWidget* inspectorOf(ThresholdPage& model) {
     model.setAbsolute(isNumber && cut >= 0.0 ? cut : static_cast<double>(model.cut().absolute));
   });
   auto refresh = [=, &model] {
-    kind->setCurrent(model.isShareOfRow() ? 1 : 0);
-    share->setVisible(model.isShareOfRow());
-    shareText->setVisible(model.isShareOfRow());
+    kind->setCurrent(model.isShareOfPixel() ? 1 : 0);
+    share->setVisible(model.isShareOfPixel());
+    shareText->setVisible(model.isShareOfPixel());
     for (QWidget* widget : std::initializer_list<QWidget*>{typed, usePicked, suggest, why})
-      widget->setVisible(!model.isShareOfRow());
-    if (!typed->isModified()) typed->setText(typedText(static_cast<double>(model.cut().absolute)));
+      widget->setVisible(!model.isShareOfPixel());
+    if (!typed->isModified()) {
+      typed->setText(typedText(static_cast<double>(model.cut().absolute)));
+      typed->setCursorPosition(0);  // where there is too little room, the first digits are seen
+    }
     typed->setEnabled(model.whole().has_value());
     usePicked->setEnabled(model.pickedLight().has_value());
     why->setText(model.isNoiseSuggested()
@@ -163,7 +165,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
                      : ThresholdPage::tr("Suggested: keeps nearly all of the light."));
     QSignalBlocker quiet(share);
     share->setValue(static_cast<int>(std::lround(1000.0 * static_cast<double>(model.cut().shareOfRowMax))));
-    shareText->setText(ThresholdPage::tr("Below %1 of the row's strongest connection")
+    shareText->setText(ThresholdPage::tr("Below %1 of the strongest light that each camera pixel gets")
                            .arg(percentText(static_cast<double>(model.cut().shareOfRowMax))));
     suggest->setEnabled(model.whole().has_value());
     suggest->setText(ThresholdPage::tr("Use suggested, %1").arg(numberText(model.suggested())));

@@ -55,14 +55,14 @@ QString photographsText(int count) {
 
 TidyDialog::TidyDialog(std::unique_ptr<VenueTidy> tidy, QWidget* parent)
     : QDialog(parent), tidy_(std::move(tidy)) {
-  setWindowTitle(tr("Tidy"));
+  setWindowTitle(tr("Free disk space"));
   setObjectName("tidy-dialog");
   setModal(true);
   setMinimumWidth(600);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(28, 28, 28, 24);
   column->setSpacing(12);
-  column->addWidget(labelOf(tr("Tidy %1").arg(tidy_->name()), "title"));
+  column->addWidget(labelOf(tr("Disk space of %1").arg(tidy_->name()), "title"));
   column->addWidget(doing_ = labelOf({}, "secondary"));
   progress_ = new QProgressBar;
   progress_->setRange(0, 1000);
@@ -73,7 +73,7 @@ TidyDialog::TidyDialog(std::unique_ptr<VenueTidy> tidy, QWidget* parent)
   column->addWidget(done_ = new Remark);
   column->addWidget(stopped_ = new Note(Note::Kind::information));
   column->addWidget(failure_ = new Note(Note::Kind::error));
-  stopped_->setText(tr("Tidying was stopped."),
+  stopped_->setText(tr("Freeing space was stopped."),
                     tr("What was freed until then is free. Nothing that is needed is lost."));
   column->addStretch(1);
   column->addWidget(buttonRow());

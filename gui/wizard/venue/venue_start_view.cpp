@@ -67,7 +67,7 @@ class RecentRow : public QFrame {
     return picture;
   }
   QPushButton* tidyButton(VenuePage& model, const RecentVenue& venue) {
-    QPushButton* tidy = buttonOf(VenuePage::tr("Tidy…"), "flat");
+    QPushButton* tidy = buttonOf(VenuePage::tr("Free space…"), "flat");
     tidy->setObjectName("tidy");
     tidy->setAccessibleName(VenuePage::tr("Free the disk of what %1 does not need").arg(venue.name));
     const QString problem = model.tidyProblem();

@@ -19,7 +19,7 @@ QString VenueTidy::name() const {
 QString VenueTidy::problem(const Session& session) {
   return session.areDevicesFree()
              ? QString()
-             : tr("%1 is at work. Tidying can wait until it has ended.").arg(session.devicesUserName());
+             : tr("%1 is at work. Space can be freed when it has ended.").arg(session.devicesUserName());
 }
 
 void VenueTidy::look() {

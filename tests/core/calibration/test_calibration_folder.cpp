@@ -75,6 +75,19 @@ class TestCalibrationFolder : public QObject {
     QCOMPARE(byManifest.path(), read.path());
   }
 
+  /// Law: taken as current, the newest result is found by these inputs; where there is none, nothing is.
+  void theNewestResultIsTakenAsCurrent() {
+    CalibrationFolder folder = CalibrationFolder::create(root_ / "a", {}, {});
+    folder.takeAsCurrent(Stage::linearization, "now");
+    QVERIFY(!folder.isCurrent(Stage::linearization, "now"));
+    folder.store(Stage::linearization, "first", {{"n", 1}});
+    folder.store(Stage::linearization, "second", {{"n", 2}});
+    folder.takeAsCurrent(Stage::linearization, "now");
+    QCOMPARE(folder.find(Stage::linearization, "now")->values->at("n").get<int>(), 2);
+    QVERIFY(folder.isCurrent(Stage::linearization, "first"));
+    QVERIFY(!folder.isCurrent(Stage::linearization, "second"));
+  }
+
   void createRefusesWhatIsThere() {
     { CalibrationFolder::create(root_ / "taken", {}, {}); }
     std::string manifest = readFile(root_ / "taken/calibration.relucent");

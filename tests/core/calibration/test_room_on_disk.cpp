@@ -35,6 +35,8 @@ class ScriptedDisk : public RoomWaiter {
     return answer;
   }
   void over() override { ++pauses; }
+  std::chrono::steady_clock::duration paused{};
+  std::chrono::steady_clock::duration otherPauses() const override { return paused; }
 };
 
 /// Holds shots as long as the disk has room for them.
@@ -83,6 +85,19 @@ class TestRoomOnDisk : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Law: what somebody paused before this measurement is none of its pauses.
+  void otherPausesCountFromTheBeginning() {
+    using namespace std::chrono_literals;
+    ScriptedDisk disk;
+    disk.paused = 5s;
+    Progress quiet;
+    const RoomOnDisk room("/nowhere", &disk, quiet);
+    QCOMPARE(room.allPauses().count(), RoomOnDisk::Duration(0s).count());
+    disk.paused = 12s;
+    QCOMPARE(room.allPauses().count(), RoomOnDisk::Duration(7s).count());
+    QCOMPARE(RoomOnDisk("/nowhere", nullptr, quiet).allPauses().count(), RoomOnDisk::Duration(0s).count());
+  }
+
   /// Law: however the disk fills and empties, every shot is kept once, the projectors are dark in every
   /// pause, and there is always room left for what else is written.
   void noShotIsLost_data() {

@@ -63,6 +63,26 @@ class TestUncorrectable : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Law: what is reachable, too dark and too bright are the whole content, whatever else is the matter.
+  void reachableTooDarkAndTooBrightAreTheWhole() {
+    Wall wall;
+    wall.target.reachable.assign(view.count(), 1);
+    const auto wants = [&wall](std::size_t first, std::size_t count, float light) {
+      for (std::size_t i = first; i < first + count; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) wall.target.wanted[3 * i + c] = light;
+        wall.target.reachable[i] = 0;
+      }
+    };
+    wants(0, 120, 5.0f);   // beyond full light
+    wants(300, 60, 0.0f);  // below black
+    wall.usable[700] = 0;  // lit by nobody
+    wall.target.reachable[700] = 0;
+    for (std::size_t i = 1100; i < view.count(); ++i) wall.target.inside[i] = wall.target.reachable[i] = 0;
+    const UnreachableShares shares = unreachableShares(wall.venue(), wall.target);
+    QCOMPARE(shares.tooDark, 121.0 / 1100.0);
+    QCOMPARE(shares.tooBright, 60.0 / 1100.0);
+  }
+
   void aPlainWallCanBeCorrected() { QCOMPARE(countOf(Wall().map(), Uncorrectable::none), view.count()); }
 
   void everyReasonIsFound() {

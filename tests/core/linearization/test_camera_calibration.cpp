@@ -301,6 +301,35 @@ class TestCameraCalibration : public QObject {
     QVERIFY2(level > 0.7 && level < 0.86, qPrintable(QString::number(level)));
   }
 
+  /// Law: where light changes with a period, every photograph has whole periods of it, and exposures still
+  /// fit the light as well as such times can.
+  void exposuresAreWholePeriods_data() {
+    QTest::addColumn<double>("brightness");
+    QTest::addColumn<double>("period");
+    for (double period : {1.0 / 60.0, 0.01})
+      for (double brightness : {1.5, 4.0, 20.0})
+        QTest::addRow("%.4f s, %.1f", period, brightness) << brightness << period;
+  }
+  void exposuresAreWholePeriods() {
+    QFETCH(double, brightness);
+    QFETCH(double, period);
+    ScriptedCamera camera;
+    ScriptedVenue venue = venueWith(camera, 1, brightness);
+    Rig rig = venue.rig();
+    NoShotLog log;
+    ShotTaker taker(rig, log, "exposures");
+    Progress progress;
+    const ExposureChoice any = chooseExposures(taker, progress),
+                         whole = chooseExposures(taker, progress, period);
+    for (const Shot& white : whole.whites)
+      for (double seconds : white.exposuresAsked)
+        QVERIFY2(std::abs(seconds / period - std::round(seconds / period)) < 1e-6 && seconds > 0.5 * period,
+                 qPrintable(QString::number(seconds)));
+    QVERIFY(!whole.seconds.empty() && !whole.flood.empty());
+    QVERIFY(whole.seconds.back() >= period * (1.0 - 1e-9));
+    QVERIFY(whole.seconds.back() <= std::max(period, 1.1 * any.seconds.back()) * (1.0 + 1e-9));
+  }
+
   void highlightsGetAnExposure_data() {
     QTest::addColumn<double>("brighter");
     QTest::addColumn<double>("shortest");

@@ -321,6 +321,25 @@ class TestResponseFit : public QObject {
     QVERIFY2(squares / count > 0.4 && squares / count < 1.7, qPrintable(QString::number(squares / count)));
   }
 
+  /// Law: residuals are what photographs say of a level beyond the smooth curve: next to nothing where they
+  /// are clean, and more the noisier they are; full light has none.
+  void residualsAreWhatSmoothingTakesAway() {
+    World world = worldOf(3, {Emitter{}});
+    const auto largest = [&world](double noise) {
+      world.noise = noise;
+      const ResponseFit fit = fitOf(world, world.products(600, Random{5})).front();
+      double most = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (fit.residual[c].size() != fit.light[c].size() || fit.residual[c].back() != 0.0) return 1.0;
+        for (double residual : fit.residual[c]) most = std::max(most, std::abs(residual));
+      }
+      return most;
+    };
+    const double clean = largest(1e-4), noisy = largest(1e-2);
+    QVERIFY2(clean < 5e-4, qPrintable(QString::number(clean)));
+    QVERIFY2(noisy > 3.0 * clean && noisy < 0.05, qPrintable(QString::number(noisy)));
+  }
+
   /// Law: a region of the same response deviates by nothing, one of another exponent by what that makes.
   void aRegionsExponentIsFound_data() {
     QTest::addColumn<double>("exponent");

@@ -133,6 +133,15 @@ class TestSettingsJson : public QObject {
     }
   }
 
+  /// Law: a choice that is not made leaves no trace, so that what was measured before there was one stays
+  /// current; one that is made comes back.
+  void exposureUnitsAreKeptOnlyWhereChosen() {
+    CalibrateSettings settings;
+    QVERIFY(!stagesToJson(settings).at("linearization").contains("exposureUnit"));
+    settings.linearization.exposureUnit = 0.01;
+    QCOMPARE(comeBack(settings).linearization.exposureUnit, 0.01);
+  }
+
   /// A manifest of the first version: keys that came later keep their defaults, those that went are ignored.
   void manifestsOfOlderVersionsOpen() {
     CalibrateSettings settings;

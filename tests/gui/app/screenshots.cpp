@@ -179,7 +179,7 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
 int main(int argc, char** argv) {
   QApplication application(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE]\n");
+    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE [LANGUAGE]]\n");
     return 2;
   }
   QDir folder(argv[1]);
@@ -188,6 +188,7 @@ int main(int argc, char** argv) {
   QSettings settings(own.filePath("settings.ini"), QSettings::IniFormat);
   WizardWindow wizard(settings, argc > 3 ? argv[3] : own.filePath("cache").toStdString());
   wizard.page<VenuePage>().setFolder(own.filePath("venues"));
+  if (argc > 4) wizard.preferences().setLanguage(argv[4]);
   Photographs photographs(wizard, folder);
   wizard.window().show();
   photographs.take("00-empty");

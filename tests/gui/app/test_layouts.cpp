@@ -267,7 +267,7 @@ class TestLayouts : public QObject {
         resume.show(AcquirePage::tr("Resume"));
         keep.show(AcquirePage::tr("Stop and keep"));
         goOn.show(AcquirePage::tr("Continue anyway"));
-        repair.show(AcquirePage::tr("Push the camera back"));
+        repair.show(AcquirePage::tr("Put the camera back"));
         FailureDialog dialog(
             {failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn, false, &repair},
             wizard_->page<AcquirePage>().name());
@@ -337,7 +337,7 @@ class TestLayouts : public QObject {
     QTRY_COMPARE(steps().current(), std::size_t{7});
     pages({0, 1, 2, 3, 4, 5, 6, 7}, "done");
     reachesAll({0, 1, 2, 3, 4, 5, 6, 7});
-    threshold.setShareOfRow(true);
+    threshold.setShareOfPixel(true);
     Corners corners = *wizard_->page<PreviewPage>().corners();
     std::swap(corners[0], corners[1]);
     wizard_->page<PreviewPage>().setCorners(corners);

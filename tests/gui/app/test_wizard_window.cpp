@@ -644,7 +644,7 @@ class TestWizardWindow : public QObject {
     wizard_->session().open(wizard_->session().path());
     output.open();
     QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
-    QCOMPARE(output.primary()->text(), OutputPage::tr("Push the camera back"));
+    QCOMPARE(output.primary()->text(), OutputPage::tr("Put the camera back"));
     QVERIFY2(output.hint().contains("5.0"), qPrintable(output.hint()));
     QTRY_VERIFY_WITH_TIMEOUT(output.primary()->isEnabled(), patience);
     output.primary()->trigger();

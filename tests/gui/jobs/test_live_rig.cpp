@@ -2,8 +2,12 @@
 // What is seen of a rig of two projectors and two cameras while it measures.
 #include "jobs/live_rig.h"
 
+#include <QSemaphore>
 #include <QSignalSpy>
+#include <QThread>
 #include <QtTest>
+#include <atomic>
+#include <memory>
 
 #include "relucent/linearization/mosaic.h"
 
@@ -68,26 +72,53 @@ class TestLiveRig : public QObject {
   /// Law: slow cameras are waited for longer; one photograph that was held up makes none slow.
   void slowCamerasAreWaitedForLonger() {
     using namespace std::chrono_literals;
-    const auto take = [](LiveRig& live, std::chrono::milliseconds lasts) {
+    LiveRig::Clock::time_point time{};
+    const auto take = [&time](LiveRig& live, std::chrono::milliseconds lasts) {
       live.beforePhotographing(0, {{"stage", 3}, 0, 0.0});
-      QTest::qSleep(static_cast<int>(lasts.count()));
+      time += lasts;
       live.afterPhotographing(0);
       live.photographed(0, {{"stage", 3}, 0, 0.0}, lit(0.1f));
     };
-    const auto isSilentAfter = [](LiveRig& live, std::chrono::milliseconds time) {
-      const auto now = LiveRig::Clock::now();
+    const auto isSilentAfter = [&time](LiveRig& live, std::chrono::milliseconds wait) {
       live.beforePhotographing(0, {{"stage", 4}, 0, 0.0});
-      const bool silent = live.isCameraSilent(now + time);
+      const bool silent = live.isCameraSilent(time + wait);
       live.afterPhotographing(0);
       return silent;
     };
     LiveRig slow(0), heldUp(0);
+    for (LiveRig* live : {&slow, &heldUp}) live->setClock([&time] { return time; });
     for (int i = 0; i < 3; ++i) take(slow, 250ms);
     take(heldUp, 0ms);
     take(heldUp, 250ms);
     QVERIFY(!isSilentAfter(slow, 3400ms) && isSilentAfter(slow, 4500ms));
     QVERIFY(isSilentAfter(heldUp, 3400ms));
     QVERIFY((slow.lastShot() == ShotId{"stage", 3}));
+  }
+
+  /// Law: what somebody pauses is told apart from work, also while the pause lasts.
+  void pausesAreCounted() {
+    using namespace std::chrono_literals;
+    std::atomic<LiveRig::Clock::duration> time{};
+    LiveRig live(0);
+    live.setClock([&time] { return LiveRig::Clock::time_point(time.load()); });
+    struct Light : RigLight {
+      QSemaphore dark;
+      void darken() override { dark.release(); }
+      void restore() override {}
+    } light;
+    time = 10s;
+    QCOMPARE(live.paused(), LiveRig::Clock::duration{});
+    live.pause();
+    std::unique_ptr<QThread> measuring(QThread::create([&] { live.beforeShowing(0, light); }));
+    measuring->start();
+    light.dark.acquire();
+    QTRY_VERIFY((time = 70s, live.paused() == 60s));
+    live.resume();
+    measuring->wait();
+    time = 100s;
+    QCOMPARE(live.paused(), LiveRig::Clock::duration(60s));
+    live.beforeShowing(0, light);
+    QCOMPARE(live.paused(), LiveRig::Clock::duration(60s));
   }
 
   void everyCamerasPhotographIsTold() {

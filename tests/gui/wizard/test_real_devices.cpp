@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A simulated venue behind real devices: the projector is a window on the second screen of an X server, whose
-// pixels are read from that screen; the camera is a GigE Vision one on a loopback network.
-// $RELUCENT_REAL_SIZES "256x192 160x120" and $RELUCENT_UNPLUG_CYCLES make it as large as wanted.
+// Measuring with real devices, through a window and sockets. $RELUCENT_UNPLUG_CYCLES says how often they go
+// away.
 #include <QGuiApplication>
 #include <QRasterWindow>
 #include <QSignalSpy>
@@ -9,10 +8,8 @@
 #include <QThread>
 #include <QtTest>
 #include <atomic>
-#include <mutex>
-#include <thread>
 
-#include "gui/output/two_screens.h"
+#include "gui/wizard/gige_room.h"
 #include "output/window_projector.h"
 #include "relucent/base/file.h"
 #include "relucent/base/message.h"
@@ -20,9 +17,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/measuring.h"
-#include "support/fake_gige_camera.h"
 #include "support/own_network.h"
-#include "support/screen_light.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/frame/wizard.h"
@@ -44,154 +39,6 @@ using namespace relucent::transport;
 using namespace relucent::venue;
 using namespace relucent::test;
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-namespace {
-
-/// Of the projector: frames so short that a test need not wait for light.
-constexpr double frameRate = 1000.0;
-
-Size sizeFrom(const QString& text) {
-  const QStringList sides = text.split('x');
-  return {sides.at(0).toInt(), sides.at(1).toInt()};
-}
-
-struct Sizes {
-  Size projector{32, 24}, camera{28, 21};
-};
-Sizes wantedSizes() {
-  const QStringList given = qEnvironmentVariable("RELUCENT_REAL_SIZES").split(' ', Qt::SkipEmptyParts);
-  if (given.size() != 2) return {};
-  return {sizeFrom(given[0]), sizeFrom(given[1])};
-}
-
-CalibrateSettings simulatedSettings() {
-  VenueSettings venue;
-  venue.name = "corner";
-  venue.projector = wantedSizes().projector;
-  venue.camera = wantedSizes().camera;
-  if (venue.projector.width < 64) venue.pathsPerPixel = 32;
-  CalibrateSettings settings;
-  settings.rig = venue;
-  if (venue.projector.width < 64) {
-    settings.linearization.levels = 9;
-    settings.acquisition = settingsOf(AcquisitionMode::fast);
-  }
-  return settings;
-}
-
-/// A venue's light where the screen shines, photographed by a camera on the network.
-class Room {
- public:
-  Room(const VenueSettings& settings, const fs::path& cache) : light_("DUMMY1") {
-    Progress silent;
-    venue_.emplace(settings, cache, silent);
-    rig_ = venue_->rig();
-    brightness_ = 8.0 / frameRate / wellExposed();
-    fake_ = std::make_unique<FakeGigeCamera>(FakeGigeSettings{},
-                                             [this](const FakeGigeCamera::View& view) { look(view); });
-  }
-  ~Room() { fake_.reset(); }
-
-  bool isRunning() const { return fake_->isRunning(); }
-  FakeGigeCamera& camera() { return *fake_; }
-  int photographs() const { return photographs_; }
-  /// Seconds of the camera's that are one of the venue's: its exposures need not be waited for in full.
-  double brightness() const { return brightness_; }
-  /// Which photograph comes next: what noise depends on.
-  void expect(const CaptureRequest& request) {
-    std::lock_guard guard(lock_);
-    request_ = request;
-  }
-
- private:
-  double wellExposed() {
-    rig_.projectors[0]->show(Image(rig_.projectors[0]->size(), 3, 1.0f));
-    double seconds = 1e-4;
-    while (seconds < 10.0 && meanSignal(rig_.cameras[0]->capture({{"try", 0}, 0, seconds})) < 0.3)
-      seconds *= 1.3;
-    return seconds;
-  }
-
-  /// Called from the camera's thread.
-  void look(const FakeGigeCamera::View& view) {
-    const auto end = Clock::now() + std::chrono::duration<double>(view.seconds);
-    const Size size = rig_.projectors[0]->size();
-    Image shone = light_.look(size);
-    std::this_thread::sleep_until(end);  // what a sensor does
-    const Image after = light_.look(size);
-    for (std::size_t i = 0; i < shone.data().size(); ++i)
-      if (after.data()[i] != shone.data()[i]) shone.data()[i] = 0.5f * (shone.data()[i] + after.data()[i]);
-    CaptureRequest request;
-    {
-      std::lock_guard guard(lock_);
-      request = request_;
-    }
-    if (view.format != "BayerRG12" ||
-        view.sensor != sensorSize(rig_.cameras[0]->size(), {SensorLayout::bayerRG, 12}))
-      return;
-    request.seconds = view.seconds / brightness_;
-    rig_.projectors[0]->show(shone);
-    fillBayerRG12(rig_.cameras[0]->capture(request).signal, view.bytes);
-    ++photographs_;
-  }
-
-  ScreenLight light_;
-  std::optional<SimulatedVenue> venue_;
-  Rig rig_;
-  double brightness_ = 1.0;
-  std::mutex lock_;
-  CaptureRequest request_{{"none", 0}, 0, 1.0};
-  std::atomic<int> photographs_ = 0;
-  std::unique_ptr<FakeGigeCamera> fake_;
-};
-
-/// A camera whose seconds are those of the venue.
-class VenueTime : public Camera {
- public:
-  VenueTime(std::unique_ptr<Camera> camera, Room& room) : camera_(std::move(camera)), room_(room) {}
-  std::string name() const override { return camera_->name(); }
-  Size size() const override { return camera_->size(); }
-  ExposureRange exposures() const override {
-    const ExposureRange range = camera_->exposures();
-    return {range.shortest / room_.brightness(), std::min(0.2, range.longest) / room_.brightness()};
-  }
-  RawFrame capture(const CaptureRequest& request) override {
-    room_.expect(request);
-    CaptureRequest shortened = request;
-    shortened.seconds *= room_.brightness();
-    RawFrame frame = camera_->capture(shortened);
-    frame.seconds /= room_.brightness();
-    return frame;
-  }
-
- private:
-  std::unique_ptr<Camera> camera_;
-  Room& room_;
-};
-
-void switchScreen(bool on) {
-  const Size size = wantedSizes().projector;
-  const QString mode = QString("relucent-%1x%2").arg(size.width).arg(size.height);
-  if (on)
-    xrandr({"--output", "DUMMY1", "--mode", mode, "--right-of", "DUMMY0"});
-  else
-    xrandr({"--output", "DUMMY1", "--off"});
-}
-
-/// A screen of the projector's size right of the projector's.
-void switchThirdScreen(bool on) {
-  const Size size = wantedSizes().projector;
-  const QString mode = QString("relucent-%1x%2").arg(size.width).arg(size.height);
-  xrandr({"--addmode", "DUMMY2", mode});
-  if (on)
-    xrandr({"--output", "DUMMY2", "--mode", mode, "--right-of", "DUMMY1"});
-  else
-    xrandr({"--output", "DUMMY2", "--off"});
-  QTRY_VERIFY((screenOn("DUMMY2") != nullptr) == on);
-}
-
-}  // namespace
 
 class TestRealDevices : public QObject {
   Q_OBJECT

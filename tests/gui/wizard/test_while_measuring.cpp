@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // While one step measures: what other pages show, what they cannot change, and what does not end it.
 #include <QSignalSpy>
-#include <QTemporaryDir>
 #include <QtTest>
 
+#include "gui/wizard/simulated_session.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
@@ -18,38 +18,19 @@ using namespace relucent;
 using namespace relucent::calibration;
 using namespace relucent::gui;
 using namespace relucent::pipeline;
-using namespace relucent::venue;
-
-namespace {
-
-constexpr int patience = 120'000;  // ms for a small measurement on a busy machine
-
-CalibrateSettings simulated() {
-  VenueSettings venue;
-  venue.name = "plain";
-  venue.projector = {48, 36};
-  venue.camera = {40, 30};
-  venue.pathsPerPixel = 16;
-  CalibrateSettings settings;
-  settings.rig = venue;
-  settings.linearization.levels = 9;
-  return settings;
-}
-
-}  // namespace
 
 class TestWhileMeasuring : public QObject {
   Q_OBJECT
 
  private slots:
   void init() {
-    folder_ = std::make_unique<QTemporaryDir>();
-    session_ = std::make_unique<Session>(std::filesystem::path(folder_->filePath("cache").toStdString()));
+    own_ = std::make_unique<SimulatedSession>();
+    session_ = &own_->session;
   }
 
   /// Law: what a step measures with, no other step changes meanwhile, and nobody else is blamed for it.
   void whatIsMeasuredWithIsNotChangedMeanwhile() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     LinearizePage linearize(*session_);
     QSignalSpy failed(&linearize, &PageModel::failed), failedHere(&page, &PageModel::failed);
@@ -76,16 +57,15 @@ class TestWhileMeasuring : public QObject {
 
   /// Law: a measurement that is under way is ended by an answer only.
   void anotherVenueEndsAMeasurementOnlyWhenToldTo() {
-    session_->begin(folder_->filePath("other").toStdString(), simulated());
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin(smallVenue(), "other");
+    own_->begin();
     AcquirePage page(*session_);
-    QSettings settings(folder_->filePath("settings.ini"), QSettings::IniFormat);
-    VenuePage venue(*session_, RecentVenues(settings));
+    VenuePage venue(*session_, RecentVenues(own_->settings));
     QSignalSpy asked(&venue, &PageModel::failed);
     page.primary()->trigger();
     QVERIFY(page.isMeasuring());
     for (bool ends : {false, true}) {
-      venue.open(folder_->filePath("other"));
+      venue.open(own_->folder.filePath("other"));
       QCOMPARE(asked.size(), 1);
       const auto question = asked.takeFirst().front().value<FailureReport>();
       QVERIFY(question.isQuestion && question.resume && question.goOn);
@@ -95,16 +75,14 @@ class TestWhileMeasuring : public QObject {
       QCOMPARE(session_->name(), QString(ends ? "other" : "venue"));
     }
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
-    venue.open(folder_->filePath("venue"));
+    venue.open(own_->folder.filePath("venue"));
     QVERIFY(asked.isEmpty() && session_->name() == "venue");
   }
 
   /// Law: measured again or stopped early, what follows is looked at with the earlier or coarser result, and
   /// says so; it is kept once the measurement has ended.
   void laterStepsUseWhatThereIs() {
-    CalibrateSettings settings = simulated();
-    std::get<VenueSettings>(settings.rig).projector = {96, 72};
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(smallVenue({96, 72}));
     AcquirePage acquire(*session_);
     ThresholdPage threshold(*session_);
     Wizard wizard(*session_);
@@ -145,9 +123,7 @@ class TestWhileMeasuring : public QObject {
   /// Law: stopped early is a state of its own on every page and in the rail, with the way to go on; what
   /// followed from it is out of date once it has gone on, and shows nothing of the coarse measurement.
   void stoppedEarlyIsAStateOfItsOwnEverywhere() {
-    CalibrateSettings settings = simulated();
-    std::get<VenueSettings>(settings.rig).projector = {96, 72};
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(smallVenue({96, 72}));
     AcquirePage acquire(*session_);
     ThresholdPage threshold(*session_);
     ClusterPage cluster(*session_);
@@ -180,7 +156,7 @@ class TestWhileMeasuring : public QObject {
 
     // Gone on with while Cluster is looked at. What was read is let go of before what is new has been read.
     bool wasLetGoOf = false;
-    connect(session_.get(), &Session::acquisitionChanged, this, [&] {
+    connect(session_, &Session::acquisitionChanged, this, [&] {
       if (!session_->acquisition()) wasLetGoOf = !cluster.result() && !threshold.kept() && !threshold.whole();
     });
     acquire.banner()->command->trigger();
@@ -200,7 +176,7 @@ class TestWhileMeasuring : public QObject {
   /// Law: while it is measured again, what the earlier measurement came to is looked at on every page that
   /// follows, also where that was not prepared before.
   void earlierResultsAreLookedAtMeanwhile() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage acquire(*session_);
     ThresholdPage threshold(*session_);
     ClusterPage cluster(*session_);
@@ -248,9 +224,35 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(session_->acquisition() != nullptr);
   }
 
+  /// Law: settings of another measurement than the one there is make what follows out of date; it is looked
+  /// at meanwhile, and no page fails.
+  void otherSettingsMakeWhatFollowsOutOfDate() {
+    own_->begin();
+    AcquirePage acquire(*session_);
+    PreviewPage preview(*session_);
+    Wizard wizard(*session_);
+    wizard.add(acquire);
+    wizard.add(preview);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    session_->decide(ThresholdResult{.energyKept = 0.98});
+    session_->decide(ContentResult{.reachable = 0.5});
+    QSignalSpy failed(&preview, &PageModel::failed);
+    acquire.setFineness(Fineness::fine);
+    QCOMPARE(acquire.status().state, StepState::outOfDate);
+    QCOMPARE(preview.status().state, StepState::outOfDate);
+    QVERIFY(wizard.go(1));
+    QTRY_VERIFY_WITH_TIMEOUT(preview.preview() || !failed.isEmpty(), patience);
+    QVERIFY2(failed.isEmpty(),
+             qPrintable(failed.isEmpty() ? QString()
+                                         : failed.front().front().value<FailureReport>().failure.details));
+    const std::optional<Banner> banner = preview.banner();
+    QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->sentence.contains("out of date"));
+  }
+
   /// Law: measuring again is taken back as a whole: the earlier result stands, and what followed from it.
   void measuringAgainIsTakenBack() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage acquire(*session_);
     ThresholdPage threshold(*session_);
     acquire.primary()->trigger();
@@ -285,10 +287,9 @@ class TestWhileMeasuring : public QObject {
 
   /// Law: the rail says of a venue that is not begun yet nothing that belongs to the open one.
   void theRailIsOfTheVenueThatIsShown() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     session_->decide(CameraCheckResult{{1.0}, std::nullopt, {}});
-    QSettings settings(folder_->filePath("settings.ini"), QSettings::IniFormat);
-    VenuePage venue(*session_, RecentVenues(settings));
+    VenuePage venue(*session_, RecentVenues(own_->settings));
     CameraPage camera(*session_);
     Wizard wizard(*session_);
     wizard.add(venue);
@@ -306,14 +307,7 @@ class TestWhileMeasuring : public QObject {
 
   /// Law: a photograph that does not come is said before anything fails.
   void aSilentCameraIsSaid() {
-    CommandRigSettings script;
-    script.projector = {64, 48};
-    script.camera = {48, 36};
-    script.projectorCommand = "true {image}";
-    script.cameraCommand = "sleep 8 # {exposure} {output}";
-    CalibrateSettings settings;
-    settings.rig = script;
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));
     session_->setRoomClear(true);
     CameraPage camera(*session_);
     Wizard wizard(*session_);
@@ -343,8 +337,8 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(acquire.stoppedAt() > 1);
   }
 
-  std::unique_ptr<QTemporaryDir> folder_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<SimulatedSession> own_;
+  Session* session_ = nullptr;
 };
 
 QTEST_MAIN(TestWhileMeasuring)

@@ -192,14 +192,29 @@ class TestWizard : public QObject {
     session_->begin(folder_.filePath("two ways").toStdString(), CalibrateSettings());
     ThresholdPage page(*session_);
     page.setAbsolute(1e-3);
-    page.setShareOfRow(true);
+    page.setShareOfPixel(true);
     QCOMPARE(page.cut().absolute, 0.0f);
     page.setShare(0.02);
-    page.setShareOfRow(false);
+    page.setShareOfPixel(false);
     QCOMPARE(page.cut().absolute, 1e-3f);
     QCOMPARE(page.cut().shareOfRowMax, 0.0f);
-    page.setShareOfRow(true);
+    page.setShareOfPixel(true);
     QCOMPARE(page.cut().shareOfRowMax, 0.02f);
+  }
+
+  /// Law: what was chosen is taken back step by step, and done again.
+  void aCutIsUndone() {
+    session_->begin(folder_.filePath("undone").toStdString(), CalibrateSettings());
+    ThresholdPage page(*session_);
+    page.setAbsolute(1e-3);
+    page.setShareOfPixel(true);
+    page.undoStack().undo();
+    QVERIFY(!page.isShareOfPixel());
+    QCOMPARE(page.cut().absolute, 1e-3f);
+    page.undoStack().undo();
+    QCOMPARE(page.cut().absolute, 0.0f);
+    page.undoStack().redo();
+    QCOMPARE(page.cut().absolute, 1e-3f);
   }
 
   /// As the desktop opens it, and from the command line.

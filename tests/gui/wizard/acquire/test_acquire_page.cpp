@@ -2,16 +2,18 @@
 // The page of acquisition before and while it measures: plan, time to leave, tries by itself.
 #include "wizard/acquire/acquire_page.h"
 
+#include <QLabel>
 #include <QSignalSpy>
-#include <QTemporaryDir>
 #include <QtTest>
 
+#include "gui/wizard/simulated_session.h"
 #include "jobs/room_question.h"
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/venue/venue.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
+#include "wizard/acquire/block_sizes_view.h"
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/acquire/retrying_observer.h"
 
@@ -25,29 +27,8 @@ using namespace relucent::venue;
 
 namespace {
 
-constexpr int patience = 120'000;  // ms for a small measurement on a busy machine
-
-CalibrateSettings simulated() {
-  VenueSettings venue;
-  venue.name = "plain";
-  venue.projector = {48, 36};
-  venue.camera = {40, 30};
-  venue.pathsPerPixel = 16;
-  CalibrateSettings settings;
-  settings.rig = venue;
-  settings.linearization.levels = 9;
-  return settings;
-}
-
 CalibrateSettings scripted() {
-  CommandRigSettings script;
-  script.projector = {64, 48};
-  script.camera = {48, 36};
-  script.projectorCommand = "show {image}";
-  script.cameraCommand = "photograph {exposure} {output}";
-  CalibrateSettings settings;
-  settings.rig = script;
-  return settings;
+  return scriptedVenue("show {image}", "photograph {exposure} {output}");
 }
 
 }  // namespace
@@ -59,12 +40,12 @@ class TestAcquirePage : public QObject {
 
  private slots:
   void init() {
-    folder_ = std::make_unique<QTemporaryDir>();
-    session_ = std::make_unique<Session>(std::filesystem::path(folder_->filePath("cache").toStdString()));
+    own_ = std::make_unique<SimulatedSession>();
+    session_ = &own_->session;
   }
 
   void devicesWithLightWaitUntilTheRoomIsLeft() {
-    session_->begin(folder_->filePath("venue").toStdString(), scripted());
+    own_->begin(scripted());
     session_->setRoomClear(true);
     AcquirePage page(*session_);
     page.setSecondsToLeave(60);
@@ -93,7 +74,7 @@ class TestAcquirePage : public QObject {
   /// Law: each level has four times the blocks of the one before; patterns are planned, then known, then
   /// through; a rehearsal waits for nobody.
   void thePlanBecomesWhatWasMeasured() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     page.setSecondsToLeave(60);
     QVERIFY(!page.expected(Fineness::usual) && page.floodlightNumber() == 0);
@@ -123,9 +104,9 @@ class TestAcquirePage : public QObject {
   /// Law: one count of patterns says how far it is: it never says that all is done while it measures, falls
   /// where more patterns are needed than was expected, and stands still while it is paused, as the time does.
   void progressIsOfThePatternsThatAreExpected() {
-    CalibrateSettings settings = simulated();
+    CalibrateSettings settings = smallVenue();
     std::get<VenueSettings>(settings.rig).projector = {96, 72};
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(settings);
     AcquirePage page(*session_);
     QVERIFY(!page.progress() && !page.secondsLeft());
     bool isHonest = true;
@@ -166,7 +147,7 @@ class TestAcquirePage : public QObject {
 
   /// Law: bars are of the measurement that the page is about; another's come back with its settings.
   void barsAreOfThisMeasurement() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     page.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.isDone(), patience);
@@ -184,9 +165,9 @@ class TestAcquirePage : public QObject {
 
   /// A picture grows sharper while it measures, and says so to those who cannot see it.
   void whatIsExpectedIsShownWhileItMeasures() {
-    CalibrateSettings settings = simulated();
+    CalibrateSettings settings = smallVenue();
     std::get<VenueSettings>(settings.rig).projector = {96, 72};
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(settings);
     AcquirePage page(*session_);
     std::vector<int> blocks;
     connect(&page.trace(), &AcquisitionTrace::changed, &page, [&] {
@@ -210,9 +191,9 @@ class TestAcquirePage : public QObject {
 
   /// What was stopped and kept is no plain tick, and is gone on with.
   void whatWasStoppedIsGoneOnWith() {
-    CalibrateSettings settings = simulated();
+    CalibrateSettings settings = smallVenue();
     std::get<VenueSettings>(settings.rig).projector = {96, 72};
-    session_->begin(folder_->filePath("venue").toStdString(), settings);
+    own_->begin(settings);
     AcquirePage page(*session_);
     const QMetaObject::Connection stopping =
         connect(&page.trace(), &AcquisitionTrace::changed, &page, [&page] {
@@ -248,7 +229,7 @@ class TestAcquirePage : public QObject {
   /// Law: an earlier measurement is used until the new one is ready, and how far that has come is said. There
   /// is one way on, in the action bar.
   void measuredAgainTheEarlierIsUsedMeanwhile() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     page.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.isDone(), patience);
@@ -275,9 +256,43 @@ class TestAcquirePage : public QObject {
     QVERIFY(page.banner() && page.banner()->command == nullptr);
   }
 
+  /// Law: how many patterns are expected is one number, wherever it is said; done, it is how many there were.
+  void expectedPatternsAreOneNumber() {
+    own_->begin();
+    AcquirePage page(*session_);
+    measureResponse();
+    const std::unique_ptr<QWidget> card(blockSizesCard(page));
+    page.refresh();
+    const auto said = [&card] {
+      QStringList texts;
+      for (const QLabel* label : card->findChildren<QLabel*>()) texts << label->text();
+      return texts.join(' ');
+    };
+    const int expected = page.patternsExpected();
+    QCOMPARE(page.expected()->shots, expected);
+    QVERIFY2(page.hint().contains(QString::number(expected)), qPrintable(page.hint()));
+    QVERIFY2(said().contains(QString::number(expected)), qPrintable(said()));
+    page.primary()->trigger();
+    QVERIFY(page.isMeasuring());
+    QCOMPARE(page.patterns().expected, std::max(page.patterns().taken, page.patternsExpected()));
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QCOMPARE(page.patternsExpected(), page.cost()->patterns);
+  }
+
+  /// Law: finer takes longer and is better; what is said of each differs.
+  void eachFinenessHasItsQuality() {
+    own_->begin();
+    AcquirePage page(*session_);
+    const double fast = page.expectedDeviation(Fineness::fast),
+                 usual = page.expectedDeviation(Fineness::usual),
+                 fine = page.expectedDeviation(Fineness::fine);
+    QVERIFY(fast > usual && usual > fine);
+    QVERIFY(percentText(fast) != percentText(usual) && percentText(usual) != percentText(fine));
+  }
+
   /// Law: who may not start is told why beside the button, and led there.
   void whatStandsAgainstMeasuringIsSaid() {
-    session_->begin(folder_->filePath("venue").toStdString(), scripted());
+    own_->begin(scripted());
     AcquirePage page(*session_);
     page.refresh();
     QVERIFY(!page.primary()->isEnabled() && page.hasRemedy());
@@ -289,7 +304,7 @@ class TestAcquirePage : public QObject {
 
   /// Law: whoever waits for room is told of above the page, with what is needed, until it goes on.
   void aFullDiskIsSaidAndGoneOnWith() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     auto* room = page.findChild<RoomQuestion*>();
     QVERIFY(room != nullptr);
@@ -313,7 +328,7 @@ class TestAcquirePage : public QObject {
   }
 
   void whatIsKeptCanBeChosenAndTakenBack() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
+    own_->begin();
     AcquirePage page(*session_);
     QCOMPARE(page.keptPhotographs(), KeptPhotographs::everything);
     page.setKeptPhotographs(KeptPhotographs::results);
@@ -327,16 +342,9 @@ class TestAcquirePage : public QObject {
 
   /// Law: finer takes longer.
   void everyFinenessHasItsTime() {
-    session_->begin(folder_->filePath("venue").toStdString(), simulated());
-    {
-      Progress progress;
-      SimulatedVenue venue(std::get<VenueSettings>(simulated().rig), {}, progress);
-      Rig rig = venue.rig();
-      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
-      measureLinearization(folder, rig, progress);
-    }
+    own_->begin();
     AcquirePage page(*session_);
-    session_->reload();
+    measureResponse();
     for (bool fineChosen : {false, true}) {
       if (fineChosen) page.setFineness(Fineness::fine);
       auto fast = page.expected(Fineness::fast), usual = page.expected(Fineness::usual),
@@ -389,8 +397,19 @@ class TestAcquirePage : public QObject {
   }
 
  private:
-  std::unique_ptr<QTemporaryDir> folder_;
-  std::unique_ptr<Session> session_;
+  void measureResponse() {
+    Progress progress;
+    SimulatedVenue venue(std::get<VenueSettings>(session_->settings().rig), {}, progress);
+    Rig rig = venue.rig();
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      measureLinearization(folder, rig, progress);
+    }
+    session_->reload();
+  }
+
+  std::unique_ptr<SimulatedSession> own_;
+  Session* session_ = nullptr;
 };
 
 QTEST_MAIN(TestAcquirePage)

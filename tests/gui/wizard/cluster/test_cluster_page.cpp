@@ -140,6 +140,27 @@ class TestClusterPage : public QObject {
         QVERIFY(result.error[i] == direct.error[i]);
   }
 
+  /// Law: what was chosen is taken back, and grouped again as before.
+  void theSlidersAreUndone() {
+    const std::vector<std::uint32_t> map = page_->result()->map;
+    const double radius = page_->settings().patchRadius;
+    ClusteringSettings settings = page_->settings();
+    settings.patchRadius = 3.0;
+    page_->setSettings(settings, "Distance");
+    QTRY_VERIFY(isExact() && page_->result()->map != map);
+    page_->undoStack().undo();
+    QCOMPARE(page_->settings().patchRadius, radius);
+    QTRY_VERIFY(isExact() && page_->result()->map == map);
+  }
+
+  /// Law: the time of a frame is measured once the groups are known, and forgotten with the calibration.
+  void framesAreTimedAfterTheGroups() {
+    QTRY_VERIFY_WITH_TIMEOUT(page_->frameCost().has_value(), 60'000);
+    QVERIFY(page_->frameCost()->seconds > 0.0 && !page_->frameCost()->device.empty());
+    session_->begin(std::filesystem::path(folder_->filePath("other").toStdString()), CalibrateSettings());
+    QVERIFY(!page_->frameCost());
+  }
+
   void anotherCalibrationForgetsWhatWasAskedForThisOne() {
     ClusteringSettings settings = page_->settings();
     settings.patchRadius = 3.0;

@@ -7,6 +7,7 @@
 #include <QtTest>
 #include <map>
 
+#include "gui/wizard/simulated_session.h"
 #include "relucent/base/file.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/measured_again.h"
@@ -26,19 +27,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int patience = 60'000;  // ms for a small calibration on a busy machine
 using State = VenueTidy::State;
 
 CalibrateSettings tiny() {
-  venue::VenueSettings venue;
-  venue.name = "plain";
-  venue.projector = {24, 18};
-  venue.camera = {20, 16};
-  venue.pathsPerPixel = 16;
-  CalibrateSettings settings;
-  settings.rig = venue;
-  settings.linearization.levels = 5;
-  return settings;
+  return smallVenue({24, 18}, {20, 16}, 5);
 }
 
 /// Every file by its name within the folder.
@@ -64,14 +56,13 @@ class TestVenueTidy : public QObject {
   Q_OBJECT
 
   QTemporaryDir folder_;
-  std::unique_ptr<QTemporaryDir> own_;  // of one test
-  std::unique_ptr<QSettings> settings_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<SimulatedSession> own_;  // of one test
+  Session* session_ = nullptr;
   std::unique_ptr<VenuePage> page_;
   std::unique_ptr<QWidget> window_;
 
   fs::path measured() const { return folder_.filePath("measured").toStdString(); }
-  fs::path venue() const { return own_->filePath("Old chapel").toStdString(); }
+  fs::path venue() const { return own_->path("Old chapel"); }
   QPushButton* entry() const { return window_->findChild<QPushButton*>("tidy"); }
   TidyDialog* dialog() const { return window_->findChild<TidyDialog*>(); }
   static QPushButton* button(const TidyDialog& dialog, const char* name) {
@@ -101,16 +92,15 @@ class TestVenueTidy : public QObject {
     setShotsAside(CalibrationFolder::open(measured(), CalibrationFolder::Access::write), Stage::acquisition);
   }
   void init() {
-    own_ = std::make_unique<QTemporaryDir>();
+    own_ = std::make_unique<SimulatedSession>();
+    session_ = &own_->session;
     fs::copy(measured(), venue(), fs::copy_options::recursive);
-    settings_ = std::make_unique<QSettings>(own_->filePath("settings.ini"), QSettings::IniFormat);
-    session_ = std::make_unique<Session>(fs::path(folder_.filePath("cache").toStdString()));
-    page_ = std::make_unique<VenuePage>(*session_, RecentVenues(*settings_));
+    page_ = std::make_unique<VenuePage>(*session_, RecentVenues(own_->settings));
   }
   void cleanup() {
     window_.reset();
     page_.reset();
-    session_.reset();
+    own_.reset();
   }
 
   /// Law: what it says is what it frees, and nothing goes before somebody has agreed.

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Which part of a projector's picture a camera sees.
+#include "relucent/linearization/coverage.h"
+
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+
+using namespace relucent;
+using namespace relucent::image;
+using namespace relucent::linearization;
+using namespace relucent::rig;
+
+namespace {
+
+constexpr Size picture{96, 64}, view{96, 64};
+
+/// Remembers what it shows.
+class Screen : public Projector {
+ public:
+  explicit Screen(Image& shown) : shown_(shown) {}
+  std::string name() const override { return "screen"; }
+  Size size() const override { return picture; }
+  int bits() const override { return 8; }
+  void show(const Image& drive) override { shown_ = drive; }
+
+ private:
+  Image& shown_;
+};
+
+/// Looks at the screens side by side, `aside` columns further to the right and `below` rows further down than
+/// would show the first one whole. All pixels see some of all light as well, more of one place than of
+/// another, and some that is always there.
+class Eye : public Camera {
+ public:
+  Eye(const std::vector<Image>& shown, int aside, int below, float scattered)
+      : shown_(shown), aside_(aside), below_(below), scattered_(scattered) {}
+  std::string name() const override { return "eye"; }
+  Size size() const override { return view; }
+  ExposureRange exposures() const override { return {0.01, 1.0}; }
+  RawFrame capture(const CaptureRequest& request) override {
+    double all = 0.0;
+    for (const Image& screen : shown_)
+      for (std::size_t i = 0; i < screen.pixels(); ++i) {
+        const Pixel place = pixelAt(picture, i);
+        const double weight = place.x < 6 && place.y < 4 ? 20.0 : 1.0;
+        all += weight * static_cast<double>(screen.pixel(i)[0]) / static_cast<double>(screen.pixels());
+      }
+    Image signal(view, 3, 0.05f + scattered_ * static_cast<float>(all));
+    for (int y = 0; y < view.height; ++y)
+      for (int x = 0; x < view.width; ++x) {
+        const int column = x + aside_, row = y + below_;
+        const auto screen = static_cast<std::size_t>(column / picture.width);
+        if (column < 0 || row >= picture.height || screen >= shown_.size()) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+          signal.pixel(indexOf(view, {x, y}))[c] +=
+              0.6f * shown_[screen].pixel(indexOf(picture, {column % picture.width, row}))[c];
+      }
+    return {signal, 12, request.seconds};
+  }
+
+ private:
+  const std::vector<Image>& shown_;
+  int aside_, below_;
+  float scattered_;
+};
+
+struct Setting {
+  std::vector<Image> shown;
+  Rig rig;
+  Setting(std::size_t projectors, int aside, int below, float scattered)
+      : shown(projectors, Image(picture, 3)) {
+    for (Image& screen : shown) rig.projectors.push_back(std::make_unique<Screen>(screen));
+    rig.cameras.push_back(std::make_unique<Eye>(shown, aside, below, scattered));
+  }
+  std::vector<Coverage> look() {
+    NoShotLog log;
+    ShotTaker taker(rig, log, "coverage");
+    Progress quiet;
+    return coverageOf(taker, 0.1, quiet);
+  }
+};
+
+}  // namespace
+
+class TestCoverage : public QObject {
+  Q_OBJECT
+
+ private slots:
+  /// Law: the share is that of the picture within the view, to half a cell, and edges out of sight are named,
+  /// however much light is scattered.
+  void theShareIsWhatIsInView_data() {
+    QTest::addColumn<int>("aside");
+    QTest::addColumn<int>("below");
+    QTest::addColumn<float>("scattered");
+    for (float scattered : {0.0f, 0.6f}) {
+      QTest::addRow("all, scattered %.2f", static_cast<double>(scattered)) << 0 << 0 << scattered;
+      QTest::addRow("a quarter at the left missing, scattered %.2f", static_cast<double>(scattered))
+          << 24 << 0 << scattered;
+      QTest::addRow("half at the top missing, scattered %.2f", static_cast<double>(scattered))
+          << 0 << 32 << scattered;
+      QTest::addRow("a corner left, scattered %.2f", static_cast<double>(scattered)) << 72 << 48 << scattered;
+    }
+  }
+  void theShareIsWhatIsInView() {
+    QFETCH(int, aside);
+    QFETCH(int, below);
+    QFETCH(float, scattered);
+    const Coverage coverage = Setting(1, aside, below, scattered).look().front();
+    const double truth = (1.0 - aside / 96.0) * (1.0 - below / 64.0);
+    const double cell = 0.5 / coverage.cells.width + 0.5 / coverage.cells.height;
+    QVERIFY2(std::abs(coverage.share() - truth) <= cell, qPrintable(QString::number(coverage.share())));
+    QCOMPARE(coverage.missingLeft() > 0.9, aside > 0);
+    QCOMPARE(coverage.missingTop() > 0.9, below > 0);
+    // Nothing is seen by what it scatters alone.
+    const Size cells = coverage.cells;
+    for (std::size_t i = 0; i < coverage.seen.size(); ++i) {
+      const Pixel cell = pixelAt(cells, i);
+      if ((cell.x + 1) * picture.width <= aside * cells.width ||
+          (cell.y + 1) * picture.height <= below * cells.height)
+        QCOMPARE(int{coverage.seen[i]}, 0);
+    }
+    // The other edges are in view as far as the picture is.
+    QVERIFY(std::abs(coverage.missingRight() - below / 64.0) <= cell + 1e-9);
+    QVERIFY(std::abs(coverage.missingBottom() - aside / 96.0) <= cell + 1e-9);
+  }
+
+  /// Law: each projector's own picture is judged, not the light of the others.
+  void everyProjectorIsJudgedAlone() {
+    const std::vector<Coverage> both = Setting(2, 96, 0, 0.1f).look();
+    QCOMPARE(both.size(), std::size_t{2});
+    QCOMPARE(both[0].share(), 0.0);
+    QVERIFY(both[1].share() > 0.95);
+  }
+};
+
+QTEST_APPLESS_MAIN(TestCoverage)
+#include "test_coverage.moc"

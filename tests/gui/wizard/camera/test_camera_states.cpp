@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// What the camera's page says of what was found, before, while and after somebody looks.
+#include <QtTest>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/wizard/simulated_session.h"
+#include "theme/controls.h"
+#include "wizard/camera/camera_page.h"
+#include "wizard/camera/checks_view.h"
+
+using namespace relucent;
+using namespace relucent::gui;
+
+namespace {
+
+QString textsOf(const QWidget& part) {
+  QStringList texts;
+  for (const QLabel* label : part.findChildren<QLabel*>())
+    if (label->isVisibleTo(&part)) texts << label->text();
+  return texts.join('\n');
+}
+
+}  // namespace
+
+class TestCameraStates : public QObject {
+  Q_OBJECT
+
+  std::unique_ptr<SimulatedSession> own_;
+  std::unique_ptr<CameraPage> page_;
+  std::unique_ptr<QWidget> checks_;
+
+  void look() {
+    page_->enter();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->look() && !page_->isChecking() && page_->tooDarkEverywhere(), patience);
+  }
+  void keep() {
+    page_->primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->isLooking(), patience);
+  }
+
+ private slots:
+  void init() {
+    own_ = std::make_unique<SimulatedSession>();
+    page_ = std::make_unique<CameraPage>(own_->session);
+    checks_.reset(checksPart(*page_));
+    own_->begin();
+  }
+  void cleanup() {
+    checks_.reset();
+    page_.reset();
+  }
+
+  /// Law: nothing is said to be looked for while nobody looks; what was kept is shown as kept.
+  void aPageThatIsOpenedAgainSaysWhatIsKept() {
+    QVERIFY(textsOf(*checks_).contains(CameraPage::tr("Not checked yet")));
+    look();
+    QVERIFY(textsOf(*checks_).contains(CameraPage::tr("The camera sees the projector")));
+    QCOMPARE(page_->primary()->text(), CameraPage::tr("Keep exposures"));
+    const std::vector<double> found = page_->exposures();
+    keep();
+    own_->session.open(own_->path("venue"));
+    page_->enter();
+    QVERIFY(!page_->isLooking() && page_->isKept());
+    QVERIFY(page_->exposures() == found);
+    const QString said = textsOf(*checks_);
+    QVERIFY2(said.contains(CameraPage::tr("Checked before")), qPrintable(said));
+    QVERIFY(!said.contains(CameraPage::tr("Looking for the projector's light")));
+    QCOMPARE(page_->primary()->text(), CameraPage::tr("Continue"));
+    QVERIFY(page_->primary()->isEnabled());
+  }
+
+  /// Law: the best focus is that of this venue and this exposure; what arrives of another venue counts not.
+  void theBestFocusIsOfThisVenue() {
+    look();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->focus() > 0.0, patience);
+    own_->begin(smallVenue(), "another");  // while it is still being looked through the first one's
+    QCOMPARE(page_->focus(), 0.0);
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->isLooking(), patience);
+    QCOMPARE(page_->focus(), 0.0);
+    QVERIFY(!page_->look() && page_->exposures().empty() && page_->coverage().empty());
+  }
+
+  /// Law: how much of the picture is seen is known after the check, and said.
+  void coverageIsSaid() {
+    look();
+    QCOMPARE(page_->coverage().size(), std::size_t{1});
+    QVERIFY(page_->coverage().front().share() > 0.9);
+    auto* map = checks_->findChild<QWidget*>("coverage-map");
+    QVERIFY(map != nullptr && !map->accessibleName().isEmpty());
+  }
+
+  /// Law: whole periods are decided once, found again with, kept with the venue, and taken back by undo.
+  void exposuresOfWholePeriods() {
+    look();
+    constexpr double period = 1.0 / 60.0;
+    page_->setExposureUnit(period);
+    QCOMPARE(own_->session.settings().linearization.exposureUnit, period);
+    const auto areWhole = [this] {
+      const std::vector<double> exposures = page_->exposures();
+      return !exposures.empty() && std::ranges::all_of(exposures, [](double seconds) {
+        return std::abs(seconds / period - std::round(seconds / period)) < 1e-6;
+      });
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isLooking() && !page_->isChecking() && areWhole(), patience);
+    QVERIFY(checks_->findChild<QPushButton*>("whole-periods")->isVisibleTo(checks_.get()));
+    page_->undoStack().undo();
+    QCOMPARE(own_->session.settings().linearization.exposureUnit, 0.0);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isLooking() && !page_->isChecking() && !areWhole(), patience);
+  }
+};
+
+QTEST_MAIN(TestCameraStates)
+#include "test_camera_states.moc"

@@ -170,8 +170,11 @@ void MainWindow::showHelp() {
 }
 
 void MainWindow::bindKeys() {
+  // Held down, a key does not run from one action into the next.
   auto key = [this](const QKeySequence& keys, auto action) {
-    connect(new QShortcut(keys, this), &QShortcut::activated, this, action);
+    auto* shortcut = new QShortcut(keys, this);
+    shortcut->setAutoRepeat(false);
+    connect(shortcut, &QShortcut::activated, this, action);
   };
   for (std::size_t i = 0; i < wizard_.count(); ++i)
     key(QKeySequence(QString("Alt+%1").arg(i + 1)), [this, i] { wizard_.go(i); });
@@ -195,10 +198,10 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
   // What is clicked is in sight and must not move under the pointer.
   if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
     bringIntoSight(now);
-  // A button of the action bar that is done, and goes, would leave its focus to the rail, which is next:
-  // Enter would then leave the page.
-  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before) || !rail_->isAncestorOf(now))
-    return;
+  // A button of the action bar that is done, and goes, would leave its focus to the rail or to Back, which are
+  // next: Enter would then leave the page.
+  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before)) return;
+  if (!rail_->isAncestorOf(now) && !actions_->leadsBack(*now)) return;
   if (before->isVisible() && before->isEnabled()) return;
   // Once the stage knows what has ended.
   QMetaObject::invokeMethod(

@@ -76,6 +76,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   });
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
+    session_.setShowing(isOpen() || reopen_);
     tellProgress();
     tellStatus();
   });

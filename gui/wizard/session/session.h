@@ -99,6 +99,12 @@ enum class DeviceWork {
   measurement  // minutes to hours
 };
 
+/// What is under way with a calibration and would end with it.
+struct UnderWay {
+  bool measurement = false, show = false;
+  bool isNothing() const { return !measurement && !show; }
+};
+
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
 /// locked only while something is read or written, so that a show can read it beside the wizard.
 class Session : public QObject {
@@ -235,6 +241,10 @@ class Session : public QObject {
   DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief);
   /// Work under way that takes long and is not to be ended by the way.
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
+  /// A show plays on the projectors' screens.
+  void setShowing(bool showing) { isShowing_ = showing; }
+  /// What another calibration, or the end of the program, would end: not without a question.
+  UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
   /// can.
   QString whyLocked(const StepName& step) const;
@@ -284,6 +294,7 @@ class Session : public QObject {
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
+  bool isShowing_ = false;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false, cameraSilent_ = false;

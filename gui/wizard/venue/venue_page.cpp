@@ -7,7 +7,6 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
-#include "wizard/frame/end_question.h"
 #include "wizard/venue/venue_thumbnail.h"
 #include "wizard/venue/venue_tidy.h"
 
@@ -23,15 +22,15 @@ QString sizeText(Size size) {
 }  // namespace
 
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
-    : PageModel(stepName, parent), session_(session), recent_(recent), openScreen_(session) {
+    : PageModel(stepName, parent),
+      session_(session),
+      recent_(recent),
+      openScreen_(session),
+      endQuestion_(session) {
   checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
-  end_ = addCommand(Icon::stop, [this] {
-    if (auto work = std::exchange(afterwards_, {})) work();
-  });
-  stay_ = addCommand(Icon::play, [this] { afterwards_ = {}; });
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = {
       {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
@@ -197,9 +196,8 @@ void VenuePage::openNow(const QString& folder) {
 }
 
 void VenuePage::whenNothingEnds(std::function<void()> work) {
-  if (!session_.isMeasuring()) return work();
-  afterwards_ = std::move(work);
-  Q_EMIT failed(endQuestion(session_, end_, stay_));
+  endQuestion_.whenNothingEnds(std::move(work),
+                               [this](const FailureReport& question) { Q_EMIT failed(question); });
 }
 
 void VenuePage::reportNoVenue(const QDir& folder) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wizard/devices/screen_choice.h"
+#include "wizard/frame/end_question.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 #include "wizard/venue/recent_venues.h"
@@ -60,7 +61,7 @@ class VenuePage : public PageModel {
   QList<RecentVenue> recent() const { return recent_.list(); }
   bool isOpenNow(const RecentVenue& venue) const;
   /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened. Where a measurement
-  /// would end by it, asks first.
+  /// or a show would end by it, asks first.
   void open(const QString& path);
 
   /// Why no venue can be tidied now, a sentence; empty: it can.
@@ -132,7 +133,7 @@ class VenuePage : public PageModel {
   void begin();
   void openNow(const QString& folder);
   void beginNow();
-  /// At once, or once somebody has agreed to the end of the measurement that is under way.
+  /// At once, or once somebody has agreed to the end of what is under way.
   void whenNothingEnds(std::function<void()> work);
   void useScreen();
   void reportNoVenue(const QDir& folder);
@@ -142,6 +143,7 @@ class VenuePage : public PageModel {
   Session& session_;
   RecentVenues recent_;
   VenueScreen openScreen_;
+  EndQuestion endQuestion_;
   Mode mode_ = Mode::start;
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
@@ -152,10 +154,8 @@ class VenuePage : public PageModel {
   QString venueName_, parent_;
   QString usualFolder_;
   bool roomClear_ = false;
-  bool named_ = false;                // by the user
-  std::function<void()> afterwards_;  // what the end of the measurement is asked for
+  bool named_ = false;  // by the user
   PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
-  PageCommand *end_, *stay_;  // of that question
 };
 
 }  // namespace relucent::gui

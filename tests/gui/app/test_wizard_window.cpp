@@ -483,6 +483,37 @@ class TestWizardWindow : public QObject {
     QCOMPARE(list->count(), 1);
   }
 
+  /// Law: a show that plays is ended by an answer only.
+  void thePlayingShowEndsOnlyWhenToldTo() {
+    OutputPage& output = wizard_->page<OutputPage>();
+    const auto answer = [this](const char* words) {
+      auto* question = find<FailureDialog>("failure");
+      QVERIFY(question != nullptr && question->isVisible());
+      QCOMPARE(question->windowTitle(), QString("A show is playing"));
+      for (QPushButton* button : question->findChildren<QPushButton*>())
+        if (button->text() == words) return QTest::mouseClick(button, Qt::LeftButton);
+      QFAIL(words);
+    };
+    const auto isAnswered = [this] { return wizard_->window().findChild<FailureDialog*>() == nullptr; };
+    QVERIFY(output.isOpen());
+    QVERIFY(!wizard_->window().close());
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    QVERIFY(wizard_->window().isVisible() && output.isOpen());
+    // Nor does a rehearsal end it, nor another venue.
+    VenuePage& venue = wizard_->page<VenuePage>();
+    const QString name = wizard_->session().name();
+    venue.setMode(VenuePage::Mode::rehearse);
+    venue.primary()->trigger();
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    wizard_->open(QString::fromStdString(wizard_->session().path().string()));
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    QVERIFY(output.isOpen() && wizard_->session().name() == name);
+    venue.setMode(VenuePage::Mode::start);
+  }
+
   void aPhotographProvesIt() {
     OutputPage& output = wizard_->page<OutputPage>();
     // The proof comes first.
@@ -690,6 +721,21 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(!output.status().isHeldUp);
     QVERIFY(!output.banner() && output.isOpen());
     output.close();
+  }
+
+  /// Law: the window is not gone before its work is, says why, and then goes by itself.
+  void theWindowStaysUntilItsWorkHasEnded() {
+    const StepName step{"camera", "", "Camera"};
+    DeviceLease lease = wizard_->session().leaseDevices(step, DeviceWork::measurement);
+    wizard_->window().closeWithoutAsking();
+    auto* ending = find<QDialog>("ending");
+    QVERIFY(ending != nullptr && ending->isVisible() && wizard_->window().isVisible());
+    QTest::keyClick(ending, Qt::Key_Escape);
+    QVERIFY(!wizard_->window().close());
+    QVERIFY(ending->isVisible() && wizard_->window().isVisible());
+    QCOMPARE(wizard_->window().findChildren<QDialog*>("ending").size(), 1);
+    lease.release();
+    QTRY_VERIFY(!wizard_->window().isVisible());
   }
 
   void cleanupTestCase() { wizard_.reset(); }

@@ -53,12 +53,19 @@ QString Session::name() const {
 void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  surprises_ = nullptr;
   adopt(folder);
 }
 
-void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings) {
+void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings,
+                    const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
+  surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
   adopt(folder);
+}
+
+void Session::putRight() {
+  if (surprises_) surprises_->putRight();
 }
 
 void Session::adopt(const calibration::CalibrationFolder& folder) {
@@ -83,7 +90,8 @@ void Session::adopt(const calibration::CalibrationFolder& folder) {
 void Session::makeDevices() {
   devices_ = std::make_shared<SessionDevices>(
       settings_.rig, cache_, live_,
-      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_);
+      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_,
+      surprises_);
   const auto& checked = figures<calibration::Stage::camera>();
   if (checked && progress(calibration::Stage::camera) == calibration::StageProgress::done &&
       checked->latencySeconds)

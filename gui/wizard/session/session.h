@@ -21,6 +21,7 @@
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/venue/surprises.h"
 #include "wizard/session/device_lease.h"
 #include "wizard/session/step_name.h"
 
@@ -36,12 +37,14 @@ struct CheckPatience {
 class SessionDevices {
  public:
   SessionDevices(pipeline::RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
-                 pipeline::ScreenOpener screens, CheckPatience patience)
+                 pipeline::ScreenOpener screens, CheckPatience patience,
+                 std::shared_ptr<venue::Surprises> surprises)
       : settings_(std::move(settings)),
         cache_(std::move(cache)),
         live_(std::move(live)),
         screens_(std::move(screens)),
-        patience_(patience) {}
+        patience_(patience),
+        surprises_(std::move(surprises)) {}
 
   /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used;
   /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
@@ -77,6 +80,7 @@ class SessionDevices {
   std::shared_ptr<CameraPatience> waiting_ = std::make_shared<CameraPatience>();
   pipeline::ScreenOpener screens_;
   CheckPatience patience_;
+  std::shared_ptr<venue::Surprises> surprises_;  // of simulated devices; nullptr: none
   std::mutex guard_;
   std::optional<pipeline::OpenedRig> opened_;
   devices::ScreenProof proof_;
@@ -122,7 +126,13 @@ class Session : public QObject {
 
   /// Throws: as CalibrationFolder::open() and beginCalibration(); the session is then as it was.
   void open(const std::filesystem::path& path);
-  void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings);
+  /// `surprises`: what happens to simulated devices, as long as this calibration stays open.
+  void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings,
+             const venue::SurpriseSettings& surprises = {});
+  /// nullptr: none.
+  const venue::Surprises* surprises() const { return surprises_.get(); }
+  /// What somebody was asked for before measuring again is done; see venue::Surprises.
+  void putRight();
   void close();
 
   const pipeline::CalibrateSettings& settings() const { return settings_; }
@@ -288,6 +298,7 @@ class Session : public QObject {
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;
   std::shared_ptr<LiveRig> live_;
+  std::shared_ptr<venue::Surprises> surprises_;
   std::shared_ptr<SessionDevices> devices_;
   std::shared_ptr<const transport::Acquisition> acquisition_;
   std::string acquired_;  // the measurement that `acquisition_` is or will be

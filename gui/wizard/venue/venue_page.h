@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "wizard/devices/screen_choice.h"
@@ -17,11 +18,16 @@ namespace relucent::gui {
 
 class VenueTidy;
 
+/// How much there is to understand in a simulated venue.
+enum class Difficulty { easy, usual, hard };
+
 /// A simulated venue as it is offered.
 struct RehearsalVenue {
   std::string id;               // core's name
   const char *name, *sentence;  // for VenuePage::tr()
   QString picture;              // resource
+  Difficulty difficulty = Difficulty::usual;
+  double work = 1.0;  // of measuring it, relative to a painted wall
 };
 /// Sizes of the simulated devices.
 struct RehearsalSize {
@@ -76,6 +82,13 @@ class VenuePage : public PageModel {
   std::size_t size() const { return size_; }
   void chooseVenue(std::size_t index);
   void chooseSize(std::size_t index);
+  /// How long it takes to measure one of the venues on a usual computer, and how hard it is.
+  QString effortOf(const RehearsalVenue& venue) const;
+  /// What happens while the rehearsal measures, for practice.
+  bool hasSurprise(venue::Surprise surprise) const;
+  void setSurprise(venue::Surprise surprise, bool wanted);
+  /// Of the moments; else another one for every rehearsal.
+  void setSurpriseSeed(std::uint64_t seed) { surpriseSeed_ = seed; }
   /// Pixels of their own for tests and pictures.
   void setSizes(std::vector<RehearsalSize> sizes);
 
@@ -129,7 +142,9 @@ class VenuePage : public PageModel {
     Remedy remedy = Remedy::none;
   };
   Problem firstProblem() const;
+  static std::vector<RehearsalVenue> rehearsalVenues();
   pipeline::CalibrateSettings wanted() const;
+  venue::SurpriseSettings surprisesWanted() const;
   void begin();
   void openNow(const QString& folder);
   void beginNow();
@@ -148,6 +163,8 @@ class VenuePage : public PageModel {
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
   std::size_t venue_ = 0, size_ = 0;
+  std::vector<venue::Surprise> surprises_;
+  std::optional<std::uint64_t> surpriseSeed_;
   pipeline::CommandRigSettings script_;
   pipeline::ScreenRigSettings screen_;
   QString screenWarning_;

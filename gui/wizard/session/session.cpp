@@ -12,6 +12,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -166,6 +167,7 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   measuredDisplay_ = screen != nullptr ? screen->display : pipeline::ScreenRigSettings::Display();
   keptPhotographs_ = pipeline::keptPhotographs(folder);
   photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
+  shownFrom_ = pipeline::fingerprintOfShown(folder);
   figures_ = calibration::resultsIn(folder);
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),

@@ -166,6 +166,8 @@ class Session : public QObject {
   int photographsKept(calibration::Stage stage) const;
   /// Those taken since its result was stored: of a measurement that was begun again and has not ended.
   int photographsSince(calibration::Stage stage) const;
+  /// A fingerprint of all that a picture on the projectors follows from; see pipeline/proof_record.h.
+  const std::string& shownFrom() const { return shownFrom_; }
   /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
 
@@ -294,6 +296,7 @@ class Session : public QObject {
   pipeline::CalibrateSettings settings_;
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
+  std::string shownFrom_;
   pipeline::ScreenRigSettings::Display measuredDisplay_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;

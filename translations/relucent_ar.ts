@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>متابعة القياس</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>عرض الموقع «⁨%1⁩»: تُظلم شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>قائمة التشغيل والنتائج على القرص. افتح الإخراج من جديد لتشغيل العرض مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>هناك قياس وعرض جاريان</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>إنهاء كليهما</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>متابعة كليهما</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>هناك عرض قيد التشغيل</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>إنهاء العرض</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>متابعة التشغيل</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1543,6 +1575,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>أحكم إدخال كابل الكاميرا من طرفيه</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1673,6 +1712,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>تعلن تعريضًا يبدأ من {} ث لكنها تلتزم {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>كابل الكاميرا مفصول</translation>
     </message>
 </context>
 <context>
@@ -3646,6 +3692,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>جارٍ الإنهاء</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>جارٍ الإنهاء…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>كل ما قيس محفوظ. تُنهي الأجهزة ما تعمل عليه، وقد يستغرق ذلك نصف دقيقة، ثم تُغلق هذه النافذة من تلقاء نفسها.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4349,20 +4410,8 @@ projector %2</source>
         <translation>حفظ التقرير</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>بدء العرض مع هذا الحاسوب</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>تم التثبيت. يبدأ العرض عند تسجيل الدخول التالي، دون كاميرا أو معالج.</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>بعد التثبيت يعمل العرض دون إشراف، ودون كاميرا أو معالج.</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>العرض لا يبدأ تلقائيًا.</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4613,10 +4662,6 @@ projector %2</source>
         <translation>تم تخطي: ⁨%1⁩</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>ما زال العرض يبدأ مع هذا الحاسوب. ثبّته مجددًا لإيقاف ذلك.</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>دقّة هذه الشاشة ليست دقّة جهاز العرض الذي تم قياسه.</translation>
     </message>
@@ -4754,6 +4799,74 @@ projector %2</source>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>الكاميرا أو جهاز العرض في موضع آخر. أعد الكاميرا إلى مكانها، أو وجّهها وقِس من جديد.</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>في هذه الصفحة فقط</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>اللقطة بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>تغيّر ما يُعرض منذ ذلك الحين. التقطها من جديد للتحقق مما يُعرض الآن.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>يبدأ عرض موقع آخر عند تسجيل الدخول. تثبيت هذا العرض يحل محله.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>يبدأ عرض موقع آخر عند تسجيل الدخول. هذا تدريب، ولا يُثبَّت.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>بعد التثبيت يبدأ العرض عند كل تسجيل دخول، دون كاميرا أو معالج.</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>هذا تدريب بأجهزة محاكاة: لا يُثبَّت عرضه. أما عرض الموقع الحقيقي فيبدأ عند كل تسجيل دخول.</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>إزالة العرض المثبّت</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>لا يعود يبدأ عند تسجيل الدخول. يبقى الموقع وقائمة التشغيل.</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>الإثبات بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>التقط لقطة التحقق: فهي تثبت أن الموقع قيس جيدًا.</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>يعمل هذا التدريب في هذه الصفحة فقط: لا يُعرض شيء بجهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>أسود: يستمر العرض دون أن يُرى حتى تُظهره من جديد.</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>مجمّد: تبقى هذه الصورة حتى تضغط «تشغيل».</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>اكتمل التدريب. لا يُثبَّت موقع محاكى. استمر في ضغط A للمقارنة.</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>لقطة التحقق بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>التُقطت في ⁨%1⁩، بحاجة إلى تحديث</translation>
     </message>
 </context>
 <context>
@@ -6189,6 +6302,38 @@ projector %2</source>
     <message>
         <source>Free space…</source>
         <translation>إخلاء مساحة…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>سهل. يُقاس في نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>متوسط. يُقاس في نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>صعب. يُقاس في نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>يصطدم أحدهم بالكاميرا</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>يُشعَل ضوء</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>ينفصل كابل الكاميرا</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>مفاجآت</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>تأتي كل منها مرة واحدة أثناء «القياس»، في لحظة لا يعرفها أحد. تدرّب على ما يقوله المعالج قبل أن يحدث ذلك أمام عميل.</translation>
     </message>
 </context>
 <context>

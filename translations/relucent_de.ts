@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>Weiter messen</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>Die Show des Spielorts „%1“: Der Bildschirm des Projektors wird dunkel.</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>Playlist und Ergebnisse sind auf der Festplatte. Öffnen Sie die Ausgabe wieder, um die Show wieder zu spielen.</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>Eine Messung und eine Show laufen</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>Beide beenden</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>Beide weiterlaufen lassen</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>Eine Show läuft</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Show beenden</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>Weiterspielen</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1527,6 +1559,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>drücken Sie das Kabel der Kamera an beiden Enden fest</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1657,6 +1696,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>gibt Belichtungen ab {} s an, bleibt aber bei {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>das Kabel der Kamera ist herausgerutscht</translation>
     </message>
 </context>
 <context>
@@ -3554,6 +3600,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>Wird beendet</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>Wird beendet …</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>Alles Gemessene ist sicher. Die Geräte beenden, was sie gerade tun; das kann eine halbe Minute dauern. Dann schließt sich dieses Fenster von selbst.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4245,20 +4306,8 @@ Projektor %2</translation>
         <translation>Bericht speichern</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>Show mit diesem Computer starten</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>Installiert. Die Show startet bei der nächsten Anmeldung, ohne Kamera und Assistent.</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>Einmal installiert, läuft die Show unbeaufsichtigt, ohne Kamera und Assistent.</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>Die Show startet nicht von selbst.</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4509,10 +4558,6 @@ Projektor %2</translation>
         <translation>Übersprungen: %1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>Die Show startet noch mit diesem Computer. Installieren Sie sie erneut, um das zu beenden.</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>Dieser Bildschirm hat eine andere Auflösung als der gemessene Projektor.</translation>
     </message>
@@ -4646,6 +4691,74 @@ Projektor %2</translation>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>Kamera oder Projektor stehen anders. Stellen Sie die Kamera zurück, oder richten Sie neu aus und messen Sie erneut.</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>Nur auf dieser Seite</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>Das Foto ist veraltet</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>Was gezeigt wird, wurde seitdem geändert. Nehmen Sie es neu auf, um das jetzt Gezeigte zu prüfen.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>Die Show eines anderen Spielorts startet bei der Anmeldung. Diese zu installieren ersetzt sie.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>Die Show eines anderen Spielorts startet bei der Anmeldung. Dies ist eine Probe, die nicht installiert wird.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>Einmal installiert, startet die Show bei jeder Anmeldung, ohne Kamera und Assistent.</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>Dies ist eine Probe mit simulierten Geräten: Ihre Show wird nicht installiert. Die eines echten Spielorts startet bei jeder Anmeldung.</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>Installierte Show entfernen</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>Sie startet nicht mehr bei der Anmeldung. Spielort und Playlist bleiben.</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>Prüffoto veraltet</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>Nehmen Sie ein Prüffoto auf: Es zeigt, ob der Spielort gut gemessen ist.</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>Diese Probe spielt nur auf dieser Seite: Nichts wird projiziert.</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>Schwarz: Die Show läuft ungesehen weiter, bis Sie sie wieder zeigen.</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>Eingefroren: Dieses Bild steht, bis Sie Abspielen drücken.</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>Zu Ende geprobt. Simuliertes wird nicht installiert. Zum Vergleichen A halten.</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>Das Prüffoto ist veraltet</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>um %1, veraltet</translation>
     </message>
 </context>
 <context>
@@ -6061,6 +6174,38 @@ Projektor %2</translation>
     <message>
         <source>Free space…</source>
         <translation>Platz schaffen…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>Leicht. In etwa %1 gemessen</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>Mittel. In etwa %1 gemessen</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>Schwer. In etwa %1 gemessen</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>Jemand stößt an die Kamera</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>Ein Licht wird eingeschaltet</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>Das Kamerakabel rutscht heraus</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>Überraschungen</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>Jede kommt einmal, während Erfassen misst, zu einem Zeitpunkt, den niemand kennt. Üben Sie, was der Assistent dann sagt, bevor es vor Kunden geschieht.</translation>
     </message>
 </context>
 <context>

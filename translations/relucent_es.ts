@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>Seguir midiendo</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>El show del lugar «%1»: la pantalla del proyector se apaga.</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>La lista y los resultados están en el disco. Abra de nuevo la salida para reproducir otra vez el show.</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>Hay una medición y un show en curso</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>Terminar ambos</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>Dejar que ambos sigan</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>Hay un show en curso</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Terminar el show</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>Seguir reproduciendo</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1527,6 +1559,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>encaje el cable de la cámara en ambos extremos</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1657,6 +1696,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>declara exposiciones desde {} s pero se queda en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>el cable de la cámara está suelto</translation>
     </message>
 </context>
 <context>
@@ -3554,6 +3600,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>Terminando</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>Terminando…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>Todo lo medido está a salvo. Los dispositivos acaban lo que están haciendo, lo que puede tardar medio minuto; después esta ventana se cierra sola.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4245,20 +4306,8 @@ proyector %2</translation>
         <translation>Guardar informe</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>Iniciar el show con este equipo</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>Instalado. El show empieza en el próximo inicio de sesión, sin cámara ni asistente.</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>Una vez instalado, el show funciona sin vigilancia, sin cámara ni asistente.</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>El show no se inicia por sí solo.</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4509,10 +4558,6 @@ proyector %2</translation>
         <translation>Omitido: %1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>El show aún se inicia con este equipo. Instálelo de nuevo para que deje de hacerlo.</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La resolución de esta pantalla no es la del proyector medido.</translation>
     </message>
@@ -4646,6 +4691,74 @@ proyector %2</translation>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>Solo en esta página</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>La fotografía está desactualizada</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>Lo que se muestra ha cambiado desde entonces. Tómela de nuevo para comprobar lo que se muestra ahora.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>El show de otro lugar empieza al iniciar sesión. Instalar este lo reemplaza.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>El show de otro lugar empieza al iniciar sesión. Esto es un ensayo, que no se instala.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>Una vez instalado, el show empieza en cada inicio de sesión, sin cámara ni asistente.</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>Esto es un ensayo con dispositivos simulados: su show no se instala. El de un lugar real empieza en cada inicio de sesión.</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>Quitar el show instalado</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>Ya no empieza al iniciar sesión. El lugar y la lista se conservan.</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>Prueba desactualizada</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>Tome una fotografía de verificación: prueba que el lugar está bien medido.</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>Este ensayo se reproduce solo en esta página: no se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>Negro: el show sigue sin verse hasta que lo muestre de nuevo.</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>Congelado: esta imagen se queda hasta que pulse Reproducir.</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>Ensayado hasta el final. Un lugar simulado no se instala. Mantenga A para comparar.</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>La fotografía de verificación está desactualizada</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>tomada: %1, desactualizada</translation>
     </message>
 </context>
 <context>
@@ -6061,6 +6174,38 @@ proyector %2</translation>
     <message>
         <source>Free space…</source>
         <translation>Liberar espacio…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>Fácil. Se mide en unos %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>Medio. Se mide en unos %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>Difícil. Se mide en unos %1</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>Alguien golpea la cámara</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>Se enciende una luz</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>Se suelta el cable de la cámara</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>Sorpresas</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>Cada una llega una vez mientras Adquisición mide, en un momento que nadie conoce. Practique lo que dice el asistente antes de que ocurra ante un cliente.</translation>
     </message>
 </context>
 <context>

@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>Continuer la mesure</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>La diffusion du lieu « %1 » : l’écran du projecteur s’éteint.</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>La liste et les résultats sont sur le disque. Rouvrez la sortie pour relancer la diffusion.</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>Une mesure et une diffusion sont en cours</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>Arrêter les deux</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>Laisser les deux continuer</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>Une diffusion est en cours</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Arrêter la diffusion</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>Continuer la lecture</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1527,6 +1559,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>enfoncez le câble de la caméra aux deux bouts</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1657,6 +1696,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>annonce des temps de pose à partir de {} s mais s’en tient à {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>le câble de la caméra est débranché</translation>
     </message>
 </context>
 <context>
@@ -3554,6 +3600,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>Fermeture</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>Fermeture…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>Tout ce qui a été mesuré est en sécurité. Les appareils terminent ce qu’ils font, ce qui peut prendre une demi-minute ; puis cette fenêtre se ferme d’elle-même.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4245,20 +4306,8 @@ projecteur %2</translation>
         <translation>Enregistrer le rapport</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>Lancer la diffusion avec l’ordinateur</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>Installée. La diffusion démarre à la prochaine ouverture de session, sans caméra ni assistant.</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>Une fois installée, la diffusion tourne sans surveillance, sans caméra ni assistant.</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>La diffusion ne démarre pas d’elle-même.</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4509,10 +4558,6 @@ projecteur %2</translation>
         <translation>Ignoré&#x202f;: %1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>La diffusion démarre encore avec cet ordinateur. Réinstallez-la pour que cela cesse.</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La définition de cet écran n’est pas celle du projecteur mesuré.</translation>
     </message>
@@ -4646,6 +4691,74 @@ projecteur %2</translation>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>La caméra ou le projecteur est ailleurs. Replacez la caméra, ou visez et mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>Sur cette page seulement</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>La photo n’est plus à jour</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>Ce qui est montré a changé depuis. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>La diffusion d’un autre lieu démarre à l’ouverture de session. Installer celle-ci la remplace.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>La diffusion d’un autre lieu démarre à l’ouverture de session. Ceci est une répétition, qui ne s’installe pas.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>Une fois installée, la diffusion démarre à chaque ouverture de session, sans caméra ni assistant.</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>Ceci est une répétition avec des appareils simulés : sa diffusion ne s’installe pas. Celle d’un lieu réel démarre à chaque ouverture de session.</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>Retirer la diffusion installée</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>Elle ne démarre plus à l’ouverture de session. Le lieu et la liste restent.</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>Contrôle obsolète</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>Prenez une photo de contrôle : elle prouve que le lieu est bien mesuré.</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>Cette répétition se joue sur cette page seulement : rien n’est projeté.</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>Noir : la diffusion continue sans être vue jusqu’à ce que vous la montriez.</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>Figé : cette image reste jusqu’à ce que vous appuyiez sur Lire.</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>Répété jusqu’au bout. Un lieu simulé ne s’installe pas. Maintenez A pour comparer.</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>La photo de contrôle n’est plus à jour</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>prise à %1, obsolète</translation>
     </message>
 </context>
 <context>
@@ -6061,6 +6174,38 @@ projecteur %2</translation>
     <message>
         <source>Free space…</source>
         <translation>Libérer de l’espace…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>Facile. Mesuré en %1 environ</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>Moyen. Mesuré en %1 environ</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>Difficile. Mesuré en %1 environ</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>Quelqu’un heurte la caméra</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>Une lumière est allumée</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>Le câble de la caméra se débranche</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>Surprises</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>Chacune survient une fois pendant la mesure d’Acquisition, à un moment que personne ne connaît. Exercez-vous à ce que dit l’assistant avant que cela n’arrive devant un client.</translation>
     </message>
 </context>
 <context>

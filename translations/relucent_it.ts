@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>Prosegui la misura</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>Lo show del luogo «%1»: lo schermo del proiettore si spegne.</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>Elenco e risultati sono sul disco. Riaprire l’uscita per riprodurre di nuovo lo show.</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>Sono in corso una misura e uno show</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>Termina entrambi</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>Lascia proseguire entrambi</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>È in corso uno show</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>Termina lo show</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>Continua la riproduzione</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1527,6 +1559,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>inserire il cavo della fotocamera a entrambi i capi</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1657,6 +1696,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>dichiara esposizioni a partire da {} s ma resta a {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>il cavo della fotocamera è staccato</translation>
     </message>
 </context>
 <context>
@@ -3554,6 +3600,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>Chiusura</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>Chiusura…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>Tutto ciò che è stato misurato è al sicuro. I dispositivi finiscono ciò che stanno facendo, il che può richiedere mezzo minuto; poi questa finestra si chiude da sola.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4245,20 +4306,8 @@ proiettore %2</translation>
         <translation>Salva rapporto</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>Avvia lo show con questo computer</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>Installato. Lo show parte al prossimo accesso, senza fotocamera né procedura guidata.</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>Una volta installato, lo show gira da solo, senza fotocamera né procedura guidata.</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>Lo show non parte da solo.</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4509,10 +4558,6 @@ proiettore %2</translation>
         <translation>Saltato: %1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>Lo show parte ancora con questo computer. Installarlo di nuovo per disattivarlo.</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>La risoluzione di questo schermo non è quella del proiettore misurato.</translation>
     </message>
@@ -4646,6 +4691,74 @@ proiettore %2</translation>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>Fotocamera o proiettore stanno altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>Solo su questa pagina</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>La foto non è aggiornata</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>Ciò che si mostra è cambiato da allora. Scattarla di nuovo per verificare ciò che si mostra ora.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>Lo show di un altro luogo parte all’accesso. Installare questo lo sostituisce.</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>Lo show di un altro luogo parte all’accesso. Questa è una prova, che non si installa.</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>Una volta installato, lo show parte a ogni accesso, senza fotocamera né procedura guidata.</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>Questa è una prova con dispositivi simulati: il suo show non si installa. Quello di un luogo reale parte a ogni accesso.</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>Rimuovi lo show installato</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>Non parte più all’accesso. Luogo ed elenco restano.</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>Verifica da aggiornare</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>Scattare una foto di verifica: dimostra che il luogo è misurato bene.</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>Questa prova gira solo su questa pagina: nulla viene proiettato.</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>Nero: lo show prosegue non visto finché non lo si mostra di nuovo.</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>Congelata: questa immagine resta finché non si preme Riproduci.</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>Provato fino in fondo. Un luogo simulato non si installa. Tenere premuto A per confrontare.</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>La foto di verifica non è aggiornata</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>scattata alle %1, da aggiornare</translation>
     </message>
 </context>
 <context>
@@ -6061,6 +6174,38 @@ proiettore %2</translation>
     <message>
         <source>Free space…</source>
         <translation>Libera spazio…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>Facile. Misurato in circa %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>Medio. Misurato in circa %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>Difficile. Misurato in circa %1</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>Qualcuno urta la fotocamera</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>Si accende una luce</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>Il cavo della fotocamera si stacca</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>Sorprese</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>Ognuna arriva una volta mentre Acquisizione misura, in un momento che nessuno conosce. Esercitarsi su ciò che dice la procedura guidata, prima che accada davanti a un cliente.</translation>
     </message>
 </context>
 <context>

@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>測定を続ける</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>会場「%1」のショー：プロジェクターの画面が暗くなります。</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>再生リストと結果はディスクにあります。出力を開き直すと、ショーをまた再生できます。</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>測定とショーが進行中です</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>両方を終了</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>両方を続ける</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>ショーを再生中です</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>ショーを終了</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>再生を続ける</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1523,6 +1555,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>カメラのケーブルを両端とも差し込んでください</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1653,6 +1692,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>{} 秒からの露出に対応すると表示しますが、実際は {} 秒までです</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>カメラのケーブルが抜けています</translation>
     </message>
 </context>
 <context>
@@ -3531,6 +3577,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>終了中</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>終了中…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>測定したものはすべて安全です。機器が作業を終えるまで 30 秒ほどかかることがあります。その後、このウィンドウは自動で閉じます。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4219,20 +4280,8 @@ projector %2</source>
         <translation>レポートを保存</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>このコンピューターの起動時にショーを開始</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>登録済み。次回のログイン時から、カメラもウィザードもなしでショーが始まります。</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>登録すると、カメラもウィザードもなしで、ショーを無人で実行します。</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>ショーは自動では始まりません。</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4483,10 +4532,6 @@ projector %2</source>
         <translation>スキップ：%1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>ショーはまだこのコンピューターと同時に始まります。もう一度登録すると解除されます。</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>この画面の解像度は、測定したプロジェクターと異なります。</translation>
     </message>
@@ -4619,6 +4664,74 @@ projector %2</source>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測定し直してください。</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>このページのみ</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>写真は古くなっています</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>撮影後に表示内容が変更されました。今の表示を検証するには撮り直してください。</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>別の会場のショーがログイン時に始まります。こちらを登録すると置き換わります。</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>別の会場のショーがログイン時に始まります。これはリハーサルなので登録できません。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>登録すると、ログインするたびに、カメラもウィザードもなしでショーが始まります。</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>これは模擬機器によるリハーサルなので、ショーは登録できません。実際の会場のショーは、ログインするたびに始まります。</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>登録したショーを解除</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>ログイン時に始まらなくなります。会場と再生リストは残ります。</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>検証が要更新</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>検証写真を撮影してください。会場が正しく測定されたことを示します。</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>このリハーサルはこのページだけで再生します。何も投影しません。</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>黒表示中：もう一度表示するまで、ショーは見えないまま進みます。</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>静止中：「再生」を押すまで、この画像のままです。</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>リハーサルは最後まで完了。模擬会場は登録できません。A キー長押しで比較。</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>検証写真が古くなっています</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>%1 に撮影、要更新</translation>
     </message>
 </context>
 <context>
@@ -6029,6 +6142,38 @@ projector %2</source>
     <message>
         <source>Free space…</source>
         <translation>空きを増やす…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>やさしい。測定は約%1</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>ふつう。測定は約%1</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>難しい。測定は約%1</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>誰かがカメラにぶつかる</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>照明がつけられる</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>カメラのケーブルが抜ける</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>不意の出来事</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>それぞれ、光輸送測定の途中で、誰も知らない瞬間に一度だけ起こります。お客様の前で起こる前に、ウィザードの案内に慣れておきましょう。</translation>
     </message>
 </context>
 <context>

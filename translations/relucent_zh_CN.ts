@@ -34,6 +34,38 @@
         <source>Go on measuring</source>
         <translation>继续测量</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”: the projector&apos;s screen goes dark.</source>
+        <translation>场地“%1”的节目：投影机屏幕将变黑。</translation>
+    </message>
+    <message>
+        <source>Playlist and results are on the disk. Open the output again to play the show again.</source>
+        <translation>播放列表和结果都在磁盘上。重新打开输出即可再次播放节目。</translation>
+    </message>
+    <message>
+        <source>A measurement and a show are under way</source>
+        <translation>正在测量，同时正在播放节目</translation>
+    </message>
+    <message>
+        <source>End both</source>
+        <translation>两者都结束</translation>
+    </message>
+    <message>
+        <source>Let both go on</source>
+        <translation>两者都继续</translation>
+    </message>
+    <message>
+        <source>A show is playing</source>
+        <translation>正在播放节目</translation>
+    </message>
+    <message>
+        <source>End the show</source>
+        <translation>结束节目</translation>
+    </message>
+    <message>
+        <source>Go on playing</source>
+        <translation>继续播放</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -1523,6 +1555,13 @@
     </message>
 </context>
 <context>
+    <name>device.push-cable-in</name>
+    <message>
+        <source>push in the camera&apos;s cable at both ends</source>
+        <translation>请插紧相机线缆的两端</translation>
+    </message>
+</context>
+<context>
     <name>device.raw-file-empty</name>
     <message>
         <source>it is empty</source>
@@ -1653,6 +1692,13 @@
     <message>
         <source>claims exposures from {} s but does not go below {} s</source>
         <translation>声称曝光可短至 {} s，实际只到 {} s</translation>
+    </message>
+</context>
+<context>
+    <name>device.simulated-camera-unplugged</name>
+    <message>
+        <source>the camera&apos;s cable is out</source>
+        <translation>相机的线缆已脱落</translation>
     </message>
 </context>
 <context>
@@ -3531,6 +3577,21 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::EndingDialog</name>
+    <message>
+        <source>Ending</source>
+        <translation>正在结束</translation>
+    </message>
+    <message>
+        <source>Ending…</source>
+        <translation>正在结束…</translation>
+    </message>
+    <message>
+        <source>Everything that was measured is safe. The devices finish what they are doing, which can take half a minute; then this window closes by itself.</source>
+        <translation>所有测量结果都是安全的。设备正在完成手头的工作，可能需要半分钟；之后此窗口会自动关闭。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::FailureDialog</name>
     <message>
         <source>A device stopped answering</source>
@@ -4219,20 +4280,8 @@ projector %2</source>
         <translation>保存报告</translation>
     </message>
     <message>
-        <source>Start the show with this computer</source>
-        <translation>开机时启动节目</translation>
-    </message>
-    <message>
         <source>Installed. The show starts at the next log-in, without camera or wizard.</source>
         <translation>已安装。下次登录时节目自动开始，无需相机或向导。</translation>
-    </message>
-    <message>
-        <source>Once installed, the show runs unattended, without camera or wizard.</source>
-        <translation>安装后，节目可无人值守运行，无需相机或向导。</translation>
-    </message>
-    <message>
-        <source>The show does not start by itself.</source>
-        <translation>节目不会自动启动。</translation>
     </message>
     <message>
         <source>Playlist</source>
@@ -4483,10 +4532,6 @@ projector %2</source>
         <translation>已跳过：%1</translation>
     </message>
     <message>
-        <source>The show still starts with this computer. Install it again to end that.</source>
-        <translation>节目仍会随此计算机启动。再次安装即可取消。</translation>
-    </message>
-    <message>
         <source>This screen&apos;s resolution is not that of the projector that was measured.</source>
         <translation>此屏幕的分辨率与测量时的投影机不同。</translation>
     </message>
@@ -4619,6 +4664,74 @@ projector %2</source>
     <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>相机或投影机不在原处。请把相机放回原位，或重新对准并测量。</translation>
+    </message>
+    <message>
+        <source>On this page only</source>
+        <translation>仅在此页面</translation>
+    </message>
+    <message>
+        <source>The photograph is out of date</source>
+        <translation>照片已过期</translation>
+    </message>
+    <message>
+        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
+        <translation>此后显示内容已更改。请重新拍摄，以验证现在显示的内容。</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
+        <translation>登录时会启动另一个场地的节目。安装本节目会将其替换。</translation>
+    </message>
+    <message>
+        <source>Another venue&apos;s show starts at log-in. This is a rehearsal, which is not installed.</source>
+        <translation>登录时会启动另一个场地的节目。这里是演练，不能安装。</translation>
+    </message>
+    <message>
+        <source>Once installed, the show starts at every log-in, without camera or wizard.</source>
+        <translation>安装后，每次登录时节目自动开始，无需相机或向导。</translation>
+    </message>
+    <message>
+        <source>This is a rehearsal with simulated devices: its show is not installed. That of a real venue starts at every log-in.</source>
+        <translation>这是使用模拟设备的演练：其节目不能安装。真实场地的节目会在每次登录时自动开始。</translation>
+    </message>
+    <message>
+        <source>Remove installed show</source>
+        <translation>移除已安装的节目</translation>
+    </message>
+    <message>
+        <source>It does not start at log-in any more. Venue and playlist stay.</source>
+        <translation>登录时不再启动。场地和播放列表会保留。</translation>
+    </message>
+    <message>
+        <source>Proof out of date</source>
+        <translation>验证已过期</translation>
+    </message>
+    <message>
+        <source>Take a verification photograph: it proves that the venue is measured well.</source>
+        <translation>请拍摄验证照片：它能证明场地测量得好。</translation>
+    </message>
+    <message>
+        <source>This rehearsal plays on this page only: nothing is projected.</source>
+        <translation>此演练仅在此页面播放：不投影任何内容。</translation>
+    </message>
+    <message>
+        <source>Black: the show goes on unseen until you show it again.</source>
+        <translation>黑场：节目在不可见的状态下继续，直到您再次显示。</translation>
+    </message>
+    <message>
+        <source>Frozen: this picture stands until you press Play.</source>
+        <translation>已定格：画面保持不变，直到您按“播放”。</translation>
+    </message>
+    <message>
+        <source>Rehearsed to the end. A simulated venue is not installed. Hold A to compare.</source>
+        <translation>演练已完成。模拟场地不能安装。按住 A 可对比。</translation>
+    </message>
+    <message>
+        <source>The verification photograph is out of date</source>
+        <translation>验证照片已过期</translation>
+    </message>
+    <message>
+        <source>taken %1, out of date</source>
+        <translation>拍摄于 %1，已过期</translation>
     </message>
 </context>
 <context>
@@ -6029,6 +6142,38 @@ projector %2</source>
     <message>
         <source>Free space…</source>
         <translation>释放空间…</translation>
+    </message>
+    <message>
+        <source>Easy. Measured in about %1</source>
+        <translation>容易。测量约需%1</translation>
+    </message>
+    <message>
+        <source>Medium. Measured in about %1</source>
+        <translation>中等。测量约需%1</translation>
+    </message>
+    <message>
+        <source>Hard. Measured in about %1</source>
+        <translation>困难。测量约需%1</translation>
+    </message>
+    <message>
+        <source>Somebody bumps the camera</source>
+        <translation>有人碰到相机</translation>
+    </message>
+    <message>
+        <source>A light is switched on</source>
+        <translation>有人打开灯</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s cable comes out</source>
+        <translation>相机线缆脱落</translation>
+    </message>
+    <message>
+        <source>Surprises</source>
+        <translation>意外情况</translation>
+    </message>
+    <message>
+        <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
+        <translation>每种情况在“采集”测量期间出现一次，时间无人知晓。在客户面前发生之前，先练习应对向导的提示。</translation>
     </message>
 </context>
 <context>

@@ -3,7 +3,9 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/fingerprint.h"
 #include "relucent/calibration/enum_json.h"
+#include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/settings_json.h"
 
 namespace relucent::pipeline {
@@ -53,9 +55,22 @@ ContentSettings contentFrom(const calibration::Json& json) {
 
 }  // namespace
 
+std::string fingerprintOfShown(const calibration::CalibrationFolder& folder) {
+  Fingerprint fingerprint;
+  for (calibration::Stage stage :
+       {calibration::Stage::inverse, calibration::Stage::clustering, calibration::Stage::content})
+    fingerprint.add(calibration::fingerprintOf(folder, stage));
+  return fingerprint.hex();
+}
+
+bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& folder) {
+  return record.shownFrom.empty() || record.shownFrom == fingerprintOfShown(folder);
+}
+
 void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
   const calibration::Json json{{"taken", record.taken},
                                {"measurement", record.measurement},
+                               {"shown_from", record.shownFrom},
                                {"settings", toJson(record.content)},
                                {"method", record.figures.method},
                                {"before", toJson(record.figures.before)},
@@ -72,6 +87,7 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     ProofRecord record;
     record.taken = json.at("taken").get<std::string>();
     record.measurement = json.at("measurement").get<std::string>();
+    record.shownFrom = json.value("shown_from", std::string());
     record.content = contentFrom(json.at("settings"));
     record.figures.method = json.at("method").get<compensation::Method>();
     record.figures.before = projectionFrom(json.at("before"));

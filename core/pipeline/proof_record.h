@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "relucent/calibration/calibration_folder.h"
 #include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/prove.h"
 
@@ -14,9 +15,19 @@ namespace relucent::pipeline {
 struct ProofRecord {
   std::string taken;        // ISO 8601, UTC
   std::string measurement;  // when the light transport was measured that it belongs to
+  std::string shownFrom{};  // see fingerprintOfShown(); empty in records of earlier versions
   ContentSettings content;
   ProveResult figures;  // method, before, after, reachable, moved
 };
+
+/// A fingerprint of all that a picture on the projectors follows from: the measurement, the threshold,
+/// windows and clusters, and how content is shown. With another one a photograph says nothing of what is
+/// shown now.
+std::string fingerprintOfShown(const calibration::CalibrationFolder& folder);
+
+/// Whether the photograph was taken of what is shown now; records of earlier versions are taken at their
+/// word.
+bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& folder);
 
 /// Writes proof.json into a folder. Throws: Error{disk}.
 void saveProofRecord(const ProofRecord& record, const std::filesystem::path& folder);

@@ -96,11 +96,12 @@ double meanDeltaE(const fs::path& map) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// How the photograph was judged; what nobody kept, or of another measurement, is left open.
+/// How the photograph was judged; what nobody kept, or of something else than is shown now, is left open.
 void addJudgement(ReportVerification& verification, const fs::path& folder,
+                  const calibration::CalibrationFolder& calibration,
                   const calibration::StageResult& acquired) {
   const std::optional<pipeline::ProofRecord> record = pipeline::loadProofRecord(folder);
-  if (!record || record->measurement != acquired.stored) return;
+  if (!record || record->measurement != acquired.stored || !pipeline::isOfShown(*record, calibration)) return;
   verification.taken = record->taken;
   verification.deltaEPredicted = record->figures.after.predicted.deltaE;
   verification.isAsPredicted = pipeline::isAsPredicted(record->figures);
@@ -108,9 +109,9 @@ void addJudgement(ReportVerification& verification, const fs::path& folder,
 
 /// What proveCalibration() left in the calibration, unless the light transport was measured after that or
 /// something is missing.
-std::optional<ReportVerification> verificationIn(const fs::path& calibration,
+std::optional<ReportVerification> verificationIn(const calibration::CalibrationFolder& calibration,
                                                  const calibration::StageResult& acquired) {
-  fs::path folder = calibration / "verification", photograph = folder / "after.png";
+  fs::path folder = calibration.path() / "verification", photograph = folder / "after.png";
   std::error_code missing;
   fs::file_time_type taken = fs::last_write_time(photograph, missing);
   if (missing || taken < fs::last_write_time(calibration::fileOf(acquired, "transport.npz"), missing))
@@ -124,7 +125,7 @@ std::optional<ReportVerification> verificationIn(const fs::path& calibration,
                                     meanDeltaE(folder / "before_delta_e.exr"),
                                     meanDeltaE(folder / "after_delta_e.exr"),
                                     fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
-    addJudgement(verification, folder, acquired);
+    addJudgement(verification, folder, calibration, acquired);
     return verification;
   } catch (const Error&) {
     return std::nullopt;
@@ -176,7 +177,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.settings = settingsInWords(pipeline::settingsOf(folder));
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
-    data.verification = verificationIn(folder.path(), *acquired);
+    data.verification = verificationIn(folder, *acquired);
     data.drift = driftIn(folder.path(), *acquired);
   }
 

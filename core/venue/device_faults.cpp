@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "relucent/base/error.h"
+
 namespace relucent::venue {
 namespace {
 
@@ -45,6 +47,14 @@ std::vector<DeviceFault> FaultSchedule::during(const rig::ShotId& shot) const {
     if (fault.stage == shot.stage && fault.first <= shot.number && shot.number <= fault.last)
       acting.push_back(fault);
   return acting;
+}
+
+void requireConnected(const std::vector<DeviceFault>& faults, const std::string& camera) {
+  if (std::ranges::any_of(faults,
+                          [](const DeviceFault& fault) { return fault.kind == FaultKind::unplugged; }))
+    throw Error(ErrorKind::device,
+                RELUCENT_MESSAGE("device.simulated-camera-unplugged", "the camera's cable is out"),
+                RELUCENT_MESSAGE("device.push-cable-in", "push in the camera's cable at both ends"), camera);
 }
 
 image::Image withFaults(const image::Image& encodedDrive, const std::vector<DeviceFault>& faults) {

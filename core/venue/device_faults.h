@@ -19,6 +19,7 @@ enum class FaultKind {
   asleepProjector,  // projectors emit nothing, not even their black level
   flash,            // a part of the view is brighter by `amount`, camera signal per second
   hand,             // a part of the view is dark
+  unplugged,        // the camera does not answer
 };
 
 /// One fault, during shots [first, last] of a stage; `flash` and `hand` affect the rectangle [x0, x1) x [y0,
@@ -33,8 +34,8 @@ struct DeviceFault {
   double x0 = 0.0, y0 = 0.0, x1 = 1.0, y1 = 1.0;
 };
 
-/// The faults of a rig of simulated devices. May be changed while the rig is in use, by the thread that uses
-/// it.
+/// Faults at certain shots, of a rig of simulated devices. May be changed while the rig is in use, by the
+/// thread that uses it.
 struct FaultSchedule {
   std::vector<DeviceFault> faults;
 
@@ -42,6 +43,8 @@ struct FaultSchedule {
   std::vector<DeviceFault> during(const rig::ShotId& shot) const;
 };
 
+/// Throws: Error{device} where the camera is unplugged.
+void requireConnected(const std::vector<DeviceFault>& faults, const std::string& camera);
 /// The picture as it reaches the wall.
 image::Image withFaults(const image::Image& encodedDrive, const std::vector<DeviceFault>& faults);
 /// The light that reaches the sensor. `full`: mean radiance at full light.  Shapes: three channels a pixel.

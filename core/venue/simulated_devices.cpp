@@ -15,7 +15,7 @@ namespace {
 /// exposure, kept for the others.
 class Stage {
  public:
-  Stage(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults)
+  Stage(std::shared_ptr<const VenueLight> light, FaultsDuring faults)
       : light_(std::move(light)), faults_(std::move(faults)) {
     const Rasters& rasters = light_->layout().projectors();
     for (std::size_t i = 0; i < rasters.devices(); ++i) shown_.emplace_back(rasters.size(i), 3);
@@ -31,7 +31,7 @@ class Stage {
     return full_;
   }
   std::vector<DeviceFault> faultsDuring(const rig::ShotId& shot) const {
-    return faults_ ? faults_->during(shot) : std::vector<DeviceFault>{};
+    return faults_ ? faults_(shot) : std::vector<DeviceFault>{};
   }
   /// What the camera would see of the projectors' pictures, had they these faults.
   CameraStack lightOfFaultyProjectors(const std::vector<DeviceFault>& faults) {
@@ -55,7 +55,7 @@ class Stage {
 
  private:
   std::shared_ptr<const VenueLight> light_;
-  std::shared_ptr<const FaultSchedule> faults_;
+  FaultsDuring faults_;
   std::once_flag fullMade_;
   double full_ = 0.0;
   std::mutex mutex_;
@@ -106,6 +106,7 @@ class SimulatedCamera : public rig::Camera {
  private:
   rig::RawFrame faulty(const rig::CaptureRequest& request, float power,
                        const std::vector<DeviceFault>& faults) {
+    requireConnected(faults, name());
     CameraStack light = stage_->lightOfFaultyProjectors(faults);
     for (float& value : light) value *= power;
     CameraStack view(withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
@@ -120,10 +121,10 @@ class SimulatedCamera : public rig::Camera {
 }  // namespace
 
 rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
-  return simulatedRig(std::move(light), nullptr);
+  return simulatedRig(std::move(light), FaultsDuring());
 }
 
-rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults) {
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, FaultsDuring faults) {
   std::size_t projectors = light->layout().projectors().devices();
   auto stage = std::make_shared<Stage>(std::move(light), std::move(faults));
   rig::Rig rig;

@@ -10,7 +10,7 @@ namespace relucent::venue {
 /// Projectors and camera in front of a simulated venue. The rig's devices belong together: the camera
 /// photographs what these projectors show.
 rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light);
-/// The same with faults, see device_faults.h. The schedule may be changed while the rig is in use.
-rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, std::shared_ptr<const FaultSchedule> faults);
+/// The same with faults, see device_faults.h.
+rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, FaultsDuring faults);
 
 }  // namespace relucent::venue

@@ -130,6 +130,10 @@ rig::Rig SimulatedVenue::rig() const {
 }
 
 rig::Rig SimulatedVenue::rig(std::shared_ptr<const FaultSchedule> faults) const {
+  return rig([faults = std::move(faults)](const rig::ShotId& shot) { return faults->during(shot); });
+}
+
+rig::Rig SimulatedVenue::rig(FaultsDuring faults) const {
   return simulatedRig(light_, std::move(faults));
 }
 

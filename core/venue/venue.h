@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,7 +14,10 @@
 
 namespace relucent::venue {
 
+struct DeviceFault;
 struct FaultSchedule;
+/// The faults that are active during a shot. Called for each photograph, by the thread that takes it.
+using FaultsDuring = std::function<std::vector<DeviceFault>(const rig::ShotId& shot)>;
 
 /// A simulated venue that is available.
 struct VenueDescription {
@@ -69,6 +73,8 @@ class SimulatedVenue {
   rig::Rig rig() const;
   /// The same with faults (device_faults.h); the schedule may be changed while the rig is in use.
   rig::Rig rig(std::shared_ptr<const FaultSchedule> faults) const;
+  /// The same with faults that depend on what has happened, as surprises do (surprises.h).
+  rig::Rig rig(FaultsDuring faults) const;
 
   /// The true transport, for `evaluate` and tests only.
   /// T: camera signal per second per linear light of the projectors, free of noise. Vignetting is part of it;

@@ -13,7 +13,7 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "theme/quiet_wheel.h"
 #include "theme/theme.h"
-#include "wizard/frame/end_question.h"
+#include "wizard/frame/ending_dialog.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/frame/stage_scroll.h"
 
@@ -40,7 +40,8 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
       wizard_(wizard),
       preferences_(preferences),
       language_(language),
-      views_(std::move(views)) {
+      views_(std::move(views)),
+      endQuestion_(session) {
   setWindowTitle("Relucent");
   setAcceptDrops(true);
   auto* whole = new QWidget;
@@ -170,8 +171,11 @@ void MainWindow::showHelp() {
 }
 
 void MainWindow::bindKeys() {
+  // Held down, a key does not run from one action into the next.
   auto key = [this](const QKeySequence& keys, auto action) {
-    connect(new QShortcut(keys, this), &QShortcut::activated, this, action);
+    auto* shortcut = new QShortcut(keys, this);
+    shortcut->setAutoRepeat(false);
+    connect(shortcut, &QShortcut::activated, this, action);
   };
   for (std::size_t i = 0; i < wizard_.count(); ++i)
     key(QKeySequence(QString("Alt+%1").arg(i + 1)), [this, i] { wizard_.go(i); });
@@ -195,10 +199,10 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
   // What is clicked is in sight and must not move under the pointer.
   if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
     bringIntoSight(now);
-  // A button of the action bar that is done, and goes, would leave its focus to the rail, which is next:
-  // Enter would then leave the page.
-  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before) || !rail_->isAncestorOf(now))
-    return;
+  // A button of the action bar that is done, and goes, would leave its focus to the rail or to Back, which
+  // are next: Enter would then leave the page.
+  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before)) return;
+  if (!rail_->isAncestorOf(now) && !actions_->leadsBack(*now)) return;
   if (before->isVisible() && before->isEnabled()) return;
   // Once the stage knows what has ended.
   QMetaObject::invokeMethod(
@@ -258,21 +262,34 @@ void MainWindow::closeWithoutAsking() {
   close();
 }
 
-void MainWindow::askBeforeClosing() {
-  auto* end = new PageCommand(Icon::stop, this);
-  auto* stay = new PageCommand(Icon::play, this);
-  connect(end, &QAction::triggered, this, &MainWindow::closeWithoutAsking);
-  tell(wizard_.currentPage(), endQuestion(session_, end, stay));
-}
-
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (asksBeforeClosing_ && session_.isMeasuring()) {
+  if (asksBeforeClosing_ && endQuestion_.isNeeded()) {
     event->ignore();
-    return askBeforeClosing();
+    return endQuestion_.whenNothingEnds(
+        [this] { closeWithoutAsking(); },
+        [this](const FailureReport& question) { tell(wizard_.currentPage(), question); });
   }
   // What is measured is in the journal: nothing is lost, and the next start offers to go on.
   for (std::size_t i = 0; i < wizard_.count(); ++i) wizard_.page(i).finish();
+  if (!session_.areDevicesFree()) {
+    event->ignore();
+    return closeOnceDevicesAreFree();
+  }
   QMainWindow::closeEvent(event);
+}
+
+/// A window that is gone while its program still works with the devices would leave them to nobody.
+void MainWindow::closeOnceDevicesAreFree() {
+  asksBeforeClosing_ = false;
+  if (findChild<EndingDialog*>() != nullptr) return;
+  (new EndingDialog(this))->open();
+  // Once the page whose work it was has put it away.
+  connect(
+      &session_, &Session::devicesChanged, this,
+      [this] {
+        if (session_.areDevicesFree()) close();
+      },
+      Qt::QueuedConnection);
 }
 
 void MainWindow::tell(const PageModel& page, const FailureReport& report) {

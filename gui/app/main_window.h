@@ -9,6 +9,7 @@
 #include "app/language.h"
 #include "wizard/frame/action_bar.h"
 #include "wizard/frame/banner_bar.h"
+#include "wizard/frame/end_question.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/frame/preferences.h"
 #include "wizard/frame/status_strip.h"
@@ -31,7 +32,7 @@ class MainWindow : public QMainWindow {
   void showSettings();
   /// Opens the guide at the page of the current step.
   void showHelp();
-  /// Also while something is measured, which close() asks about first.
+  /// Also while something is measured or played, which close() asks about first.
   void closeWithoutAsking();
 
  protected:
@@ -54,7 +55,7 @@ class MainWindow : public QMainWindow {
   void moveToNextRegion();
   void followFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
-  void askBeforeClosing();
+  void closeOnceDevicesAreFree();
 
   Session& session_;
   Wizard& wizard_;
@@ -65,6 +66,7 @@ class MainWindow : public QMainWindow {
   BannerBar* banner_;
   ActionBar* actions_;
   QWidget* header_;
+  EndQuestion endQuestion_;
   bool asksBeforeClosing_ = true;
   ElidedLabel *title_, *subtitle_;
   QPushButton* dim_;

@@ -94,12 +94,14 @@ void OutputProjection::play() {
   canvas_ = made_->renderer->canvas();
   content_ = std::exchange(made_->content, nullptr);
   std::vector<ProjectorWindow*> windows;
-  for (const ScreenIdentity& screen : screens_)
-    windows.push_back(windows_.emplace_back(std::make_unique<ProjectorWindow>(screen)).get());
+  for (const std::optional<ScreenIdentity>& screen : screens_)
+    windows.push_back(
+        windows_.emplace_back(std::make_unique<ProjectorWindow>(screen.value_or(ScreenIdentity()))).get());
   for (ProjectorWindow* window : windows) window->takeKeysOnlyIfAlone();
+  const bool isSeen = std::ranges::any_of(screens_, [](const auto& screen) { return screen.has_value(); });
   bool keepStep = std::all_of(windows.begin(), windows.end(),
                               [](const ProjectorWindow* window) { return window->surface().keepsStep(); });
-  if (!keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
+  if (isSeen && !keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
   player_ = std::make_unique<Player>(std::move(made_->renderer), content_, windows);
   // What these lead to ends the objects that tell it: later, when they are done telling.
   auto closeLater = [this] {
@@ -117,10 +119,12 @@ void OutputProjection::play() {
     Q_EMIT failed({ErrorKind::device, fullSentence(sentence), tr("Open the output again."),
                    QString::fromStdString(englishSentence(sentence))});
   });
-  awake_.emplace(tr("Relucent is projecting"));
-  awake_->wakeDisplays();
-  frameTimes_.clear();
-  for (const auto& window : windows_) window->shine();
+  if (isSeen) {
+    awake_.emplace(tr("Relucent is projecting"));
+    awake_->wakeDisplays();
+  }
+  for (std::size_t i = 0; i < windows_.size(); ++i)
+    if (screens_[i]) windows_[i]->shine();
   player_->start();
   sampling_.start();
   if (!within_.isEmpty()) reflecting_.start();
@@ -145,6 +149,7 @@ void OutputProjection::close() {
   content_ = nullptr;
   awake_.reset();
   tap_->put({});
+  frameTimes_.clear();
   mirror_ = {};
   reflected_ = 0;
   Q_EMIT mirrored();

@@ -18,7 +18,7 @@ namespace relucent::gui {
 class OutputTap;
 
 /// What plays on the projectors' screens: engine, windows and player, from opening to closing, and what of it
-/// the operator sees meanwhile.
+/// the operator sees meanwhile. A projector without a screen plays for the operator alone.
 class OutputProjection : public QObject {
   Q_OBJECT
 
@@ -27,7 +27,7 @@ class OutputProjection : public QObject {
     std::filesystem::path calibration;
     PlaylistSettings list;
     compensation::Fit fit = compensation::Fit::fit;
-    std::vector<ScreenIdentity> screens;  // one a projector
+    std::vector<std::optional<ScreenIdentity>> screens;  // one a projector; none: it plays unseen
   };
 
   explicit OutputProjection(QObject* parent = nullptr);
@@ -102,7 +102,7 @@ class OutputProjection : public QObject {
   Job job_;
   std::shared_ptr<Made> made_;
   std::shared_ptr<OutputTap> tap_;
-  std::vector<ScreenIdentity> screens_;
+  std::vector<std::optional<ScreenIdentity>> screens_;
   bool wanted_ = false;  // closed meanwhile, it does not open
   std::shared_ptr<Playlist> content_;
   Canvas canvas_;

@@ -90,7 +90,10 @@ void AcquirePage::makeCommands() {
 }
 
 PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
-  return addCommand(icon, [this, answer] { question_->give(answer); });
+  return addCommand(icon, [this, answer] {
+    if (answer == sentinels::Answer::retry) session_.putRight();
+    question_->give(answer);
+  });
 }
 
 AcquirePage::~AcquirePage() {

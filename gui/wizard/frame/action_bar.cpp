@@ -2,13 +2,17 @@
 #include "wizard/frame/action_bar.h"
 
 #include <QEvent>
+#include <QGuiApplication>
+#include <QStyleHints>
+#include <algorithm>
+#include <utility>
 
 #include "theme/theme.h"
 
 namespace relucent::gui {
 namespace {
 
-constexpr int rowHeight = space::actionBar + 4, spacing = 12;
+constexpr int rowHeight = space::actionBar + 4, spacing = 12, leastPrimary = 160;
 
 }  // namespace
 
@@ -44,13 +48,15 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   others->setSpacing(spacing);
   primary_ = buttonOf({}, "primary");
   primary_->setObjectName("primary");
-  primary_->setMinimumWidth(160);
+  primary_->setMinimumWidth(leastPrimary);
   grid_->addWidget(back_, 1, 0);
   grid_->addWidget(reason_, 1, 1);
   grid_->addWidget(secondary_, 1, 2);
   grid_->addWidget(primary_, 1, 3);
   all->addLayout(grid_, 1);
   connect(back_, &QPushButton::clicked, &wizard_, &Wizard::back);
+  primary_->installEventFilter(this);
+  back_->installEventFilter(this);
   connect(primary_, &QPushButton::clicked, this, &ActionBar::runPrimary);
   connect(&wizard_, &Wizard::statusChanged, this, &ActionBar::refresh);
   connect(&wizard_, &Wizard::progressChanged, this, &ActionBar::refresh);
@@ -59,14 +65,33 @@ ActionBar::ActionBar(Wizard& wizard, QWidget* parent) : QFrame(parent), wizard_(
   refresh();
 }
 
-QWidget* ActionBar::firstFocus() const {
-  return primary_->isEnabled() && !primary_->isHidden() ? primary_ : back_;
-}
-
 bool ActionBar::eventFilter(QObject* watched, QEvent* event) {
   if (watched == hint_ && event->type() == QEvent::MouseButtonRelease)
     if (PageModel& page = wizard_.currentPage(); page.hasRemedy()) Q_EMIT page.remedyWanted();
+  const bool isPress =
+      event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick;
+  if (const auto* button = qobject_cast<QPushButton*>(watched); button != nullptr && isPress)
+    return isMeantForAnother(*button, *static_cast<QMouseEvent*>(event));
   return QFrame::eventFilter(watched, event);
+}
+
+bool ActionBar::isMeantForAnother(const QPushButton& button, const QMouseEvent& press) {
+  const auto interval = static_cast<quint64>(QGuiApplication::styleHints()->mouseDoubleClickInterval());
+  const QPoint where = press.globalPosition().toPoint();
+  const bool isSecond =
+      press_ && press.timestamp() - press_->when < interval && press_->where.contains(where);
+  const bool isAnother = isSecond && press_->words != button.text();
+  if (isAnother)
+    press_->when = press.timestamp();  // nor is a third one
+  else
+    press_ = Press{press.timestamp(), QRect(button.mapToGlobal(QPoint(0, 0)), button.size()), button.text()};
+  return isAnother;
+}
+
+void ActionBar::keepWidth(QPushButton& button, const PageCommand& command) {
+  int& widest = widths_[&command];
+  widest = std::max(widest, button.sizeHint().width());
+  button.setMinimumWidth(widest);
 }
 
 void ActionBar::runPrimary() {
@@ -75,6 +100,10 @@ void ActionBar::runPrimary() {
 
 void ActionBar::refresh() {
   const PageModel& page = wizard_.currentPage();
+  if (std::exchange(shown_, &page) != &page) {
+    widths_.clear();
+    primary_->setMinimumWidth(leastPrimary);
+  }
   const PageCommand* primary = page.primary();
   primary_->setVisible(primary != nullptr);
   if (primary != nullptr) {
@@ -85,6 +114,7 @@ void ActionBar::refresh() {
     Qt::LayoutDirection reading = layoutDirection();
     Qt::LayoutDirection against = reading == Qt::LeftToRight ? Qt::RightToLeft : Qt::LeftToRight;
     primary_->setLayoutDirection(primary->glyph() == Icon::next ? against : reading);
+    primary_->setMinimumWidth(std::max(primary_->minimumWidth(), primary_->sizeHint().width()));
   }
   primary_->setEnabled(primary != nullptr && primary->isEnabled());
   back_->setVisible(wizard_.canGoBack());
@@ -134,6 +164,7 @@ void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
     connect(button, &QPushButton::clicked, this, [this, index] {
       if (index < commands_.size() && commands_[index]) commands_[index]->trigger();
     });
+    button->installEventFilter(this);
     secondary_->layout()->addWidget(button);
     buttons_.push_back(button);
   }
@@ -146,6 +177,7 @@ void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
     buttons_[i]->setIcon(iconOf(command.glyph(), command.isEnabled() ? colours().text : colours().disabled));
     buttons_[i]->setEnabled(command.isEnabled());
     if (buttons_[i]->shortcut() != command.shortcut()) buttons_[i]->setShortcut(command.shortcut());
+    keepWidth(*buttons_[i], command);
   }
 }
 

@@ -2,27 +2,31 @@
 #pragma once
 
 #include <QCoreApplication>
+#include <functional>
 
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
 
-/// Asked before something ends the measurement that is under way.  `end`, `stay`: the answers.
-inline FailureReport endQuestion(const Session& session, PageCommand* end, PageCommand* stay) {
-  const auto words = [](const char* english) { return QCoreApplication::translate("EndQuestion", english); };
-  FailureReport question;
-  question.failure.heading = words(QT_TRANSLATE_NOOP("EndQuestion", "A measurement is under way"));
-  question.failure.what = words(QT_TRANSLATE_NOOP("EndQuestion", "%1 in the venue “%2”."))
-                              .arg(session.devicesUserName(), session.name());
-  question.safe = words(QT_TRANSLATE_NOOP(
-      "EndQuestion", "Every photograph is on the disk. Opened again, the venue goes on from there."));
-  end->show(words(QT_TRANSLATE_NOOP("EndQuestion", "End it for now")));
-  stay->show(words(QT_TRANSLATE_NOOP("EndQuestion", "Go on measuring")));
-  question.goOn = end;
-  question.resume = stay;
-  question.isQuestion = true;
-  return question;
-}
+/// Asked before something ends what is under way: a measurement, a show, or both.
+class EndQuestion : public QObject {
+  Q_DECLARE_TR_FUNCTIONS(EndQuestion)
+
+ public:
+  explicit EndQuestion(const Session& session, QObject* parent = nullptr);
+
+  bool isNeeded() const { return !session_.underWay().isNothing(); }
+  /// Does it at once where nothing ends by it; else `ask` shows the question, and it is done once somebody
+  /// has agreed.
+  void whenNothingEnds(std::function<void()> work, const std::function<void(const FailureReport&)>& ask);
+
+ private:
+  FailureReport question() const;
+
+  const Session& session_;
+  std::function<void()> afterwards_;  // what somebody is asked to agree to
+  PageCommand *end_, *stay_;
+};
 
 }  // namespace relucent::gui

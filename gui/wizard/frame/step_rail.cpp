@@ -235,10 +235,6 @@ void StepRail::setNarrow(bool narrow) {
   for (StepButton* step : steps_) step->setNarrow(narrow);
 }
 
-QWidget* StepRail::firstFocus() const {
-  return steps_[wizard_.current()];
-}
-
 void StepRail::refresh() {
   // What a venue that is not begun yet has come to is not what the open one has. A measurement that is under
   // way is never hidden.

@@ -42,7 +42,6 @@ class StepRail : public QWidget {
 
  public:
   StepRail(Wizard& wizard, Session& session, QWidget* parent = nullptr);
-  QWidget* firstFocus() const;
   QBoxLayout* footer() const { return footer_; }
   /// Badges without words.
   void setNarrow(bool narrow);

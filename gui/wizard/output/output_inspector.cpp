@@ -7,7 +7,6 @@
 
 #include "theme/controls.h"
 #include "theme/theme.h"
-#include "theme/tick.h"
 #include "views/number_text.h"
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
@@ -29,6 +28,10 @@ QComboBox* screenBox(OutputPage& page) {
   auto refresh = [&page, box] {
     QStringList now;
     for (const OutputScreen& screen : page.screens()) {
+      if (screen.isPageOnly) {
+        now << OutputPage::tr("On this page only");
+        continue;
+      }
       QString name = screen.operators ? OutputPage::tr("This screen") : screen.identity.connector;
       now << QString("%1, %2").arg(name, sizeText(screen.size.width(), screen.size.height()));
     }
@@ -50,7 +53,11 @@ QString errorLine(const QString& what, const pipeline::ProvedProjection& project
       .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
 }
 
-void showProof(Remark& remark, const Proof* proof) {
+void showProof(Remark& remark, const Proof* proof, bool isOutOfDate) {
+  if (isOutOfDate)
+    return remark.show(Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
+                       OutputPage::tr("What is shown has been changed since. Take it again to prove what is "
+                                      "shown now."));
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
@@ -123,7 +130,7 @@ QWidget* proofPart(OutputPage& page) {
               [&page](bool isAtItsPlace) { page.pushedBack(isAtItsPlace); });
   });
   auto refresh = [=, &page] {
-    showProof(*found, page.proof().proof().get());
+    showProof(*found, page.proof().proof().get(), page.proof().isOutOfDate());
     showDrift(*changed, page.proof().drift());
     take->setEnabled(page.proof().isPossible());
     drift->setEnabled(page.proof().isPossible() && page.proof().mayFlash());
@@ -137,6 +144,28 @@ QWidget* proofPart(OutputPage& page) {
   return part;
 }
 
+/// What starts at log-in, and what installing would change.
+QString installedText(const OutputPage& page) {
+  using InstalledShow = OutputPage::InstalledShow;
+  switch (page.installedShow()) {
+    case InstalledShow::thisVenues:
+      return OutputPage::tr("Installed. The show starts at the next log-in, without camera or wizard.");
+    case InstalledShow::anotherVenues:
+      return page.isInstallable()
+                 ? OutputPage::tr("Another venue's show starts at log-in. Installing this one replaces it.")
+                 : OutputPage::tr(
+                       "Another venue's show starts at log-in. This is a rehearsal, which is not "
+                       "installed.");
+    case InstalledShow::none:
+      break;
+  }
+  return page.isInstallable()
+             ? OutputPage::tr("Once installed, the show starts at every log-in, without camera or wizard.")
+             : OutputPage::tr(
+                   "This is a rehearsal with simulated devices: its show is not installed. That of "
+                   "a real venue starts at every log-in.");
+}
+
 QWidget* handOverPart(OutputPage& page) {
   auto* part = new QWidget;
   auto* column = new QVBoxLayout(part);
@@ -148,32 +177,24 @@ QWidget* handOverPart(OutputPage& page) {
   QLabel* written = labelOf({}, "note");
   written->setObjectName("report-written");
   column->addWidget(written);
-  auto* starts = new Tick(OutputPage::tr("Start the show with this computer"));
-  starts->setObjectName("start-with-computer");
-  column->addWidget(starts);
   QLabel* state = labelOf({}, "note");
   state->setObjectName("install-state");
   column->addWidget(state);
+  QPushButton* remove = buttonOf(OutputPage::tr("Remove installed show"));
+  remove->setObjectName("remove-installed");
+  remove->setToolTip(OutputPage::tr("It does not start at log-in any more. Venue and playlist stay."));
+  column->addWidget(remove);
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
-  QObject::connect(starts, &Tick::toggled, &page, &OutputPage::setStartsWithComputer);
+  QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::removeInstalled);
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));
     written->setVisible(!page.reportFile().isEmpty());
     written->setText(OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
                          .arg(QDir::toNativeSeparators(page.reportFile())));
-    QSignalBlocker quiet(starts);
-    starts->setChecked(page.startsWithComputer());
-    state->setText(
-        page.isInstalled()
-            ? (page.startsWithComputer()
-                   ? OutputPage::tr(
-                         "Installed. The show starts at the next log-in, without camera or wizard.")
-                   : OutputPage::tr(
-                         "The show still starts with this computer. Install it again to end that."))
-            : (page.startsWithComputer()
-                   ? OutputPage::tr("Once installed, the show runs unattended, without camera or wizard.")
-                   : OutputPage::tr("The show does not start by itself.")));
+    remove->setVisible(page.installedShow() != OutputPage::InstalledShow::none);
+    remove->setIcon(iconOf(Icon::remove, colours().text));
+    state->setText(installedText(page));
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
   QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
@@ -205,7 +226,7 @@ QWidget* outputInspector(OutputPage& page) {
   column->addStretch(1);
   auto refresh = [=, &page] {
     Size size = page.projectorSize();
-    differs->setVisible(page.chosen() &&
+    differs->setVisible(page.chosen() && !page.screens()[*page.chosen()].isPageOnly &&
                         page.screens()[*page.chosen()].size != QSize(size.width, size.height));
     differs->setText(
         OutputPage::tr("This screen's resolution is not that of the projector that was measured."),

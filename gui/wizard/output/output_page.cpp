@@ -76,6 +76,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   });
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
+    session_.setShowing(isOpen() || reopen_);
     tellProgress();
     tellStatus();
   });
@@ -103,6 +104,7 @@ void OutputPage::enter() {
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
+  if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
 }
@@ -117,8 +119,10 @@ QString OutputPage::hint() const {
   if (isOpen()) {
     switch (proof_.next()) {
       case OutputProof::Next::photograph:
-        return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
-                             : tr("Take a verification photograph, or install without proof.");
+        if (isBlack() || isFrozen() || isInstalled()) return playingHint();
+        return isInstallable()
+                   ? tr("Take a verification photograph, or install without proof.")
+                   : tr("Take a verification photograph: it proves that the venue is measured well.");
       case OutputProof::Next::checkDrift:
         return needsConsent()
                    ? tr("Confirm that the room is clear.")
@@ -131,23 +135,34 @@ QString OutputPage::hint() const {
       case OutputProof::Next::aimAgain:
         return tr("Camera or projector stand elsewhere. Put the camera back, or aim and measure again.");
       case OutputProof::Next::install:
-        return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
-                             : tr("Playing. Hold A to compare.");
+        return playingHint();
     }
   }
+  if (isOnPageOnly()) return tr("This rehearsal plays on this page only: nothing is projected.");
   if (coversOperator()) return tr("The output will cover this window. Esc closes the output.");
   return tr("Nothing is projected before you open the output.");
+}
+
+/// While nothing stands against the show: what it does, in one voice with the rail.
+QString OutputPage::playingHint() const {
+  if (isBlack()) return tr("Black: the show goes on unseen until you show it again.");
+  if (isFrozen()) return tr("Frozen: this picture stands until you press Play.");
+  if (!isInstallable())
+    return tr("Rehearsed to the end. A simulated venue is not installed. Hold A to compare.");
+  return isInstalled() ? tr("Installed: the show starts at the next log-in. Hold A to compare.")
+                       : tr("Playing. Hold A to compare.");
 }
 
 void OutputPage::updateCommands() {
   open_->show(tr("Open output"), !projectorWithoutScreen() && !playlist_.isEmpty() &&
                                      !projection_.isOpening() && session_.areDevicesFree());
   const bool isProved = proof_.next() == OutputProof::Next::install;
-  install_->show(isInstalled()                      ? tr("Install again")
-                 : isProved                         ? tr("Install show")
-                 : proof_.proof() || proof_.drift() ? tr("Install anyway")
-                                                    : tr("Install without proof"),
-                 !playlist_.isEmpty());
+  const bool isJudged = (proof_.proof() && !proof_.isOutOfDate()) || proof_.drift();
+  install_->show(isInstalled() ? tr("Install again")
+                 : isProved    ? tr("Install show")
+                 : isJudged    ? tr("Install anyway")
+                               : tr("Install without proof"),
+                 isInstallable() && !playlist_.isEmpty());
   prove_->show(tr("Take verification photograph"), proof_.isPossible());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
   pushBack_->show(tr("Put the camera back"), proof_.isPossible());
@@ -178,11 +193,14 @@ PageCommand* OutputPage::primary() const {
   return install_;
 }
 
+/// What comes and goes stands first, so that the others keep their places.
 std::vector<PageCommand*> OutputPage::secondary() const {
   if (!isOpen()) return {};
-  if (primary() == install_) return {freeze_, black_, close_};
-  if (proof_.next() == OutputProof::Next::aimAgain) return {black_, close_, aimAgain_, install_};
-  return {freeze_, black_, close_, install_};
+  std::vector<PageCommand*> commands;
+  if (isInstallable() && primary() != install_) commands.push_back(install_);
+  commands.push_back(proof_.next() == OutputProof::Next::aimAgain ? aimAgain_ : freeze_);
+  commands.insert(commands.end(), {black_, close_});
+  return commands;
 }
 
 bool OutputPage::needsConsent() const {
@@ -193,7 +211,10 @@ std::optional<Banner> OutputPage::banner() const {
   if (isScreenLost())
     return Banner{Banner::Kind::amber, tr("The projector's screen is unplugged"),
                   tr("Nothing is lost. Plug it in again: the show comes back by itself.")};
-  return stoppedEarly(session_, goOnMeasuring_);
+  if (const auto stopped = stoppedEarly(session_, goOnMeasuring_)) return stopped;
+  if (!proof_.isOutOfDate()) return std::nullopt;
+  return Banner{Banner::Kind::amber, tr("The verification photograph is out of date"),
+                tr("What is shown has been changed since. Take it again to prove what is shown now.")};
 }
 
 std::optional<double> OutputPage::progress() const {
@@ -252,8 +273,11 @@ void OutputPage::open() {
   if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
       !session_.areDevicesFree())
     return;
-  std::vector<ScreenIdentity> screens;
-  for (const auto& screen : chosen_) screens.push_back(screens_[*screen].identity);
+  std::vector<std::optional<ScreenIdentity>> screens;
+  for (const auto& screen : chosen_) {
+    const OutputScreen& wanted = screens_[*screen];
+    screens.push_back(wanted.isPageOnly ? std::nullopt : std::optional(wanted.identity));
+  }
   std::filesystem::path results = session_.path();
   try {
     earlier_ = nullptr;
@@ -273,8 +297,8 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
   if (!proof_.isPossible() || projection_.isOpening()) return;
   // A real camera would photograph the show.
   if (isOpen() && !session_.isSimulated()) {
-    close();
     reopen_ = true;
+    close();
   }
   work();
 }
@@ -308,11 +332,6 @@ void OutputPage::report() {
   if (proof_.isPossible()) proof_.report(pictureToProve());
 }
 
-void OutputPage::setStartsWithComputer(bool starts) {
-  starts_ = starts;
-  tellSettings();
-}
-
 void OutputPage::setConfigFolder(const QString& folder) {
   config_ = folder;
   detectInstalledShow();
@@ -320,8 +339,13 @@ void OutputPage::setConfigFolder(const QString& folder) {
 
 void OutputPage::detectInstalledShow() {
   const QString venue = QString::fromStdString(session_.path().string());
-  installed_ = session_.isOpen() && (gui::isInstalled(Start::service, config_, venue) ||
-                                     gui::isInstalled(Start::autostart, config_, venue));
+  installed_ = InstalledShow::none;
+  for (Start start : {Start::service, Start::autostart}) {
+    if (session_.isOpen() && gui::isInstalled(start, config_, venue))
+      installed_ = InstalledShow::thisVenues;
+    else if (installed_ == InstalledShow::none && gui::isInstalled(start, config_))
+      installed_ = InstalledShow::anotherVenues;
+  }
   tellResult();
 }
 
@@ -343,14 +367,21 @@ QStringList OutputPage::showArguments() const {
 }
 
 void OutputPage::install() {
+  if (!isInstallable()) return;
   try {
     playlist_.save();
-    if (starts_)
-      // Where systemd does not run the session, the desktop starts it.
-      gui::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
-                   QCoreApplication::applicationFilePath(), showArguments());
-    else
-      for (Start start : {Start::service, Start::autostart}) uninstall(start, config_);
+    // Where systemd does not run the session, the desktop starts it.
+    gui::install(QFileInfo::exists("/run/systemd/system") ? Start::service : Start::autostart, config_,
+                 QCoreApplication::applicationFilePath(), showArguments());
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  detectInstalledShow();
+}
+
+void OutputPage::removeInstalled() {
+  try {
+    for (Start start : {Start::service, Start::autostart}) uninstall(start, config_);
   } catch (...) {
     tell(failureOf(std::current_exception()));
   }

@@ -9,12 +9,14 @@
 
 namespace relucent::gui {
 
-/// A screen that the output can shine on.
+/// A screen that the output can shine on; for a rehearsal, whose projector is simulated, also none: this page
+/// alone shows what it would project.
 struct OutputScreen {
-  ScreenIdentity identity;
-  QSize size;              // in its own pixels
+  ScreenIdentity identity{};
+  QSize size{};            // in its own pixels
   bool operators = false;  // the one with this window
   double framesPerSecond = 0.0;
+  bool isPageOnly = false;
 };
 
 /// Step 8: the content on the projector, corrected in real time; proved; handed over.
@@ -93,13 +95,16 @@ class OutputPage : public DevicePage {
   /// Where it is; empty: not written since the calibration was opened.
   const QString& reportFile() const { return reportFile_; }
 
-  /// Whether installing makes the show start with the computer; yes at first.
-  bool startsWithComputer() const { return starts_; }
-  void setStartsWithComputer(bool starts);
-  /// The show that starts with the computer is this venue's.
-  bool isInstalled() const { return installed_; }
-  /// Keeps the playlist and makes the show start at log-in, or no more.
+  /// The show that starts at log-in: of a user there is one.
+  enum class InstalledShow { none, thisVenues, anotherVenues };
+  InstalledShow installedShow() const { return installed_; }
+  bool isInstalled() const { return installed_ == InstalledShow::thisVenues; }
+  /// Devices that are simulated play for nobody: a rehearsal's show is not installed.
+  bool isInstallable() const { return !session_.isSimulated(); }
+  /// Keeps the playlist and makes the show start at log-in, in place of one that did.
   void install();
+  /// Whichever starts at log-in does so no more.
+  void removeInstalled();
   /// Of the user; tests have their own.
   void setConfigFolder(const QString& folder);
 
@@ -116,6 +121,8 @@ class OutputPage : public DevicePage {
   void detectInstalledShow();
   std::optional<std::size_t> projectorWithoutScreen() const;
   bool coversOperator() const;
+  bool isOnPageOnly() const;
+  QString playingHint() const;
   QString screenHint(std::size_t projector) const;
   std::optional<std::size_t> usualScreen() const;
   void keepScreen();
@@ -142,9 +149,8 @@ class OutputPage : public DevicePage {
   bool reopen_ = false;                             // when the photographs are taken
   QString preferred_;                               // Preview's picture
   QString config_;
-  bool installed_ = false;
+  InstalledShow installed_ = InstalledShow::none;
   QString reportFile_;
-  bool starts_ = true;
 };
 
 }  // namespace relucent::gui

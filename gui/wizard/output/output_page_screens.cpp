@@ -16,9 +16,10 @@ void OutputPage::listScreens() {
   for (const auto& screen : chosen_)
     before.push_back(screen ? std::optional(screens_[*screen].identity) : std::nullopt);
   screens_.clear();
+  if (session_.isSimulated()) screens_.push_back({.isPageOnly = true});
   for (QScreen* screen : QGuiApplication::screens())
     screens_.push_back({identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen(),
-                        screen->refreshRate()});
+                        screen->refreshRate(), false});
   before.resize(session_.projectors());
   chosen_.assign(before.size(), std::nullopt);
   for (std::size_t projector = 0; projector < before.size(); ++projector)
@@ -39,6 +40,8 @@ std::optional<std::size_t> OutputPage::usualScreen() const {
     for (const OutputScreen& screen : screens_) present << screen.identity;
     return findScreen(identityOf(measured->display), present);
   }
+  // Nothing that is simulated shines into a room unasked.
+  if (session_.isSimulated()) return std::size_t{0};
   for (std::size_t i = 0; i < screens_.size(); ++i) {
     bool taken = std::find(chosen_.begin(), chosen_.end(), std::optional(i)) != chosen_.end();
     if (!taken && !screens_[i].operators) return i;
@@ -50,7 +53,7 @@ void OutputPage::choose(std::size_t index) {
   if (isOpen()) close();
   std::optional<std::size_t>& mine = chosen_[projector()];
   auto other = std::find(chosen_.begin(), chosen_.end(), std::optional(index));
-  if (other != chosen_.end()) *other = mine;
+  if (other != chosen_.end() && !screens_[index].isPageOnly) *other = mine;
   mine = index;
   keepScreen();
   tellSettings();
@@ -65,6 +68,11 @@ std::optional<std::size_t> OutputPage::projectorWithoutScreen() const {
 bool OutputPage::coversOperator() const {
   return std::any_of(chosen_.begin(), chosen_.end(),
                      [this](const auto& screen) { return screen && screens_[*screen].operators; });
+}
+
+bool OutputPage::isOnPageOnly() const {
+  return std::ranges::all_of(chosen_,
+                             [this](const auto& screen) { return screen && screens_[*screen].isPageOnly; });
 }
 
 /// The calibration was given another screen, here or at Venue.

@@ -71,30 +71,30 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
     pushedBack_ = false;
     Q_EMIT changed();
   });
-  connect(&session_, &Session::stepsChanged, this, &OutputProof::dropOutdated);
+  connect(&session_, &Session::stepsChanged, this, &OutputProof::look);
   connect(&job_, &Job::progressed, this, &OutputProof::progressed);
   connect(&job_, &Job::ended, this, &OutputProof::finished);
 }
 
-/// Somebody photographed it earlier, and nothing has changed since.
+/// Somebody photographed it earlier.
 void OutputProof::recall() {
   proof_ = session_.isOpen() ? loadProof(proofFolder(session_.path())) : nullptr;
-  if (proof_ && !holds(*proof_)) proof_ = nullptr;
   drift_ = session_.isOpen() ? loadDrift(proofFolder(session_.path())) : std::nullopt;
   if (drift_ && drift_->measurement != measurementOf(session_)) drift_.reset();
 }
 
 bool OutputProof::holds(const Proof& proof) const {
-  return proof.content == session_.settings().content && proof.measured == measurementOf(session_);
+  const bool isSame = proof.shownFrom.empty() || proof.shownFrom == session_.shownFrom();
+  return isSame && proof.content == session_.settings().content && proof.measured == measurementOf(session_);
 }
 
-void OutputProof::dropOutdated() {
+/// What was measured, chosen or decided has changed.
+void OutputProof::look() {
   if (!session_.isOpen()) return;
-  const bool isProofOld = proof_ && !holds(*proof_),
-             isDriftOld = drift_ && drift_->measurement != measurementOf(session_);
-  if (isProofOld) proof_ = nullptr;
+  const bool isDriftOld = drift_ && drift_->measurement != measurementOf(session_);
   if (isDriftOld) drift_.reset();
-  if (isProofOld || isDriftOld) Q_EMIT changed();
+  const bool wasOutOfDate = std::exchange(wasOutOfDate_, isOutOfDate());
+  if (isDriftOld || wasOutOfDate != wasOutOfDate_) Q_EMIT changed();
 }
 
 /// A photograph that was taken later says more.
@@ -111,16 +111,17 @@ OutputProof::Next OutputProof::next() const {
   const pipeline::DriftRecord* drift = newestDrift();
   if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
   if (drift != nullptr && drift->verdict == Verdict::remeasure) return Next::measureAgain;
-  if (!proof_) return Next::photograph;
-  if (proof_->isAsPredicted()) return Next::install;
+  const Proof* proof = current();
+  if (proof == nullptr) return Next::photograph;
+  if (proof->isAsPredicted()) return Next::install;
   // What was measured holds: something was in the way of that photograph.
   if (drift != nullptr) return Next::photograph;
-  return proof_->figures.moved.explains ? Next::pushBack : Next::checkDrift;
+  return proof->figures.moved.explains ? Next::pushBack : Next::checkDrift;
 }
 
 void OutputProof::cameraPushedBack() {
-  pushedBack_ =
-      (proof_ && !proof_->isAsPredicted()) || (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
+  pushedBack_ = (current() != nullptr && !current()->isAsPredicted()) ||
+                (drift_ && drift_->verdict != acquisition::Verdict::stillGood);
   if (!pushedBack_) return;
   drift_.reset();
   forgetDrift(proofFolder(session_.path()));
@@ -138,8 +139,8 @@ void OutputProof::photograph(const QString& picture) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
   start(Work::photograph, [found = found_, work = workOf(session_), picture,
-                           content = session_.settings().content,
-                           measured = measurementOf(session_)](Progress& progress) {
+                           content = session_.settings().content, measured = measurementOf(session_),
+                           shownFrom = session_.shownFrom()](Progress& progress) {
     pipeline::ProveSettings settings;
     settings.out = proofFolder(work.path);
     settings.image = fileOf(picture, settings.out);
@@ -152,6 +153,7 @@ void OutputProof::photograph(const QString& picture) {
     auto proof = proofOf(pipeline::proveCalibration(work.path, settings, rig, proving), settings.out);
     proof->content = content;
     proof->measured = measured;
+    proof->shownFrom = shownFrom;
     saveProof(*proof, settings.out);
     found->proof = proof;
   });

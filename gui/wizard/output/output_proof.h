@@ -18,9 +18,10 @@ struct Proof {
   QImage wanted, photograph;  // as somebody sees them who is used to the content's white
   image::Image deltaE;        // CIEDE2000 of every pixel; NaN outside the content
   QDateTime taken;
-  /// What it was taken of: with other content or another measurement it proves nothing.
+  /// What it was taken of: with other content, another measurement, threshold or clusters it proves nothing.
   pipeline::ContentSettings content;
   std::string measured;
+  std::string shownFrom;  // see Session::shownFrom(); empty: nobody kept it
 
   bool isAsPredicted() const { return pipeline::isAsPredicted(figures); }
 };
@@ -45,7 +46,10 @@ class OutputProof : public QObject {
   /// A dozen patterns one after the other: people must know.
   bool mayFlash() const { return session_.mayMeasure(); }
 
+  /// The last photograph, perhaps out of date.
   const std::shared_ptr<const Proof>& proof() const { return proof_; }
+  /// There is one, of something else than is shown now.
+  bool isOutOfDate() const { return proof_ && !holds(*proof_); }
   const std::optional<pipeline::DriftRecord>& drift() const { return drift_; }
   /// What is to be done next to prove the venue, or about what was found.
   enum class Next { photograph, install, pushBack, checkDrift, measureAgain, aimAgain };
@@ -75,7 +79,8 @@ class OutputProof : public QObject {
   void finished();
   void recall();
   bool holds(const Proof& proof) const;
-  void dropOutdated();
+  const Proof* current() const { return proof_ && holds(*proof_) ? proof_.get() : nullptr; }
+  void look();
   const pipeline::DriftRecord* newestDrift() const;
 
   Session& session_;
@@ -85,6 +90,7 @@ class OutputProof : public QObject {
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
   std::optional<pipeline::DriftRecord> drift_;
+  bool wasOutOfDate_ = false;
   bool pushedBack_ = false;  // since the last photograph
   struct Found;
   std::shared_ptr<Found> found_;  // by the job

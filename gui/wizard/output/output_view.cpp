@@ -253,9 +253,17 @@ class OutputStage : public QWidget {
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
-    if (proof == shown_) return;
-    shown_ = proof;
-    showProof();
+    if (proof != shown_) {
+      shown_ = proof;
+      showProof();
+    }
+    photograph_->setSubtitle(takenText());
+  }
+  QString takenText() const {
+    if (!shown_) return {};
+    const QString when = QLocale().toString(shown_->taken.time(), QLocale::ShortFormat);
+    return page_.proof().isOutOfDate() ? OutputPage::tr("taken %1, out of date").arg(when)
+                                       : OutputPage::tr("taken %1").arg(when);
   }
   /// Over the projector's picture: how it goes.
   QString figures() const {
@@ -272,10 +280,8 @@ class OutputStage : public QWidget {
       photo_->setPicture({});
       photo_->setCompared({}, {}, {});
       difference_->setPicture({});
-      return photograph_->setSubtitle({});
+      return;
     }
-    photograph_->setSubtitle(
-        OutputPage::tr("taken %1").arg(QLocale().toString(shown_->taken.time(), QLocale::ShortFormat)));
     photo_->setPicture(shown_->wanted);
     photo_->setCompared(shown_->photograph, OutputPage::tr("Wanted"), OutputPage::tr("Photograph"));
     ColourScale scale{ColourMap::cividis, 0.0, worstDeltaE, false};

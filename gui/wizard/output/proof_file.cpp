@@ -20,9 +20,9 @@ fs::path proofFolder(const fs::path& calibration) {
 }
 
 void saveProof(const Proof& proof, const fs::path& folder) {
-  pipeline::saveProofRecord(
-      {proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured, proof.content, proof.figures},
-      folder);
+  pipeline::saveProofRecord({proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured,
+                             proof.shownFrom, proof.content, proof.figures},
+                            folder);
 }
 
 std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
@@ -32,6 +32,7 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     auto proof = std::make_shared<Proof>();
     proof->taken = QDateTime::fromString(QString::fromStdString(record->taken), Qt::ISODate).toLocalTime();
     proof->measured = record->measurement;
+    proof->shownFrom = record->shownFrom;
     proof->content = record->content;
     proof->figures = record->figures;
     proof->wanted = read(folder / "target.png");

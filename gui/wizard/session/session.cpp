@@ -12,6 +12,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -53,12 +54,19 @@ QString Session::name() const {
 void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  surprises_ = nullptr;
   adopt(folder);
 }
 
-void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings) {
+void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings,
+                    const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
+  surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
   adopt(folder);
+}
+
+void Session::putRight() {
+  if (surprises_) surprises_->putRight();
 }
 
 void Session::adopt(const calibration::CalibrationFolder& folder) {
@@ -83,7 +91,8 @@ void Session::adopt(const calibration::CalibrationFolder& folder) {
 void Session::makeDevices() {
   devices_ = std::make_shared<SessionDevices>(
       settings_.rig, cache_, live_,
-      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_);
+      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_,
+      surprises_);
   const auto& checked = figures<calibration::Stage::camera>();
   if (checked && progress(calibration::Stage::camera) == calibration::StageProgress::done &&
       checked->latencySeconds)
@@ -158,6 +167,7 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   measuredDisplay_ = screen != nullptr ? screen->display : pipeline::ScreenRigSettings::Display();
   keptPhotographs_ = pipeline::keptPhotographs(folder);
   photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
+  shownFrom_ = pipeline::fingerprintOfShown(folder);
   figures_ = calibration::resultsIn(folder);
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),

@@ -21,6 +21,7 @@
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/venue/surprises.h"
 #include "wizard/session/device_lease.h"
 #include "wizard/session/step_name.h"
 
@@ -36,12 +37,14 @@ struct CheckPatience {
 class SessionDevices {
  public:
   SessionDevices(pipeline::RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
-                 pipeline::ScreenOpener screens, CheckPatience patience)
+                 pipeline::ScreenOpener screens, CheckPatience patience,
+                 std::shared_ptr<venue::Surprises> surprises)
       : settings_(std::move(settings)),
         cache_(std::move(cache)),
         live_(std::move(live)),
         screens_(std::move(screens)),
-        patience_(patience) {}
+        patience_(patience),
+        surprises_(std::move(surprises)) {}
 
   /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used;
   /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
@@ -77,6 +80,7 @@ class SessionDevices {
   std::shared_ptr<CameraPatience> waiting_ = std::make_shared<CameraPatience>();
   pipeline::ScreenOpener screens_;
   CheckPatience patience_;
+  std::shared_ptr<venue::Surprises> surprises_;  // of simulated devices; nullptr: none
   std::mutex guard_;
   std::optional<pipeline::OpenedRig> opened_;
   devices::ScreenProof proof_;
@@ -99,6 +103,12 @@ enum class DeviceWork {
   measurement  // minutes to hours
 };
 
+/// What is under way with a calibration and would end with it.
+struct UnderWay {
+  bool measurement = false, show = false;
+  bool isNothing() const { return !measurement && !show; }
+};
+
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
 /// locked only while something is read or written, so that a show can read it beside the wizard.
 class Session : public QObject {
@@ -116,7 +126,13 @@ class Session : public QObject {
 
   /// Throws: as CalibrationFolder::open() and beginCalibration(); the session is then as it was.
   void open(const std::filesystem::path& path);
-  void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings);
+  /// `surprises`: what happens to simulated devices, as long as this calibration stays open.
+  void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings,
+             const venue::SurpriseSettings& surprises = {});
+  /// nullptr: none.
+  const venue::Surprises* surprises() const { return surprises_.get(); }
+  /// What somebody was asked for before measuring again is done; see venue::Surprises.
+  void putRight();
   void close();
 
   const pipeline::CalibrateSettings& settings() const { return settings_; }
@@ -150,6 +166,8 @@ class Session : public QObject {
   int photographsKept(calibration::Stage stage) const;
   /// Those taken since its result was stored: of a measurement that was begun again and has not ended.
   int photographsSince(calibration::Stage stage) const;
+  /// A fingerprint of all that a picture on the projectors follows from; see pipeline/proof_record.h.
+  const std::string& shownFrom() const { return shownFrom_; }
   /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
 
@@ -235,6 +253,10 @@ class Session : public QObject {
   DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief);
   /// Work under way that takes long and is not to be ended by the way.
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
+  /// A show plays on the projectors' screens.
+  void setShowing(bool showing) { isShowing_ = showing; }
+  /// What another calibration, or the end of the program, would end: not without a question.
+  UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
   /// can.
   QString whyLocked(const StepName& step) const;
@@ -274,16 +296,19 @@ class Session : public QObject {
   pipeline::CalibrateSettings settings_;
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
+  std::string shownFrom_;
   pipeline::ScreenRigSettings::Display measuredDisplay_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;
   std::shared_ptr<LiveRig> live_;
+  std::shared_ptr<venue::Surprises> surprises_;
   std::shared_ptr<SessionDevices> devices_;
   std::shared_ptr<const transport::Acquisition> acquisition_;
   std::string acquired_;  // the measurement that `acquisition_` is or will be
   std::optional<Failure> readFailure_;
   std::optional<StepName> devicesUser_;
   DeviceWork deviceWork_ = DeviceWork::brief;
+  bool isShowing_ = false;
   int flashLimit_ = 0;
   bool roomClear_ = false;
   bool screenMissing_ = false, cameraSilent_ = false;

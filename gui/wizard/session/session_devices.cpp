@@ -31,8 +31,11 @@ rig::Rig& SessionDevices::opened(Progress& progress) {
     Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
                                      RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
     pipeline::OpenedRig opened = pipeline::openRig(settings_, cache_, screens_, opening);
-    // What is simulated answers at once.
-    if (!std::holds_alternative<venue::VenueSettings>(settings_))
+    if (opened.venue && surprises_)
+      opened.rig = opened.venue->rig(
+          [surprises = surprises_](const rig::ShotId& shot) { return surprises->during(shot); });
+    // What is simulated answers at once, but for a surprise.
+    if (!opened.venue || surprises_)
       for (std::unique_ptr<rig::Camera>& camera : opened.rig.cameras)
         camera = std::make_unique<PatientCamera>(std::move(camera), waiting_);
     opened.rig = rig::watched(std::move(opened.rig), live_);

@@ -33,15 +33,21 @@ Tile::Tile(const QImage& picture, const QString& name, const QString& sentence, 
 
 void Tile::init(const QString& name, const QString& sentence) {
   setText(name);
-  sentence_ = sentence;
+  setSentence(sentence);
   setAccessibleName(name);
-  setAccessibleDescription(sentence);
   setFocusPolicy(Qt::StrongFocus);
   QSizePolicy policy(QSizePolicy::Expanding,
                      picture_.isNull() ? QSizePolicy::Preferred : QSizePolicy::Expanding);
   policy.setHeightForWidth(true);
   setSizePolicy(policy);
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
+}
+
+void Tile::setSentence(const QString& sentence) {
+  sentence_ = sentence;
+  setAccessibleDescription(sentence);
+  updateGeometry();
+  update();
 }
 
 int Tile::widthBesideText() const {

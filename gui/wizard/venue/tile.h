@@ -16,6 +16,7 @@ class Tile : public QAbstractButton {
  public:
   Tile(Icon icon, const QString& name, const QString& sentence, QWidget* parent = nullptr);
   Tile(const QImage& picture, const QString& name, const QString& sentence, QWidget* parent = nullptr);
+  void setSentence(const QString& sentence);
   /// Of something that is not there now.
   void setDashed(bool dashed);
   bool isDashed() const { return dashed_; }

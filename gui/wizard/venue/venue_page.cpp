@@ -7,7 +7,6 @@
 
 #include "relucent/calibration/calibration_folder.h"
 #include "views/number_text.h"
-#include "wizard/frame/end_question.h"
 #include "wizard/venue/venue_thumbnail.h"
 #include "wizard/venue/venue_tidy.h"
 
@@ -23,29 +22,17 @@ QString sizeText(Size size) {
 }  // namespace
 
 VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
-    : PageModel(stepName, parent), session_(session), recent_(recent), openScreen_(session) {
+    : PageModel(stepName, parent),
+      session_(session),
+      recent_(recent),
+      openScreen_(session),
+      endQuestion_(session) {
   checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
-  end_ = addCommand(Icon::stop, [this] {
-    if (auto work = std::exchange(afterwards_, {})) work();
-  });
-  stay_ = addCommand(Icon::play, [this] { afterwards_ = {}; });
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
-  venues_ = {
-      {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
-       ":/venues/corner.png"},
-      {"statue", QT_TR_NOOP("Bust before a brick wall"),
-       QT_TR_NOOP("Texture, shadow and light between surfaces"), ":/venues/statue.png"},
-      {"depth", QT_TR_NOOP("Many depths"), QT_TR_NOOP("Some surfaces are out of focus"),
-       ":/venues/depth.png"},
-      {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png"},
-      {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"), ":/venues/glass.png"},
-      {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
-       ":/venues/relief.png"},
-      {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
-       ":/venues/plain.png"}};
+  venues_ = rehearsalVenues();
   setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
             {{128, 96}, {80, 60}, QT_TR_NOOP("%1, quick")},
             {{256, 192}, {160, 120}, QT_TR_NOOP("%1, usual")},
@@ -197,9 +184,8 @@ void VenuePage::openNow(const QString& folder) {
 }
 
 void VenuePage::whenNothingEnds(std::function<void()> work) {
-  if (!session_.isMeasuring()) return work();
-  afterwards_ = std::move(work);
-  Q_EMIT failed(endQuestion(session_, end_, stay_));
+  endQuestion_.whenNothingEnds(std::move(work),
+                               [this](const FailureReport& question) { Q_EMIT failed(question); });
 }
 
 void VenuePage::reportNoVenue(const QDir& folder) {
@@ -212,27 +198,6 @@ void VenuePage::reportNoVenue(const QDir& folder) {
                              : tr("Choose a venue's own folder. It has the venue's name."),
                   folder.path(), tr("This folder is not a venue")};
   Q_EMIT failed({failure, tr("Nothing was changed in that folder.")});
-}
-
-void VenuePage::chooseVenue(std::size_t index) {
-  venue_ = index;
-  suggestName();
-  tellSettings();
-}
-
-void VenuePage::chooseSize(std::size_t index) {
-  size_ = index;
-  tellSettings();
-}
-
-QString VenuePage::nameOf(const RehearsalSize& size) {
-  return tr(size.text).arg(sizeText(size.projector));
-}
-
-void VenuePage::setSizes(std::vector<RehearsalSize> sizes) {
-  sizes_ = std::move(sizes);
-  size_ = 0;
-  tellSettings();
 }
 
 void VenuePage::setScript(const pipeline::CommandRigSettings& script) {
@@ -293,7 +258,7 @@ void VenuePage::beginNow() {
   try {
     QDir().mkpath(parent_);
     bool clear = roomClear_;  // begun, the page starts over
-    session_.begin(target().toStdString(), wanted());
+    session_.begin(target().toStdString(), wanted(), surprisesWanted());
     session_.setRoomClear(clear);
     named_ = false;
   } catch (...) {

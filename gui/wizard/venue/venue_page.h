@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "wizard/devices/screen_choice.h"
+#include "wizard/frame/end_question.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 #include "wizard/venue/recent_venues.h"
@@ -16,11 +18,16 @@ namespace relucent::gui {
 
 class VenueTidy;
 
+/// How much there is to understand in a simulated venue.
+enum class Difficulty { easy, usual, hard };
+
 /// A simulated venue as it is offered.
 struct RehearsalVenue {
   std::string id;               // core's name
   const char *name, *sentence;  // for VenuePage::tr()
   QString picture;              // resource
+  Difficulty difficulty = Difficulty::usual;
+  double work = 1.0;  // of measuring it, relative to a painted wall
 };
 /// Sizes of the simulated devices.
 struct RehearsalSize {
@@ -60,7 +67,7 @@ class VenuePage : public PageModel {
   QList<RecentVenue> recent() const { return recent_.list(); }
   bool isOpenNow(const RecentVenue& venue) const;
   /// A calibration's folder, or its file in there. Tells failed() if it cannot be opened. Where a measurement
-  /// would end by it, asks first.
+  /// or a show would end by it, asks first.
   void open(const QString& path);
 
   /// Why no venue can be tidied now, a sentence; empty: it can.
@@ -75,6 +82,13 @@ class VenuePage : public PageModel {
   std::size_t size() const { return size_; }
   void chooseVenue(std::size_t index);
   void chooseSize(std::size_t index);
+  /// How long it takes to measure one of the venues on a usual computer, and how hard it is.
+  QString effortOf(const RehearsalVenue& venue) const;
+  /// What happens while the rehearsal measures, for practice.
+  bool hasSurprise(venue::Surprise surprise) const;
+  void setSurprise(venue::Surprise surprise, bool wanted);
+  /// Of the moments; else another one for every rehearsal.
+  void setSurpriseSeed(std::uint64_t seed) { surpriseSeed_ = seed; }
   /// Pixels of their own for tests and pictures.
   void setSizes(std::vector<RehearsalSize> sizes);
 
@@ -128,11 +142,13 @@ class VenuePage : public PageModel {
     Remedy remedy = Remedy::none;
   };
   Problem firstProblem() const;
+  static std::vector<RehearsalVenue> rehearsalVenues();
   pipeline::CalibrateSettings wanted() const;
+  venue::SurpriseSettings surprisesWanted() const;
   void begin();
   void openNow(const QString& folder);
   void beginNow();
-  /// At once, or once somebody has agreed to the end of the measurement that is under way.
+  /// At once, or once somebody has agreed to the end of what is under way.
   void whenNothingEnds(std::function<void()> work);
   void useScreen();
   void reportNoVenue(const QDir& folder);
@@ -142,20 +158,21 @@ class VenuePage : public PageModel {
   Session& session_;
   RecentVenues recent_;
   VenueScreen openScreen_;
+  EndQuestion endQuestion_;
   Mode mode_ = Mode::start;
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
   std::size_t venue_ = 0, size_ = 0;
+  std::vector<venue::Surprise> surprises_;
+  std::optional<std::uint64_t> surpriseSeed_;
   pipeline::CommandRigSettings script_;
   pipeline::ScreenRigSettings screen_;
   QString screenWarning_;
   QString venueName_, parent_;
   QString usualFolder_;
   bool roomClear_ = false;
-  bool named_ = false;                // by the user
-  std::function<void()> afterwards_;  // what the end of the measurement is asked for
+  bool named_ = false;  // by the user
   PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
-  PageCommand *end_, *stay_;  // of that question
 };
 
 }  // namespace relucent::gui

@@ -54,8 +54,10 @@ WorkLeft VenuePage::expected() const {
   }
   constexpr std::size_t exposures = 2;
   constexpr double meanExposure = 0.1;
-  Rasters projectors(std::vector<Size>(Session::projectorsOf(wanted().rig), projector));
-  return acquisition::forecast({Rasters(camera), projectors, exposures, meanExposure}, {}, {}, {});
+  const pipeline::CalibrateSettings settings = wanted();
+  Rasters projectors(std::vector<Size>(Session::projectorsOf(settings.rig), projector));
+  return acquisition::forecast({Rasters(camera), projectors, exposures, meanExposure}, settings.acquisition,
+                               {}, {});
 }
 
 std::pair<double, double> VenuePage::expectedSeconds() const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/venue/venue_view.h"
 
-#include <QComboBox>
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QStackedWidget>
@@ -88,50 +87,6 @@ class KeepingPart : public QWidget {
 
 QWidget* keepingPart(VenuePage& model) {
   return new KeepingPart(model);
-}
-
-QWidget* rehearseStage(VenuePage& model) {
-  auto* stage = new QWidget;
-  auto* grid = new QGridLayout(stage);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(space::gap);
-  auto* group = new QButtonGroup(stage);
-  constexpr int across = 4;
-  for (std::size_t i = 0; i < model.venues().size(); ++i) {
-    const RehearsalVenue& venue = model.venues()[i];
-    auto* tile = new Tile(QImage(venue.picture), VenuePage::tr(venue.name), VenuePage::tr(venue.sentence));
-    tile->setObjectName("venue-" + QString::fromStdString(venue.id));
-    tile->setCheckable(true);
-    tile->setChecked(i == model.venue());
-    group->addButton(tile, static_cast<int>(i));
-    grid->addWidget(tile, static_cast<int>(i) / across, static_cast<int>(i) % across);
-  }
-  QObject::connect(group, &QButtonGroup::idClicked, &model,
-                   [&model](int id) { model.chooseVenue(static_cast<std::size_t>(id)); });
-  return stage;
-}
-
-QWidget* rehearseInspector(VenuePage& model) {
-  QVBoxLayout* column = nullptr;
-  QWidget* card = inspectorCard(column);
-  column->addWidget(labelOf(VenuePage::tr("Simulated devices"), "section"));
-  column->addWidget(labelOf(VenuePage::tr("Projector"), "note"));
-  auto* sizes = new QComboBox;
-  sizes->setObjectName("rehearsal-size");
-  sizes->setAccessibleName(VenuePage::tr("Pixels of the simulated projector"));
-  for (const RehearsalSize& size : model.sizes()) sizes->addItem(VenuePage::nameOf(size));
-  sizes->setCurrentIndex(static_cast<int>(model.size()));
-  QObject::connect(sizes, &QComboBox::activated, &model,
-                   [&model](int index) { model.chooseSize(static_cast<std::size_t>(index)); });
-  column->addWidget(sizes);
-  column->addWidget(
-      labelOf(VenuePage::tr("More pixels show finer detail and take longer. The first time, the light "
-                            "of the venue is traced; later it is remembered."),
-              "note"));
-  column->addWidget(lineOf());
-  column->addWidget(keepingPart(model));
-  column->addStretch(1);
-  return card;
 }
 
 PageView viewOf(VenuePage& model) {

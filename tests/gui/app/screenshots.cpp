@@ -268,6 +268,12 @@ int main(int argc, char** argv) {
   photographs.takeDialog("08-push-back", "nudge");
   until([&] { return wizard.window().findChild<QDialog*>("nudge") == nullptr; });
   photographs.take("08-output");
+  wizard.window().close();
+  photographs.takeDialog("12-question-show", "failure");
+  CalibrateSettings changed = wizard.session().settings();
+  changed.clustering.patchRadius += 1.0;
+  wizard.session().changeSettings(changed);
+  photographs.take("08-out-of-date");
   wizard.page<OutputPage>().close();
   photographs.take("08-closed");
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);

@@ -368,7 +368,6 @@ class TestLayouts : public QObject {
     OutputPage& output = wizard_->page<OutputPage>();
     steps().go(7);
     output.setConfigFolder(folder_.filePath("config"));
-    output.setStartsWithComputer(true);
     output.open();
     QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
     output.verify();

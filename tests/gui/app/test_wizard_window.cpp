@@ -15,6 +15,7 @@
 #include "app/wizard_command.h"
 #include "app/wizard_window.h"
 #include "gui/output/two_screens.h"
+#include "output/installation.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
@@ -57,6 +58,7 @@ class TestWizardWindow : public QObject {
   std::unique_ptr<QSettings> settings_;
   std::unique_ptr<WizardWindow> wizard_;
   QUrl shown_;
+  decltype(CalibrateSettings::threshold) thresholdOfProof_;
 
   /// Stages of a page share names: what is in sight is meant.
   template <typename Widget>
@@ -89,6 +91,11 @@ class TestWizardWindow : public QObject {
     wizard_->window().show();
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
+  }
+  void shineOnTheSecondScreen() {
+    OutputPage& output = wizard_->page<OutputPage>();
+    for (std::size_t i = 0; i < output.screens().size(); ++i)
+      if (output.screens()[i].identity.connector == "DUMMY1") output.choose(i);
   }
   void pickInTheMatrix() {
     auto* matrix = find<MatrixView>("matrix-view");
@@ -412,8 +419,12 @@ class TestWizardWindow : public QObject {
   }
 
   void theOutputShinesOnTheSecondScreen() {
-    QVERIFY(wizard_->page<OutputPage>().chosen().has_value());
-    QVERIFY(!wizard_->page<OutputPage>().screens()[*wizard_->page<OutputPage>().chosen()].operators);
+    OutputPage& output = wizard_->page<OutputPage>();
+    QVERIFY(output.chosen().has_value());
+    // A rehearsal shines nowhere until somebody says where.
+    QVERIFY(output.screens()[*output.chosen()].isPageOnly);
+    shineOnTheSecondScreen();
+    QVERIFY(!output.screens()[*output.chosen()].operators && !output.screens()[*output.chosen()].isPageOnly);
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
     click("primary");
@@ -483,11 +494,41 @@ class TestWizardWindow : public QObject {
     QCOMPARE(list->count(), 1);
   }
 
+  /// Law: a show that plays is ended by an answer only.
+  void thePlayingShowEndsOnlyWhenToldTo() {
+    OutputPage& output = wizard_->page<OutputPage>();
+    const auto answer = [this](const char* words) {
+      auto* question = find<FailureDialog>("failure");
+      QVERIFY(question != nullptr && question->isVisible());
+      QCOMPARE(question->windowTitle(), QString("A show is playing"));
+      for (QPushButton* button : question->findChildren<QPushButton*>())
+        if (button->text() == words) return QTest::mouseClick(button, Qt::LeftButton);
+      QFAIL(words);
+    };
+    const auto isAnswered = [this] { return wizard_->window().findChild<FailureDialog*>() == nullptr; };
+    QVERIFY(output.isOpen());
+    QVERIFY(!wizard_->window().close());
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    QVERIFY(wizard_->window().isVisible() && output.isOpen());
+    // Nor does a rehearsal end it, nor another venue.
+    VenuePage& venue = wizard_->page<VenuePage>();
+    const QString name = wizard_->session().name();
+    venue.setMode(VenuePage::Mode::rehearse);
+    venue.primary()->trigger();
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    wizard_->open(QString::fromStdString(wizard_->session().path().string()));
+    answer("Go on playing");
+    QTRY_VERIFY(isAnswered());
+    QVERIFY(output.isOpen() && wizard_->session().name() == name);
+    venue.setMode(VenuePage::Mode::start);
+  }
+
   void aPhotographProvesIt() {
     OutputPage& output = wizard_->page<OutputPage>();
     // The proof comes first.
     QCOMPARE(output.primary()->text(), OutputPage::tr("Take verification photograph"));
-    QCOMPARE(output.secondary().back()->text(), OutputPage::tr("Install without proof"));
     press(QKeySequence("Ctrl+Shift+V"));
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().proof() != nullptr, patience);
     const Proof& proof = *output.proof().proof();
@@ -498,7 +539,9 @@ class TestWizardWindow : public QObject {
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
     QVERIFY(output.isOpen());  // a simulated camera is in nobody's way
+    // Where a rehearsal ends, and why, is said.
     QCOMPARE(output.primary()->text(), OutputPage::tr("Install show"));
+    QVERIFY(!output.primary()->isEnabled() && output.hint().contains("not installed"));
     QCOMPARE(output.secondary().size(), std::size_t{3});
     click("check-drift");
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
@@ -529,13 +572,13 @@ class TestWizardWindow : public QObject {
     for (const char* beside : {"report.pdf", "support.zip"})
       QVERIFY2(QFileInfo(page.dir().filePath(beside)).size() > 1000, beside);
     QVERIFY(find<QLabel>("report-written")->text().contains("report.html"));
-    QVERIFY(!output.isInstalled());
-    click("primary");
-    QVERIFY(output.isInstalled());
-    QVERIFY2(output.hint().startsWith("Installed"), qPrintable(output.hint()));
-    click("start-with-computer");
-    click("primary");
-    QVERIFY(!output.isInstalled());
+    // A real venue's show that was installed before.
+    QVERIFY(!find<QWidget>("remove-installed")->isVisible());
+    install(Start::autostart, folder_.filePath("config"), "relucent", {"show", "/venues/another"});
+    output.setConfigFolder(folder_.filePath("config"));
+    click("remove-installed");
+    QVERIFY(!gui::isInstalled(Start::autostart, folder_.filePath("config")));
+    QVERIFY(!find<QWidget>("remove-installed")->isVisible());
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
     find<QWidget>("secondary-2")->setFocus();
@@ -600,12 +643,21 @@ class TestWizardWindow : public QObject {
   void aChangedThresholdMakesLaterStepsOutOfDate() {
     press(QKeySequence("Alt+5"));
     QTRY_COMPARE(page(), std::size_t{4});
+    thresholdOfProof_ = wizard_->session().settings().threshold;
     wizard_->page<ThresholdPage>().setAbsolute(1e-3);
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<ThresholdPage>().kept().has_value(), patience);
+    const auto proof = wizard_->page<OutputPage>().proof().proof();
+    QVERIFY(proof != nullptr && !wizard_->page<OutputPage>().proof().isOutOfDate());
     click("primary");
     QTRY_COMPARE(page(), std::size_t{5});
     QVERIFY(wizard_->wizard().page(5).status().state == StepState::outOfDate);
     QVERIFY(wizard_->wizard().page(6).status().state == StepState::outOfDate);
+    // A photograph of what was shown before proves nothing of what is shown now, and is still there.
+    OutputPage& output = wizard_->page<OutputPage>();
+    QVERIFY(output.proof().proof() == proof && output.proof().isOutOfDate());
+    QCOMPARE(output.status().state, StepState::outOfDate);
+    QCOMPARE(output.banner()->sentence, OutputPage::tr("The verification photograph is out of date"));
+    QVERIFY(output.proof().next() == OutputProof::Next::photograph);
     QVERIFY(!wizard_->wizard().isLocked(7));
     QVERIFY(wizard_->wizard().page(5).banner().has_value());
   }
@@ -621,14 +673,25 @@ class TestWizardWindow : public QObject {
 
   void aProofIsRememberedAsLongAsItHolds() {
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->session().isOpen(), patience);
-    QVERIFY(wizard_->page<OutputPage>().proof().proof() != nullptr);
+    const OutputPage& output = wizard_->page<OutputPage>();
+    QVERIFY(output.proof().proof() != nullptr && output.proof().isOutOfDate());
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
-    ContentSettings other = wizard_->session().settings().content;
-    other.blackLift += 0.01;
-    CalibrateSettings settings = wizard_->session().settings();
-    settings.content = other;
-    wizard_->session().changeSettings(settings);
-    QVERIFY(wizard_->page<OutputPage>().proof().proof() == nullptr);
+    // As it was when the photograph was taken, and changed again: by the clusters, and by the content.
+    CalibrateSettings before = wizard_->session().settings();
+    before.threshold = thresholdOfProof_;
+    for (bool isContent : {false, true}) {
+      wizard_->session().changeSettings(before);
+      QVERIFY(!output.proof().isOutOfDate());
+      QVERIFY(output.status().state != StepState::outOfDate);
+      CalibrateSettings other = before;
+      if (isContent)
+        other.content.blackLift += 0.01;
+      else
+        other.clustering.patchRadius += 1.0;
+      wizard_->session().changeSettings(other);
+      QVERIFY(output.proof().isOutOfDate());
+      QCOMPARE(output.status().state, StepState::outOfDate);
+    }
   }
 
   /// Law: a camera that was bumped is pushed back before anything else, and then photographed through again.
@@ -637,6 +700,7 @@ class TestWizardWindow : public QObject {
     const std::filesystem::path folder = proofFolder(wizard_->session().path());
     Proof proof = *loadProof(folder);
     proof.content = wizard_->session().settings().content;
+    proof.shownFrom = wizard_->session().shownFrom();
     proof.figures.after.measured.deltaE = 1.0 + 2.0 * proof.figures.after.predicted.deltaE;
     proof.figures.moved = {3.0, 4.0, 0.0, true};
     proof.taken = QDateTime::currentDateTime();
@@ -666,16 +730,17 @@ class TestWizardWindow : public QObject {
     QVERIFY(loadProof(folder) != nullptr);
     Proof proof = *loadProof(folder);
     proof.content = wizard_->session().settings().content;
+    proof.shownFrom = wizard_->session().shownFrom();
     proof.figures.after.measured.deltaE = 1.0 + 2.0 * proof.figures.after.predicted.deltaE;
     proof.figures.moved = {};
     proof.taken = QDateTime::currentDateTime();
     saveProof(proof, folder);
     wizard_->session().open(wizard_->session().path());
     QVERIFY(output.proof().proof() && !output.proof().proof()->isAsPredicted());
+    shineOnTheSecondScreen();
     output.open();
     QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
     QCOMPARE(output.primary()->text(), OutputPage::tr("Check for drift"));
-    QCOMPARE(output.secondary().back()->text(), OutputPage::tr("Install anyway"));
     QVERIFY2(output.hint().contains("not look as predicted"), qPrintable(output.hint()));
     QTRY_VERIFY_WITH_TIMEOUT(output.primary()->isEnabled(), patience);
     output.primary()->trigger();
@@ -690,6 +755,21 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(!output.status().isHeldUp);
     QVERIFY(!output.banner() && output.isOpen());
     output.close();
+  }
+
+  /// Law: the window is not gone before its work is, says why, and then goes by itself.
+  void theWindowStaysUntilItsWorkHasEnded() {
+    const StepName step{"camera", "", "Camera"};
+    DeviceLease lease = wizard_->session().leaseDevices(step, DeviceWork::measurement);
+    wizard_->window().closeWithoutAsking();
+    auto* ending = find<QDialog>("ending");
+    QVERIFY(ending != nullptr && ending->isVisible() && wizard_->window().isVisible());
+    QTest::keyClick(ending, Qt::Key_Escape);
+    QVERIFY(!wizard_->window().close());
+    QVERIFY(ending->isVisible() && wizard_->window().isVisible());
+    QCOMPARE(wizard_->window().findChildren<QDialog*>("ending").size(), 1);
+    lease.release();
+    QTRY_VERIFY(!wizard_->window().isVisible());
   }
 
   void cleanupTestCase() { wizard_.reset(); }

@@ -5,10 +5,15 @@
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
+#include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/settings_json.h"
 #include "wizard/output/output_page.h"
 
 using namespace relucent;
+using namespace relucent::calibration;
 using namespace relucent::compensation;
 using namespace relucent::gui;
 using namespace relucent::pipeline;
@@ -18,6 +23,23 @@ namespace {
 
 constexpr int patience = 60000;  // milliseconds; what is waited for takes seconds
 constexpr QSize projectorSize(64, 48);
+
+/// A copy of a calibration with all its results, whose devices are no simulation.
+void copyAsRecorded(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::copy(from, to, std::filesystem::copy_options::recursive);
+  CalibrationFolder::open(to, CalibrationFolder::Access::write)
+      .setRig(rigToJson(ReplayRigSettings{"photographs"}));
+  const auto inputs = [](const std::filesystem::path& folder, Stage stage) {
+    return fingerprintOf(CalibrationFolder::open(folder, CalibrationFolder::Access::read), stage);
+  };
+  // A later stage's inputs follow from the results of earlier ones.
+  for (Stage stage : allValues<Stage>()) {
+    const std::filesystem::path manifest = to / CalibrationFolder::manifestName;
+    QByteArray text = QByteArray::fromStdString(readFile(manifest));
+    text.replace(inputs(from, stage).c_str(), inputs(to, stage).c_str());
+    writeFileAtomically(manifest, text.toStdString());
+  }
+}
 
 QImage withoutAlpha(const QImage& image) {
   return image.convertToFormat(QImage::Format_RGB32);
@@ -59,9 +81,12 @@ class TestTwoOutputs : public QObject {
     settings.linearization.levels = 9;
     Progress silent;
     calibrate(path("relief"), settings, path("cache"), silent);
+    copyAsRecorded(path("relief"), path("recorded"));
     session_ = std::make_unique<Session>(path("cache"));
     page_ = std::make_unique<OutputPage>(*session_);
-    session_->open(path("relief"));
+    connect(page_.get(), &PageModel::failed, page_.get(),
+            [](const FailureReport& report) { qWarning("%s", qPrintable(report.failure.details)); });
+    session_->open(path("recorded"));
     QVERIFY(noise({320, 240}, 3).save(folder_.filePath("content.png")));
     page_->addFiles({folder_.filePath("content.png")});
   }
@@ -131,7 +156,9 @@ class TestTwoOutputs : public QObject {
   void theInstalledShowKnowsBothScreens() {
     QString config = folder_.filePath("config");
     page_->setConfigFolder(config);
+    QVERIFY(page_->isInstallable() && !page_->isInstalled());
     page_->install();
+    QVERIFY(page_->isInstalled());
     QDirIterator files(config, QDir::Files, QDirIterator::Subdirectories);
     QVERIFY(files.hasNext());
     QFile file(files.next());
@@ -149,6 +176,75 @@ class TestTwoOutputs : public QObject {
     QVERIFY(!page_->isOpen());
     QTRY_VERIFY(allBlack(inTheMiddle("DUMMY0")) && allBlack(inTheMiddle("DUMMY1")));
     QVERIFY(page_->projection().onProjector(1).isNull());
+  }
+
+  /// Law: an installed show is removed at any time, from any venue, with nothing projected.
+  void theInstalledShowIsRemoved() {
+    using InstalledShow = OutputPage::InstalledShow;
+    QVERIFY(page_->isInstalled() && !page_->isOpen());
+    session_->open(path("relief"));
+    QCOMPARE(page_->installedShow(), InstalledShow::anotherVenues);
+    page_->removeInstalled();
+    QCOMPARE(page_->installedShow(), InstalledShow::none);
+    QVERIFY(!QDirIterator(folder_.filePath("config"), QDir::Files, QDirIterator::Subdirectories).hasNext());
+    session_->open(path("recorded"));
+    QVERIFY(!page_->isInstalled() && page_->status().state == StepState::open);
+  }
+
+  /// Law: what is simulated shines into no room unless somebody says where, and is not installed.
+  void aRehearsalStaysOnThePage() {
+    session_->open(path("relief"));
+    for (std::size_t projector : {std::size_t{0}, std::size_t{1}}) {
+      QVERIFY(page_->screenOf(projector));
+      QVERIFY(page_->screens()[*page_->screenOf(projector)].isPageOnly);
+    }
+    QVERIFY2(page_->hint().contains("this page only"), qPrintable(page_->hint()));
+    page_->addFiles({folder_.filePath("content.png")});
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->projection().onProjector(1).isNull(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->projection().statistics().frames > 0, patience);
+    QVERIFY(allBlack(inTheMiddle("DUMMY0")) && allBlack(inTheMiddle("DUMMY1")));
+    QVERIFY(!session_->underWay().isNothing());
+    page_->install();
+    QCOMPARE(page_->installedShow(), OutputPage::InstalledShow::none);
+    for (const PageCommand* command : page_->secondary())
+      QVERIFY2(!command->text().startsWith("Install"), qPrintable(command->text()));
+    page_->close();
+    QVERIFY(session_->underWay().isNothing());
+    page_->showProjector(1);
+    page_->choose(screen("DUMMY1"));
+    QVERIFY(!page_->screens()[*page_->screenOf(1)].isPageOnly);
+    QVERIFY(page_->screens()[*page_->screenOf(0)].isPageOnly);
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->projection().onProjector(1).isNull(), patience);
+    QTRY_COMPARE_WITH_TIMEOUT(inTheMiddle("DUMMY1"), withoutAlpha(page_->projection().onProjector(1)),
+                              patience);
+    QVERIFY(allBlack(inTheMiddle("DUMMY0")));
+    page_->close();
+  }
+
+  /// Law: what was told of one show is not shown of the next.
+  void figuresAreOfTheShowThatPlays() {
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->projection().frameTimes().empty(), patience);
+    page_->close();
+    QVERIFY(page_->projection().frameTimes().empty());
+  }
+
+  /// Law: rail and sentence say the same of the show.
+  void oneStateIsTold() {
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
+    for (auto [set, word] : {std::pair(&OutputPage::setFrozen, "Frozen"), {&OutputPage::setBlack, "Black"}}) {
+      (page_.get()->*set)(true);
+      QCOMPARE(page_->status().result, QString(word));
+      QVERIFY2(page_->hint().startsWith(word), qPrintable(page_->hint()));
+      (page_.get()->*set)(false);
+      QCOMPARE(page_->status().result, QString("Playing"));
+      QVERIFY2(!page_->hint().startsWith(word), qPrintable(page_->hint()));
+    }
+    page_->close();
   }
 };
 

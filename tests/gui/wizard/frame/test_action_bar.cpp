@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The buttons of the frame, which any page's commands come to.
+#include "wizard/frame/action_bar.h"
+
+#include <QGuiApplication>
+#include <QStyleHints>
+#include <QtTest>
+
+using namespace relucent;
+using namespace relucent::gui;
+
+namespace {
+
+/// Its primary command makes room for the next one, as opening the output does for photographing and that for
+/// installing.
+class ScriptedPage : public PageModel {
+ public:
+  ScriptedPage() : PageModel({"page", "", "page"}) {
+    for (const char* text : {"Open", "Photograph the surface", "Install"}) {
+      auto* command = addCommand(Icon::next, [this, text] {
+        done << text;
+        step = std::min(step + 1, 2);
+        tellStatus();
+      });
+      command->show(text);
+      primaries_.push_back(command);
+    }
+    hold_ = addCommand(Icon::pause, [this] {
+      isHeld = !isHeld;
+      tellStatus();
+    });
+    dark_ = addCommand(Icon::black, [this] {
+      isDark = !isDark;
+      tellStatus();
+    });
+    end_ = addCommand(Icon::stop, [] {});
+    updateCommands();
+  }
+  QString subtitle() const override { return {}; }
+  StepStatus status() const override { return {}; }
+  PageCommand* primary() const override { return primaries_[static_cast<std::size_t>(step)]; }
+  std::vector<PageCommand*> secondary() const override { return {hold_, dark_, end_}; }
+  void updateCommands() override {
+    hold_->show(isHeld ? "Go on with all of it" : "Hold");
+    dark_->show(isDark ? "Make it visible again" : "Dark");
+    end_->show("End");
+  }
+
+  QStringList done;
+  int step = 0;
+  bool isHeld = false, isDark = false;
+
+ private:
+  std::vector<PageCommand*> primaries_;
+  PageCommand *hold_, *dark_, *end_;
+};
+
+}  // namespace
+
+class TestActionBar : public QObject {
+  Q_OBJECT
+
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<Wizard> wizard_;
+  std::unique_ptr<ScriptedPage> page_;
+  std::unique_ptr<ActionBar> bar_;
+  quint64 now_ = 1'000'000;  // ms
+
+  QPushButton* button(const char* name) const { return bar_->findChild<QPushButton*>(name); }
+  /// `after`: the press before, ms.
+  void click(const char* name, quint64 after, QEvent::Type press = QEvent::MouseButtonPress) {
+    now_ += after;
+    QPushButton* const target = button(name);
+    const QPointF at = target->rect().center();
+    for (QEvent::Type type : {press, QEvent::MouseButtonRelease}) {
+      QMouseEvent event(type, at, target->mapToGlobal(at), Qt::LeftButton,
+                        type == press ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+      event.setTimestamp(now_);
+      QCoreApplication::sendEvent(target, &event);
+    }
+  }
+
+ private slots:
+  void init() {
+    session_ = std::make_unique<Session>(std::filesystem::path());
+    wizard_ = std::make_unique<Wizard>(*session_);
+    page_ = std::make_unique<ScriptedPage>();
+    wizard_->add(*page_);
+    bar_ = std::make_unique<ActionBar>(*wizard_);
+    bar_->resize(1000, bar_->height());
+    bar_->show();
+    now_ += 10'000;
+  }
+  void cleanup() {
+    bar_.reset();
+    wizard_.reset();
+  }
+
+  /// Law: of a double click at one place, or of more clicks in quick succession, one action comes.
+  void quickClicksAreForOneAction_data() {
+    QTest::addColumn<int>("clicks");
+    QTest::addColumn<int>("apart");
+    QTest::addColumn<QStringList>("done");
+    const int interval = QGuiApplication::styleHints()->mouseDoubleClickInterval();
+    QTest::newRow("a click") << 1 << 0 << QStringList{"Open"};
+    QTest::newRow("a double click") << 2 << interval / 2 << QStringList{"Open"};
+    QTest::newRow("impatience") << 5 << interval - 1 << QStringList{"Open"};
+    QTest::newRow("one after the other")
+        << 3 << interval + 1 << QStringList{"Open", "Photograph the surface", "Install"};
+  }
+  void quickClicksAreForOneAction() {
+    QFETCH(int, clicks);
+    QFETCH(int, apart);
+    QFETCH(QStringList, done);
+    for (int i = 0; i < clicks; ++i) {
+      const bool isDouble = i % 2 == 1 && apart < QGuiApplication::styleHints()->mouseDoubleClickInterval();
+      click("primary", static_cast<quint64>(apart),
+            isDouble ? QEvent::MouseButtonDblClick : QEvent::MouseButtonPress);
+    }
+    QCOMPARE(page_->done, done);
+  }
+
+  /// Law: what stands at another place is not held up.
+  void anotherPlaceIsAnotherAction() {
+    click("primary", 0);
+    click("secondary-1", 10);
+    QVERIFY(page_->isDark);
+    click("secondary-0", 10);
+    QVERIFY(page_->isHeld);
+    // What a double click has made visible stays so.
+    click("secondary-1", 10'000);
+    click("secondary-1", 10, QEvent::MouseButtonDblClick);
+    QVERIFY(!page_->isDark);
+  }
+
+  /// Law: once all was shown, nothing moves under the pointer.
+  void buttonsKeepTheirPlaces() {
+    const auto places = [this] {
+      QList<QRect> all;
+      bar_->layout()->activate();
+      QCoreApplication::sendPostedEvents();
+      for (const char* name : {"secondary-0", "secondary-1", "secondary-2", "primary"}) {
+        const QPushButton* shown = button(name);
+        all << QRect(shown->mapTo(bar_.get(), QPoint(0, 0)), shown->size());
+      }
+      return all;
+    };
+    // The widest of each is seen once.
+    click("secondary-0", 1000);
+    click("secondary-1", 1000);
+    click("primary", 1000);
+    const QList<QRect> before = places();
+    click("secondary-0", 1000);
+    QCOMPARE(places(), before);
+    click("secondary-1", 1000);
+    QCOMPARE(places(), before);
+    click("primary", 1000);
+    QCOMPARE(button("primary")->text(), QString("Install"));
+    QCOMPARE(places(), before);
+  }
+};
+
+QTEST_MAIN(TestActionBar)
+#include "test_action_bar.moc"

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What another venue or the end of the program would end, and that nothing ends by the way.
+#include "wizard/frame/end_question.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+
+using namespace relucent;
+using namespace relucent::gui;
+
+class TestEndQuestion : public QObject {
+  Q_OBJECT
+
+ private slots:
+  /// Law: what is under way is named, and ends by an answer only.
+  void whatWouldEndIsAskedAbout_data() {
+    QTest::addColumn<bool>("measures");
+    QTest::addColumn<bool>("plays");
+    QTest::addColumn<QString>("heading");
+    QTest::newRow("nothing") << false << false << QString();
+    QTest::newRow("a measurement") << true << false << "A measurement is under way";
+    QTest::newRow("a show") << false << true << "A show is playing";
+    QTest::newRow("both") << true << true << "A measurement and a show are under way";
+  }
+  void whatWouldEndIsAskedAbout() {
+    QFETCH(bool, measures);
+    QFETCH(bool, plays);
+    QFETCH(QString, heading);
+    Session session{std::filesystem::path()};
+    DeviceLease lease;
+    const StepName step{"acquire", "", "Acquire"};
+    if (measures) lease = session.leaseDevices(step, DeviceWork::measurement);
+    session.setShowing(plays);
+    EndQuestion question(session);
+    QCOMPARE(question.isNeeded(), measures || plays);
+    for (bool agrees : {false, true}) {
+      int ended = 0;
+      std::optional<FailureReport> asked;
+      question.whenNothingEnds([&ended] { ++ended; },
+                               [&asked](const FailureReport& report) { asked = report; });
+      if (heading.isEmpty()) {
+        QVERIFY(!asked);
+        QCOMPARE(ended, 1);
+        continue;
+      }
+      QCOMPARE(ended, 0);
+      QVERIFY(asked && asked->isQuestion && !asked->safe.isEmpty());
+      QCOMPARE(asked->failure.heading, heading);
+      QCOMPARE(asked->failure.what.contains("Acquire"), measures);
+      QCOMPARE(asked->failure.what.contains("show"), plays);
+      (agrees ? asked->goOn : asked->resume)->trigger();
+      QCOMPARE(ended, agrees ? 1 : 0);
+      // An answer is for one question.
+      asked->goOn->trigger();
+      QCOMPARE(ended, agrees ? 1 : 0);
+    }
+  }
+
+  /// Law: devices that are borrowed for a moment are nobody's measurement.
+  void briefWorkIsNotAskedAbout() {
+    Session session{std::filesystem::path()};
+    const DeviceLease lease = session.leaseDevices({"camera", "", "Camera"}, DeviceWork::brief);
+    QVERIFY(!EndQuestion(session).isNeeded());
+  }
+};
+
+QTEST_MAIN(TestEndQuestion)
+#include "test_end_question.moc"

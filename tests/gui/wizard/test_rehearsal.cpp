@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Surprises of a rehearsal: each leads to what the wizard says of it, and leaves no trace once it is put
+// right.
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "relucent/calibration/results.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/devices/nudge.h"
+#include "wizard/frame/wizard.h"
+#include "wizard/venue/venue_page.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+using namespace relucent::sentinels;
+using namespace relucent::transport;
+using relucent::venue::Surprise;
+
+namespace {
+
+constexpr int patience = 120'000;  // ms for a small measurement on a busy machine
+
+}  // namespace
+
+class TestRehearsal : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  std::unique_ptr<QSettings> settings_;
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<VenuePage> venue_;
+  std::unique_ptr<AcquirePage> acquire_;
+  std::unique_ptr<Wizard> wizard_;
+  std::unique_ptr<QSignalSpy> told_;
+  std::optional<TransportMatrix> calm_;
+  int patterns_ = 0;               // it took
+  std::vector<double> exposures_;  // that it chose
+
+  /// As somebody does who chooses it on the page.
+  void rehearse(const std::vector<Surprise>& surprises) {
+    venue_->setMode(VenuePage::Mode::rehearse);
+    for (std::size_t i = 0; i < venue_->venues().size(); ++i)
+      if (venue_->venues()[i].id == "plain") venue_->chooseVenue(i);
+    for (Surprise kind : allValues<Surprise>())
+      venue_->setSurprise(kind, std::ranges::find(surprises, kind) != surprises.end());
+    venue_->setSurpriseSeed(5);
+    venue_->primary()->trigger();
+    QVERIFY(session_->isSimulated());
+    QCOMPARE(session_->surprises() != nullptr, !surprises.empty());
+    // As Camera keeps them.
+    if (!exposures_.empty()) session_->decide(CameraCheckResult{exposures_, std::nullopt, {}});
+    acquire_->primary()->trigger();
+    QVERIFY(acquire_->isMeasuring());
+  }
+  /// What is asked next.
+  FailureReport question() {
+    const bool isAsked = QTest::qWaitFor([this] { return !told_->isEmpty(); }, patience);
+    return isAsked ? told_->takeFirst().front().value<FailureReport>() : FailureReport();
+  }
+  TransportMatrix measured() { return loadAcquisition(*session_->result(Stage::acquisition)).transport; }
+  /// It has come, is over, and the measurement is the one of a calm rehearsal, to the bit.
+  void endsAsIfNothingHadHappened(Surprise kind) {
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
+    QCOMPARE(session_->progress(Stage::acquisition), StageProgress::done);
+    QVERIFY(session_->surprises()->hasHappened(kind) && !session_->surprises()->lasts(kind));
+    QVERIFY(told_->isEmpty() && acquire_->findings().isEmpty());
+    QVERIFY(measured().leaves() == calm_->leaves());
+  }
+
+ private slots:
+  void init() {
+    settings_ = std::make_unique<QSettings>(folder_.filePath("settings.ini"), QSettings::IniFormat);
+    session_ = std::make_unique<Session>(std::filesystem::path(folder_.filePath("cache").toStdString()));
+    venue_ = std::make_unique<VenuePage>(*session_, RecentVenues(*settings_));
+    venue_->setSizes({{{64, 48}, {48, 36}, "%1"}});
+    venue_->setFolder(folder_.filePath("venues"));
+    acquire_ = std::make_unique<AcquirePage>(*session_);
+    wizard_ = std::make_unique<Wizard>(*session_);
+    wizard_->add(*venue_);
+    wizard_->add(*acquire_);
+    told_ = std::make_unique<QSignalSpy>(acquire_.get(), &PageModel::failed);
+    if (calm_) return;
+    rehearse({});
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
+    QVERIFY(told_->isEmpty());
+    calm_ = measured();
+    patterns_ = acquire_->cost().value().patterns;
+    exposures_ = loadLinearization(*session_->result(Stage::linearization)).exposures;
+  }
+  void cleanup() {
+    told_.reset();
+    wizard_.reset();
+    acquire_.reset();
+    venue_.reset();
+    session_.reset();
+  }
+
+  /// Of every venue somebody sees how long it takes and how hard it is; more pixels take longer.
+  void venuesSayWhatTheyTake() {
+    QSet<QString> said;
+    for (const RehearsalVenue& venue : venue_->venues()) said << venue_->effortOf(venue);
+    QVERIFY(said.size() >= 3);
+    venue_->setSizes({{{512, 384}, {320, 240}, "%1"}});
+    for (const RehearsalVenue& venue : venue_->venues())
+      QVERIFY2(!said.contains(venue_->effortOf(venue)), qPrintable(venue_->effortOf(venue)));
+  }
+
+  /// Law: what is promised before is about what is taken.
+  void expectedPatternsAreThoseThatAreMeasured() {
+    venue_->setMode(VenuePage::Mode::rehearse);
+    const double expected = venue_->expected().shots, taken = patterns_;
+    QVERIFY2(taken > 0.5 * expected && taken < 2.0 * expected,
+             qPrintable(QString("%1 of %2").arg(taken).arg(expected)));
+  }
+
+  void surprisesAreOfOneRehearsal() {
+    rehearse({Surprise::bump});
+    acquire_->finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
+    session_->open(session_->path());
+    QVERIFY(session_->surprises() == nullptr);
+  }
+
+  void aLightThatIsSwitchedOn() {
+    rehearse({Surprise::roomLight});
+    const FailureReport asked = question();
+    QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::ambientChanged));
+    QVERIFY(!asked.safe.isEmpty() && !asked.failure.advice.isEmpty() && asked.keep && asked.goOn);
+    QVERIFY(session_->surprises()->lasts(Surprise::roomLight));
+    asked.resume->trigger();
+    endsAsIfNothingHadHappened(Surprise::roomLight);
+  }
+
+  void aCameraThatIsBumped() {
+    rehearse({Surprise::bump});
+    FailureReport asked = question();
+    QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::moved));
+    // Measured again without having been pushed back, it is asked again.
+    asked.resume->trigger();
+    asked = question();
+    QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::moved));
+    QVERIFY(asked.repair && asked.repair->text() == "Push the camera back");
+    QSignalSpy wanted(acquire_.get(), &AcquirePage::nudgeWanted);
+    asked.repair->trigger();
+    QCOMPARE(wanted.size(), 1);
+    // Somebody pushes while the wizard shows where to.
+    Nudge nudge(*session_, acquire_->viewBefore());
+    QSignalSpy ended(&nudge, &Nudge::ended);
+    nudge.start();
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value(), patience);
+    QVERIFY2(nudge.sight()->offset.isRecognised && nudge.sight()->distance() > 1.0,
+             qPrintable(QString::number(nudge.sight()->distance())));
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight()->isAtItsPlace(), patience);
+    nudge.stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!ended.isEmpty(), patience);
+    acquire_->askAgain();
+    question().resume->trigger();
+    endsAsIfNothingHadHappened(Surprise::bump);
+  }
+
+  void aCableThatComesOut() {
+    rehearse({Surprise::unplugged});
+    QTRY_VERIFY_WITH_TIMEOUT(session_->isCameraSilent(), patience);
+    QVERIFY(acquire_->isMeasuring() && acquire_->insteadOfWaiting() != nullptr);
+    const std::optional<Banner> banner = wizard_->banner();
+    QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
+    QCOMPARE(banner->sentence, QString("The camera does not answer"));
+    QVERIFY2(banner->more.contains("cable is out"), qPrintable(banner->more));
+    QCOMPARE(wizard_->statusOf(1).result, QString("Camera silent"));
+    QVERIFY(wizard_->statusOf(1).isHeldUp);
+    // It goes on by itself.
+    QTRY_VERIFY_WITH_TIMEOUT(!session_->isCameraSilent(), patience);
+    endsAsIfNothingHadHappened(Surprise::unplugged);
+  }
+};
+
+QTEST_MAIN(TestRehearsal)
+#include "test_rehearsal.moc"

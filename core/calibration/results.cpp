@@ -105,9 +105,25 @@ std::vector<std::uint8_t> flagsFrom(const Stack& stack) {
 constexpr const char* radianceUnits = "camera signal per second";
 constexpr const char* varianceUnits = "(camera signal per second)^2";
 
-}  // namespace
+using Residuals = std::array<std::vector<linearization::LevelResidual>, 3>;
 
-namespace {
+/// Per channel, [drive, light] of every level.
+Json toJson(const Residuals& residuals) {
+  Json channels = Json::array();
+  for (const std::vector<linearization::LevelResidual>& channel : residuals) {
+    Json levels = Json::array();
+    for (const auto [drive, light] : channel) levels.push_back({drive, light});
+    channels.push_back(levels);
+  }
+  return channels;
+}
+
+Residuals residualsFrom(const Json& json) {
+  Residuals residuals;
+  for (std::size_t c = 0; c < residuals.size(); ++c)
+    for (const Json& level : json.at(c)) residuals[c].push_back({level.at(0), level.at(1)});
+  return residuals;
+}
 
 Json timesToJson(const rig::ShotTimes& times) {
   return {{"shots", times.shots},
@@ -147,7 +163,7 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
     projectors.push_back(toJson(projector.channels));
   Json residuals = Json::array();
   for (const linearization::ProjectorResponse& projector : linearization.projectors)
-    residuals.push_back(projector.residuals);
+    residuals.push_back(toJson(projector.residuals));
   Json cameras = Json::array();
   for (const hdr::CameraModel& camera : linearization.cameras) cameras.push_back(toJson(camera));
   return folder.store(Stage::linearization, inputs,
@@ -170,7 +186,7 @@ linearization::Linearization loadLinearization(const StageResult& result) {
     // A calibration of an older version has neither of these.
     const Json residuals = values.value("residuals", Json::array());
     for (std::size_t p = 0; p < std::min(residuals.size(), linearization.projectors.size()); ++p)
-      linearization.projectors[p].residuals = residuals[p].get<std::array<std::vector<double>, 3>>();
+      linearization.projectors[p].residuals = residualsFrom(residuals[p]);
     if (const double share = values.value("black_share", -1.0); share >= 0.0)
       linearization.blackShare = share;
     for (const Json& camera : listIn(values, "cameras")) linearization.cameras.push_back(cameraFrom(camera));

@@ -13,12 +13,19 @@
 
 namespace relucent::linearization {
 
+/// How much more light the photographs have at a level than the curve; 0 where they do not say.
+struct LevelResidual {
+  double drive = 0.0;  // encoded
+  double light = 0.0;  // relative to full
+  bool operator==(const LevelResidual&) const = default;
+};
+
 /// Per projector and channel: encoded drive -> relative radiance.
 struct ProjectorResponse {
   std::array<hdr::ResponseCurve, 3> channels;
-  /// Per channel and sample of its curve, how much more light the photographs have at that level than the
-  /// curve, relative to full; 0 where they do not say. Empty: not recorded.
-  std::array<std::vector<double>, 3> residuals{};
+  /// Per channel, of every measured level: a curve has fewer samples where neighbouring levels were pooled to
+  /// make it rise. Empty: not recorded.
+  std::array<std::vector<LevelResidual>, 3> residuals{};
 
   /// Encoded drive for linear values; clamps to [0, 1].
   /// Large images go through tables: the resulting light, decode(encode(L)), is within

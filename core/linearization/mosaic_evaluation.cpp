@@ -31,12 +31,13 @@ hdr::ResponseCurve curveOf(const std::vector<double>& drives, const std::vector<
   return hdr::curveFromRamp(x, y, weights);
 }
 
-/// At the samples of `curve`: dark, then every level.
-std::vector<double> residualsOf(const hdr::ResponseCurve& curve, const std::vector<double>& light,
-                                const std::vector<double>& residual) {
-  std::vector<double> residuals{0.0};
-  for (std::size_t i = 0; i < light.size(); ++i)
-    residuals.push_back(light[i] + residual[i] - curve.y()[i + 1]);
+/// Of dark, then of every level.
+std::vector<LevelResidual> residualsOf(const hdr::ResponseCurve& curve, const std::vector<double>& drives,
+                                       const std::vector<double>& light,
+                                       const std::vector<double>& residual) {
+  std::vector<LevelResidual> residuals{{0.0, 0.0}};
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    residuals.push_back({drives[i], light[i] + residual[i] - curve(drives[i])});
   return residuals;
 }
 
@@ -153,7 +154,7 @@ std::vector<MosaicResult> evaluateMosaics(const MosaicPhotographs& photographs,
     for (std::size_t c = 0; c < 3; ++c) {
       hdr::ResponseCurve& curve = results[p].response.channels[c];
       curve = curveOf(shown.drives[p], fit.light[c], fit.deviation[c]);
-      results[p].response.residuals[c] = residualsOf(curve, fit.light[c], fit.residual[c]);
+      results[p].response.residuals[c] = residualsOf(curve, shown.drives[p], fit.light[c], fit.residual[c]);
     }
     whole.white.push_back(regionLights(lights, p, thinning));
   }

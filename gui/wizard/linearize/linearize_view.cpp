@@ -62,9 +62,8 @@ std::vector<charts::Curve> residuals(const linearization::ProjectorResponse& res
   std::vector<charts::Curve> curves;
   for (std::size_t c = 0; c < 3; ++c) {
     charts::Curve curve{{}, channels[c].style, channels[c].marker};  // the legend is the response's
-    const std::vector<double>& x = response.channels[c].x();
-    for (std::size_t i = 0; i < std::min(x.size(), response.residuals[c].size()); ++i)
-      curve.points.push_back({codes * x[i], percent * response.residuals[c][i]});
+    for (const auto [drive, light] : response.residuals[c])
+      curve.points.push_back({codes * drive, percent * light});
     curves.push_back(std::move(curve));
   }
   return curves;
@@ -72,8 +71,8 @@ std::vector<charts::Curve> residuals(const linearization::ProjectorResponse& res
 
 double largestResidual(const linearization::ProjectorResponse& response) {
   double most = 0.0;
-  for (const std::vector<double>& channel : response.residuals)
-    for (double residual : channel) most = std::max(most, std::abs(residual));
+  for (const std::vector<linearization::LevelResidual>& channel : response.residuals)
+    for (const auto [drive, light] : channel) most = std::max(most, std::abs(light));
   return most;
 }
 

@@ -27,6 +27,7 @@ Linearization someLinearization() {
   ResponseCurve curve(x, y);
   Linearization linearization;
   linearization.projectors = {{{curve, ResponseCurve(), curve}}, {{ResponseCurve(), curve, curve}}};
+  linearization.projectors[1].residuals = {{{{0.0, 0.0}, {1.0 / 3.0, -1e-3}}, {}, {{1.0, 2e-4}}}};
   CameraModel camera;
   camera.response = {ResponseCurve(), curve, ResponseCurve()};
   camera.readNoise = 1.0 / 3.0;
@@ -104,6 +105,7 @@ class TestResults : public QObject {
     QCOMPARE(after.cameras[0].times, before.cameras[0].times);
     QCOMPARE(after.cameras[0].readNoise, before.cameras[0].readNoise);
     QVERIFY(after.projectors[0].channels[1].isIdentity());
+    QVERIFY(after.projectors[1].residuals == before.projectors[1].residuals);
     for (double drive : {0.0, 0.123, 0.5, 0.987, 1.0})
       QCOMPARE(after.projectors[1].channels[2](drive), before.projectors[1].channels[2](drive));
   }

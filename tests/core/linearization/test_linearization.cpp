@@ -505,6 +505,31 @@ class TestLinearization : public QObject {
     QVERIFY(says(found, "from one photograph to the next"));
   }
 
+  /// Law: every level has its residual, also where levels were pooled for the curve to rise: some of the
+  /// noise.
+  void everyLevelHasAResidual() {
+    std::size_t pooled = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      ScriptedProjector flat;
+      flat.curves.fill([](double drive) { return std::pow(std::max(0.0, drive - 0.3) / 0.7, 2.0); });
+      Setup setup = setupOf({flat}, false, seed);
+      setup.devices.cameras = {{.bits = 10, .readNoise = 5e-3}};
+      const Linearization found = run(setup.venue(), setup.settings);
+      const ProjectorResponse& response = found.projectors.front();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<LevelResidual>& residuals = response.residuals[c];
+        QCOMPARE(residuals.front().drive, 0.0);
+        QCOMPARE(residuals.back().drive, 1.0);
+        QVERIFY(std::ranges::is_sorted(residuals, {}, &LevelResidual::drive));
+        for (const auto [drive, light] : residuals)
+          QVERIFY2(std::abs(light) < 0.05, qPrintable(QString::number(light)));
+        QVERIFY(response.channels[c].x().size() <= residuals.size());
+        pooled += residuals.size() - response.channels[c].x().size();
+      }
+    }
+    QVERIFY(pooled > 0);
+  }
+
   void blindCamerasAreRefused_data() {
     QTest::addColumn<double>("ambient");
     QTest::newRow("in the dark") << 0.0;

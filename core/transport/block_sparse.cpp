@@ -9,7 +9,6 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/transport/block_kernels.h"
-#include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
 namespace {
@@ -147,6 +146,12 @@ Stack BlockSparse::multiplyTransposed(const Stack& y) const {
     }
   });
   return x;
+}
+
+float BlockSparse::stepOf(std::span<const ColourBlock> mixing) {
+  float step = 0.0f;
+  for (const ColourBlock& colours : mixing) step += colours.cwiseAbs().sum();
+  return step;
 }
 
 std::size_t BlockSparse::rowAtShare(std::size_t part) const {

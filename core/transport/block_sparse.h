@@ -104,6 +104,8 @@ class BlockSparse {
   friend class BlockSparseWriter;
   friend class SharedColourWriter;
   friend class TransportFile;
+  /// scale() of a row with these colours: the sum of all magnitudes.
+  static float stepOf(std::span<const ColourBlock> mixing);
   /// First row of a part, when the rows are divided into parts with equal numbers of blocks.
   std::size_t rowAtShare(std::size_t part) const;
 

@@ -199,7 +199,7 @@ class TransportFile {
     });
     blocks.scale_.reserve(blocks.rows());
     for (std::size_t row = 0; row < blocks.rows(); ++row) {
-      blocks.scale_.push_back(stepOf({&blocks.mixing_[row * shape[1]], shape[1]}));
+      blocks.scale_.push_back(BlockSparse::stepOf({&blocks.mixing_[row * shape[1]], shape[1]}));
       if (!std::isfinite(blocks.scale_.back()))
         reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.scale-not-finite",
                                              "has a scale that is not a finite number"));

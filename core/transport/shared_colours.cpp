@@ -61,12 +61,6 @@ void SharedColourEncoder::encode(std::span<const std::uint32_t> columns, std::sp
   for (std::size_t kind = 0; kind < kinds_.count; ++kind) row.mixing[kind] *= largest[kind] / largestCode;
 }
 
-float stepOf(std::span<const ColourBlock> mixing) {
-  float step = 0.0f;
-  for (const ColourBlock& colours : mixing) step += colours.cwiseAbs().sum();
-  return step;
-}
-
 SharedColourWriter::SharedColourWriter(std::size_t columns, std::size_t rows, ColumnKinds kinds,
                                        std::size_t blocks)
     : rows_(rows) {
@@ -86,7 +80,7 @@ void SharedColourWriter::add(const SharedColourRow& row) {
   result_.column_.insert(result_.column_.end(), row.column.begin(), row.column.end());
   result_.factor_.insert(result_.factor_.end(), row.factor.begin(), row.factor.end());
   result_.mixing_.insert(result_.mixing_.end(), row.mixing.begin(), row.mixing.end());
-  result_.scale_.push_back(stepOf(row.mixing));
+  result_.scale_.push_back(BlockSparse::stepOf(row.mixing));
   result_.rowStart_.push_back(result_.column_.size());
 }
 

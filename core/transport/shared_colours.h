@@ -26,9 +26,6 @@ class SharedColourEncoder {
   std::vector<Eigen::Vector3f> factor_;
 };
 
-/// BlockSparse::scale() of a row with these colours: the sum of all magnitudes.
-float stepOf(std::span<const ColourBlock> mixing);
-
 /// Writes a BlockSparse of shared colours row by row.
 class SharedColourWriter {
  public:

@@ -37,9 +37,10 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
       report.failure.heading.isEmpty() ? headingOf(report.failure.kind) : report.failure.heading;
   setObjectName("failure");
   setWindowTitle(heading);
-  setMinimumWidth(560);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(28, 28, 28, 24);
+  // A minimum width of the dialog itself would take the place of what the buttons need.
+  column->addStrut(504);
   column->setSpacing(8);
   auto* top = new QHBoxLayout;
   top->addWidget(report.isQuestion ? new IconLabel(Icon::warning, amberColour, 32)

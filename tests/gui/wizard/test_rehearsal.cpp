@@ -141,7 +141,7 @@ class TestRehearsal : public QObject {
     asked.resume->trigger();
     asked = question();
     QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::moved));
-    QVERIFY(asked.repair && asked.repair->text() == "Push the camera back");
+    QVERIFY(asked.repair && asked.repair->text() == "Put the camera back");
     QSignalSpy wanted(acquire_.get(), &AcquirePage::nudgeWanted);
     asked.repair->trigger();
     QCOMPARE(wanted.size(), 1);

@@ -183,7 +183,7 @@ class Importing {
   /// Colour, black and row of every camera pixel.
   Import assembled(Progress& progress) {
     std::size_t pixels = photographs_.size().count();
-    std::vector<PixelColour> colours(pixels);
+    LargeVector<PixelColour> colours(pixels);
     oneToOne_.resize(pixels);
     mix_.resize(pixels);
     Import result;
@@ -293,7 +293,7 @@ class Importing {
   std::vector<Decoded> decoded_;
   std::vector<Footprint> footprint_;
   std::vector<float> residual_;
-  std::vector<PixelColour> oneToOne_, mix_;
+  LargeVector<PixelColour> oneToOne_, mix_;
 };
 
 }  // namespace
@@ -316,13 +316,15 @@ Import importTransport(const PictureSequence& patterns, const PictureSequence& p
           patterns.pictures(), photographs.pictures());
   std::vector<int> heldOut = heldOutPatterns(patterns, settings.holdOutEvery);
   Progress predicting = progress.part(settings.refit ? 0.5 : 1.0, progress.stage());
-  const Import predicted = Importing(patterns, photographs, settings, heldOut).run(predicting);
+  Import predicted = Importing(patterns, photographs, settings, heldOut).run(predicting);
   if (!settings.refit) return predicted;
+  const double verificationError = predicted.acquisition.verificationError;
+  predicted.acquisition = {};  // there is memory for one T
   Progress refitting = progress.part(0.5, progress.stage());
   Import import = Importing(patterns, photographs, settings, {}).run(refitting);
   import.heldOut = predicted.heldOut;
   import.error = predicted.error;
-  import.acquisition.verificationError = predicted.acquisition.verificationError;
+  import.acquisition.verificationError = verificationError;
   return import;
 }
 

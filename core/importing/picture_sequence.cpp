@@ -50,7 +50,7 @@ void PictureSequence::set(int picture, const image::Image& image) {
 }
 
 void PictureSequence::widen() {
-  std::vector<std::uint16_t> wide(3 * codes_.size());
+  LargeVector<std::uint16_t> wide(3 * codes_.size());
   for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = codes_[i / 3];
   codes_ = std::move(wide);
   channels_ = 3;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "relucent/base/large_vector.h"
 #include "relucent/image/image.h"
 
 namespace relucent::importing {
@@ -47,7 +48,7 @@ class PictureSequence {
   int channels_ = 1;
   std::vector<float> scale_;
   std::vector<std::uint8_t> coloured_;
-  std::vector<std::uint16_t> codes_;  // [pixel][picture][channel]
+  LargeVector<std::uint16_t> codes_;  // [pixel][picture][channel]
 };
 
 }  // namespace relucent::importing

@@ -7,7 +7,7 @@
 namespace relucent::importing {
 
 transport::TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
-                                             const std::vector<PixelColour>& colours, Size projector,
+                                             const LargeVector<PixelColour>& colours, Size projector,
                                              Size camera) {
   transport::NodeLayout layout{Rasters(projector)};
   std::size_t root = layout.index({0, layout.levels() - 1, 0, 0});

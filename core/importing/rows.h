@@ -13,7 +13,7 @@ namespace relucent::importing {
 /// a row without a footprint holds its block in the root alone, light from everywhere. Shapes: one footprint
 /// and one colour for each camera pixel.
 transport::TransportMatrix importedTransport(const std::vector<Footprint>& footprints,
-                                             const std::vector<PixelColour>& colours, Size projector,
+                                             const LargeVector<PixelColour>& colours, Size projector,
                                              Size camera);
 
 }  // namespace relucent::importing

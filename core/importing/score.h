@@ -14,8 +14,8 @@ struct HeldOutInput {
   const ImportFrames& frames;
   const CameraMask& lit;
   const std::vector<Decoded>& decoded;
-  const std::vector<PixelColour>& oneToOne;
-  const std::vector<PixelColour>& mix;
+  const LargeVector<PixelColour>& oneToOne;
+  const LargeVector<PixelColour>& mix;
 };
 
 struct HeldOutScore {

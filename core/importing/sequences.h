@@ -56,7 +56,7 @@ class DriveTable {
 struct SequencePyramid {
   struct Level {
     Size grid;
-    std::vector<float> values;       // [node][sample]
+    LargeVector<float> values;       // [node][sample]
     std::vector<float> inverseNorm;  // [node][channel]: of the centred sequence; 0 where it hardly varies
     const float* node(std::size_t index, int samples) const {
       return values.data() + index * static_cast<std::size_t>(samples);

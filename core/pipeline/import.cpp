@@ -17,6 +17,7 @@
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/photograph_sequence.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -144,9 +145,11 @@ double lightOf(const image::Image& pattern) {
   return std::accumulate(pattern.data().begin(), pattern.data().end(), 0.0);
 }
 
-/// From the photographs of the brightest and the darkest pattern.
+/// From the photographs of the brightest and the darkest pattern; automatically, with as many pixels as there
+/// is memory for. Throws: Error{memory}.
 PhotographReducer reducerFor(const importing::PictureSequence& patterns,
-                             const std::vector<fs::path>& photographs, const reduction::PixelUse& use) {
+                             const std::vector<fs::path>& photographs, const reduction::PixelUse& use,
+                             const platform::MemoryUse& memory) {
   std::vector<double> lights;
   for (int k = 0; k < patterns.pictures(); ++k) lights.push_back(lightOf(patterns.picture(k)));
   const auto [darkest, brightest] = std::ranges::minmax_element(lights);
@@ -155,15 +158,26 @@ PhotographReducer reducerFor(const importing::PictureSequence& patterns,
   };
   image::Image light = readPictureAs(photographOf(brightest), false);
   const std::size_t projector = patterns.size().count();
+  const auto needed = [&](Size camera) {
+    return memoryOfImport(patterns.size(), camera, patterns.pictures());
+  };
+  const bool mayGrow = use.kind == reduction::PixelUse::Kind::automatic;
+  const bool isTooMuch = mayGrow && !platform::fits(needed(light.size()), memory);
   reduction::Reduction reduction = reduction::noReduction(light.size());
-  if (reduction::needsLook(light.size(), projector, use)) {
+  if (isTooMuch || reduction::needsLook(light.size(), projector, use)) {
     const image::Image black = readPictureAs(photographOf(darkest), false);
     // Another size is told as they are read.
     if (black.size() == light.size()) {
       for (std::size_t i = 0; i < light.data().size(); ++i) light.data()[i] -= black.data()[i];
       reduction = reduction::reductionFor(light.size(), projector, use, light);
+      while (mayGrow && !platform::fits(needed(reduction.size()), memory)) {
+        const auto larger = reduction::withLargerBins(reduction, projector, light, 1);
+        if (!larger) break;
+        reduction = *larger;
+      }
     }
   }
+  ensureMemoryForImport(needed(reduction.size()), memory, use);
   return {reduction::Reducer(reduction), photographOf(brightest).filename().string()};
 }
 
@@ -187,7 +201,8 @@ struct Pictures {
   ImportedRigSettings rig;
 };
 
-Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress) {
+Pictures readPictures(const ImportPicturesSettings& settings, const platform::MemoryUse& memory,
+                      Progress& progress) {
   const std::vector<fs::path> patterns = picturesIn(settings.patterns, "patterns", isPictureName);
   const PhotographSequence sequence = photographsIn(settings.photographs);
   if (patterns.size() != sequence.photographs.size()) {
@@ -201,7 +216,8 @@ Pictures readPictures(const ImportPicturesSettings& settings, Progress& progress
   Pictures pictures;
   Progress first = progress.part(0.4, RELUCENT_MESSAGE("stage.reading-patterns", "Reading the patterns"));
   pictures.patterns = readSequence(patterns, true, std::nullopt, fingerprint, first);
-  std::optional<PhotographReducer> reducer = reducerFor(pictures.patterns, photographs, settings.pixels);
+  std::optional<PhotographReducer> reducer =
+      reducerFor(pictures.patterns, photographs, settings.pixels, memory);
   pictures.reduction = reducer->reducer.reduction();
   if (pictures.reduction.isNothing()) reducer.reset();
   Progress second =
@@ -247,10 +263,10 @@ void storeInverse(const fs::path& path, const compensation::RidgeChoice& choice,
 
 /// What is estimated from the pictures, which are let go of. Sets the rig that they came from, and how they
 /// were reduced.
-importing::Import estimated(const ImportPicturesSettings& settings, CalibrateSettings& stages,
-                            reduction::Reduction& reduction, Progress& progress) {
+importing::Import estimated(const ImportPicturesSettings& settings, const platform::MemoryUse& memory,
+                            CalibrateSettings& stages, reduction::Reduction& reduction, Progress& progress) {
   Progress reading = progress.part(0.1, RELUCENT_MESSAGE("stage.reading-pictures", "Reading the pictures"));
-  Pictures pictures = readPictures(settings, reading);
+  Pictures pictures = readPictures(settings, memory, reading);
   stages.rig = pictures.rig;
   stages.pixels = settings.pixels;
   reduction = pictures.reduction;
@@ -289,6 +305,11 @@ ImportResult resultOf(const importing::Import& import, const ImportedRigSettings
 
 ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
                             Progress& progress) {
+  return importPictures(path, settings, platform::memoryLeft(), progress);
+}
+
+ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& settings,
+                            const platform::MemoryUse& memory, Progress& progress) {
   if (std::vector<Message> found = problems(settings); !found.empty())
     throw Error(
         ErrorKind::input, found.front(),
@@ -300,7 +321,7 @@ ImportResult importPictures(const fs::path& path, const ImportPicturesSettings& 
   compensation::MeasuredVenue venue;
   {
     reduction::Reduction reduction;
-    const importing::Import import = estimated(settings, stages, reduction, progress);
+    const importing::Import import = estimated(settings, memory, stages, reduction, progress);
     result = resultOf(import, std::get<ImportedRigSettings>(stages.rig));
     // What was estimated is safe before it is inverted.
     store(path, stages, reduction, import, watch.seconds());

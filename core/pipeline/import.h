@@ -9,6 +9,7 @@
 #include "relucent/base/progress.h"
 #include "relucent/base/raster.h"
 #include "relucent/importing/import.h"
+#include "relucent/platform/memory_limits.h"
 #include "relucent/reduction/pixel_use.h"
 
 namespace relucent::pipeline {
@@ -42,8 +43,12 @@ struct ImportResult {
 /// in the order in which raw files were taken (photograph_sequence.h); files that are no pictures are passed
 /// over. Nothing is written before everything is computed. Throws:
 /// Error{input} if the folders hold different numbers of pictures or pictures of different sizes, if `folder`
-/// holds anything already, or as importTransport(); Error{disk, format} for unreadable files.
+/// holds anything already, or as importTransport(); Error{memory} before the photographs are read;
+/// Error{disk, format} for unreadable files.
 ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,
                             Progress& progress);
+/// The same with so much memory; without, platform::memoryLeft().
+ImportResult importPictures(const std::filesystem::path& folder, const ImportPicturesSettings& settings,
+                            const platform::MemoryUse& memory, Progress& progress);
 
 }  // namespace relucent::pipeline

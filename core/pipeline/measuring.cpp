@@ -13,6 +13,7 @@
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stopped_early.h"
 #include "relucent/pipeline/stored_settings.h"

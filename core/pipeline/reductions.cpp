@@ -7,6 +7,7 @@
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/error.h"
 #include "relucent/pipeline/measured_again.h"
+#include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/platform/memory_limits.h"
 #include "relucent/reduction/choice.h"
@@ -26,20 +27,6 @@ bool hasPhotographs(const calibration::CalibrationFolder& folder, calibration::S
   return false;
 }
 
-// What simulated venues took beyond the forecast, 128x96 / 160x120 to 512x384 / 320x240: 10 to 170 MB.
-constexpr double forecastMargin = 1.2;
-constexpr double otherBytes = 150e6;
-constexpr double mappedInMemory = 0.25;
-
-/// What the forecast says itself.
-platform::MemoryUse forecastMemory(const Rasters& cameras, const Rasters& projectors,
-                                   const acquisition::AcquisitionSettings& settings) {
-  const acquisition::ForecastDevices devices{cameras, projectors, 1, 0.0};
-  const WorkLeft work = acquisition::forecast(devices, settings, {}, {});
-  const double onDisk = (1.0 - mappedInMemory) * static_cast<double>(work.mappedBytes);
-  return {work.memoryBytes - static_cast<std::uint64_t>(onDisk), work.memoryBytes};
-}
-
 /// No choice leaves fewer pixels.
 Rasters smallestOf(const Rasters& cameras) {
   std::vector<Size> sizes;
@@ -51,43 +38,7 @@ Rasters smallestOf(const Rasters& cameras) {
   return Rasters(std::move(sizes));
 }
 
-Argument gigabytes(std::uint64_t bytes) {
-  return as::number(static_cast<double>(bytes) / 1e9, as::decimals(2));
-}
-
-[[noreturn]] void refuse(const platform::MemoryUse& needed, const platform::MemoryUse& memory,
-                         reduction::PixelUse::Kind kind) {
-  const bool inMemory = needed.resident > memory.resident;
-  throw Error(ErrorKind::memory,
-              RELUCENT_MESSAGE("reduction.memory-too-little",
-                               "measuring would take {} GB of memory, and {} GB may be taken")
-                  .with(gigabytes(inMemory ? needed.resident : needed.addressSpace),
-                        gigabytes(inMemory ? memory.resident : memory.addressSpace)),
-              kind == reduction::PixelUse::Kind::automatic
-                  ? RELUCENT_MESSAGE("reduction.more-memory-or-smaller-projector",
-                                     "use a computer or a limit with more memory, or a projector signal of "
-                                     "fewer pixels")
-                  : RELUCENT_MESSAGE("reduction.fewer-camera-pixels",
-                                     "choose fewer camera pixels: automatic ones are as many as fit"));
-}
-
 }  // namespace
-
-platform::MemoryUse memoryNeeded(const Rasters& cameras, const Rasters& projectors,
-                                 const acquisition::AcquisitionSettings& settings) {
-  const platform::MemoryUse forecast = forecastMemory(cameras, projectors, settings);
-  auto needed = [](std::uint64_t bytes) {
-    return static_cast<std::uint64_t>(forecastMargin * static_cast<double>(bytes) + otherBytes);
-  };
-  return {needed(forecast.resident), needed(forecast.addressSpace)};
-}
-
-void ensureMemory(const rig::Rig& used, const CalibrateSettings& settings,
-                  const platform::MemoryUse& memory) {
-  const platform::MemoryUse needed =
-      forecastMemory(used.cameraRasters(), used.projectorRasters(), settings.acquisition);
-  if (!platform::fits(needed, memory)) refuse(needed, memory, settings.pixels.kind);
-}
 
 void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig,
                       const platform::MemoryUse& memory, Progress& progress) {
@@ -98,8 +49,7 @@ void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig,
     return platform::fits(memoryNeeded(cameras, projectors, settings.acquisition), memory);
   };
   auto ensureRoom = [&](const Rasters& cameras) {
-    if (!fits(cameras))
-      refuse(memoryNeeded(cameras, projectors, settings.acquisition), memory, settings.pixels.kind);
+    ensureMemory(memoryNeeded(cameras, projectors, settings.acquisition), memory, settings.pixels);
   };
   const bool usesAll = settings.pixels.kind == reduction::PixelUse::Kind::all;
   ensureRoom(usesAll ? rig.cameraRasters() : smallestOf(rig.cameraRasters()));

@@ -16,12 +16,6 @@
 /// (stored_settings.h).
 namespace relucent::pipeline {
 
-/// What measuring the light transport takes on top of what the program has already, by its forecast
-/// (acquisition/forecast.h), which may be a fifth too low, and what the rest of a calibration takes. Of what
-/// may lie on the disk a quarter is counted as resident: less, and measuring would wait for the disk.
-platform::MemoryUse memoryNeeded(const Rasters& cameras, const Rasters& projectors,
-                                 const acquisition::AcquisitionSettings& settings);
-
 /// Chooses reductions as the settings want them and keeps them, unless that is done or something has been
 /// measured: photographs of the linearization are in the journal. `memory`: what may be taken; without it,
 /// platform::memoryLeft().
@@ -30,10 +24,6 @@ platform::MemoryUse memoryNeeded(const Rasters& cameras, const Rasters& projecto
 void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig,
                       const platform::MemoryUse& memory, Progress& progress);
 void chooseReductions(calibration::CalibrationFolder& folder, rig::Rig& rig, Progress& progress);
-
-/// Before devices that were chosen earlier measure: there may be less memory than there was then.
-/// Throws: Error{memory} if it is less than the forecast itself, without anything to spare.
-void ensureMemory(const rig::Rig& used, const CalibrateSettings& settings, const platform::MemoryUse& memory);
 
 /// The settings want other pixels. What was chosen is forgotten, and photographs of linearization and
 /// acquisition are set aside: they are of another size. Throws: Error{disk}.

@@ -15,12 +15,14 @@
 #include "relucent/pipeline/compensate.h"
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
+#include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/relight.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "support/dng.h"
 #include "support/scripted_rig.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace relucent::compensation;
@@ -63,13 +65,16 @@ class Studio {
   fs::path patterns() const { return root() / "plan"; }
   fs::path photographs() const { return root() / "photographs"; }
   fs::path calibration() const { return root() / "calibration"; }
-  ImportResult import(const reduction::PixelUse& pixels = {}) const {
+  ImportPicturesSettings settings(const reduction::PixelUse& pixels) const {
     ImportPicturesSettings settings;
     settings.pixels = pixels;
     settings.patterns = patterns();
     settings.photographs = photographs();
+    return settings;
+  }
+  ImportResult import(const reduction::PixelUse& pixels = {}) const {
     Progress progress;
-    return importPictures(calibration(), settings, progress);
+    return importPictures(calibration(), settings(pixels), progress);
   }
   QString failure() const {
     try {
@@ -131,6 +136,33 @@ class TestImportPictures : public QObject {
     QVERIFY2(reduced.error.transport < 1.2 * whole.error.transport,
              qPrintable(
                  QString("%1, %2 with all pixels").arg(reduced.error.transport).arg(whole.error.transport)));
+  }
+
+  /// Law: as many camera pixels as there is memory for, and a sentence where even few do not fit.
+  void asManyPixelsAsFit() {
+    Studio studio({72, 56});
+    const int pictures = studio.import({reduction::PixelUse::Kind::binned, 1}).patterns;
+    const auto importWith = [&](std::uint64_t bytes, reduction::PixelUse pixels) {
+      fs::remove_all(studio.calibration());
+      Progress progress;
+      const std::uint64_t plenty = std::uint64_t{1} << 40;
+      return importPictures(studio.calibration(), studio.settings(pixels), {bytes, plenty}, progress);
+    };
+    const std::uint64_t some = memoryOfImport(projector, {30, 30}, pictures).resident;
+    const ImportResult result = importWith(some, {});
+    QVERIFY(result.camera == (Size{72, 56}));
+    {
+      const auto folder = calibration::CalibrationFolder::open(studio.calibration(),
+                                                               calibration::CalibrationFolder::Access::read);
+      const reduction::Reduction reduction = reductionsOf(folder).at(0);
+      QVERIFY(reduction.savesMemory);
+      QVERIFY(memoryOfImport(projector, reduction.size(), pictures).resident <= some);
+    }
+    const std::string sentence =
+        sentenceOf([&] { importWith(some, {reduction::PixelUse::Kind::all}); }, ErrorKind::memory);
+    QVERIFY(mentions(sentence, "automatic ones are as many as fit"));
+    QVERIFY(mentions(sentenceOf([&] { importWith(100'000, {}); }, ErrorKind::memory), "fewer pictures"));
+    QVERIFY(!fs::exists(studio.calibration()));
   }
 
   /// Whichever photograph it is: the reduction is chosen by two of them.

@@ -16,6 +16,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/verify.h"

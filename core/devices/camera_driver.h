@@ -66,6 +66,9 @@ class CameraDriver {
 
   /// Asks for an exposure time; returns the one that the camera says it has now. Seconds.
   virtual double setExposure(double seconds) = 0;
+  /// Asks for a part of the photograph; returns the one that frames hold from the next one on, which holds
+  /// the part. None: frames hold all of it, whatever is asked for. After connect() they do.
+  virtual std::optional<rig::PicturePart> look(const rig::PicturePart& /*part*/) { return std::nullopt; }
   /// Asks for a frame if the camera is triggered; otherwise nothing.
   virtual void trigger() = 0;
   /// The next frame, oldest first; none if none comes in time.

@@ -37,6 +37,16 @@ double inSeconds(microseconds time) {
   return duration<double>(time).count();
 }
 
+/// A photograph of this size that holds a part from `begin` on.
+image::Image placed(const image::Image& part, Pixel begin, Size size) {
+  image::Image whole(size, part.channels());
+  const auto row = static_cast<std::size_t>(part.width() * part.channels());
+  for (int y = 0; y < part.height(); ++y)
+    std::copy_n(part.pixel(indexOf(part.size(), {0, y})).data(), row,
+                whole.pixel(indexOf(size, {begin.x, begin.y + y})).data());
+  return whole;
+}
+
 bool near(double a, double b) {
   return std::abs(a - b) <= rangeTolerance * std::max(a, b);
 }
@@ -92,6 +102,7 @@ CameraTraits DrivenCamera::connected() {
   isConnected_ = true;
   lastId_.reset();
   held_ = 0.0;
+  asked_ = delivered_ = {{0, 0}, traits.size};
   probe(traits);
   return traits;
 }
@@ -181,6 +192,18 @@ double DrivenCamera::expose(double seconds) {
   return held;
 }
 
+void DrivenCamera::look(const std::optional<rig::PicturePart>& part) {
+  // To change it takes as long as some photographs.
+  constexpr double worthIt = 0.9;
+  rig::PicturePart wanted = part.value_or(all());
+  if (static_cast<double>(wanted.size.count()) > worthIt * static_cast<double>(traits_.size.count()))
+    wanted = all();
+  if (wanted == asked_) return;
+  delivered_ = driver_->look(wanted).value_or(all());
+  asked_ = wanted;
+  lastId_.reset();
+}
+
 bool DrivenCamera::isStale(const DriverFrame& frame, microseconds asked, double seconds) const {
   const microseconds begun =
       settings_.exposureTakesTime ? frame.arrived - inMicroseconds(seconds) : frame.arrived;
@@ -227,15 +250,18 @@ rig::RawFrame DrivenCamera::capture(const rig::CaptureRequest& request) {
     if (attempt > 0) ++repeats_;
     try {
       if (!isConnected_) reconnect();
+      look(request.part);
       const double seconds = expose(request.seconds);
       const DriverFrame taken = freshFrame(seconds);
       const Size size = photographSize(taken.frame.size, taken.frame.format);
-      if (size != traits_.size || taken.frame.format != traits_.format)
+      if (size != delivered_.size || taken.frame.format != traits_.format)
         throw CameraLost(RELUCENT_MESSAGE("device.photograph-format-changed",
                                           "the photograph has {} pixels as {} where {} as {} were agreed")
-                             .with(as::size(size), nameOf(taken.frame.format), as::size(traits_.size),
+                             .with(as::size(size), nameOf(taken.frame.format), as::size(delivered_.size),
                                    nameOf(traits_.format)));
-      return {photographOf(taken.frame, name()), photographBits(taken.frame), seconds};
+      image::Image photograph = photographOf(taken.frame, name());
+      if (size != traits_.size) photograph = placed(photograph, delivered_.begin, traits_.size);
+      return {std::move(photograph), photographBits(taken.frame), seconds};
     } catch (const Unusable& unusable) {
       reason = unusable.reason;
       advice = {};

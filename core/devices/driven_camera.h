@@ -33,6 +33,8 @@ std::vector<Message> problems(const DrivenCameraSettings& settings);
 /// - A frame with parts missing, of another size, or that does not come is asked for again; from the second
 ///   time on the camera is connected again.
 /// - A camera that is gone is looked for again and set up as before; the photograph is then taken again.
+/// - Where only a part of the photograph is looked at, the camera delivers that part, if it can, and the rest
+///   is 0.
 class DrivenCamera : public rig::Camera {
  public:
   /// Throws: std::logic_error if problems(settings) finds any; Error{device} if there is no such camera.
@@ -58,6 +60,8 @@ class DrivenCamera : public rig::Camera {
   bool restarted();
   void probe(CameraTraits& traits);
   double expose(double seconds);
+  void look(const std::optional<rig::PicturePart>& part);
+  rig::PicturePart all() const { return {{0, 0}, traits_.size}; }
   DriverFrame freshFrame(double seconds);
   bool isStale(const DriverFrame& frame, std::chrono::microseconds asked, double seconds) const;
 
@@ -66,6 +70,7 @@ class DrivenCamera : public rig::Camera {
   CameraTraits traits_;
   bool isConnected_ = false;
   double held_ = 0.0;                    // exposure time of the camera; 0: not known
+  rig::PicturePart asked_, delivered_;   // parts of the photograph
   int toSkip_ = 0;                       // frames that may still have an older one
   std::optional<std::uint64_t> lastId_;  // of a frame that was used, since the camera was connected
   int repeats_ = 0;

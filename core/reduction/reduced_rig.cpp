@@ -25,21 +25,27 @@ class BorrowedProjector : public rig::Projector {
 class SmallerCamera : public rig::Camera {
  public:
   using Smaller = std::function<rig::RawFrame(const rig::RawFrame&)>;
-  SmallerCamera(rig::Camera& camera, Size from, Size size, Smaller smaller)
-      : camera_(camera), from_(from), size_(size), smaller_(std::move(smaller)) {}
+  /// `part`: what this looks at of a photograph; none: all.
+  SmallerCamera(rig::Camera& camera, Size from, std::optional<rig::PicturePart> part, Size size,
+                Smaller smaller)
+      : camera_(camera), from_(from), part_(part), size_(size), smaller_(std::move(smaller)) {}
 
   std::string name() const override { return camera_.name(); }
   Size size() const override { return size_; }
   rig::ExposureRange exposures() const override { return camera_.exposures(); }
   rig::RawFrame capture(const rig::CaptureRequest& request) override {
-    const rig::RawFrame frame = camera_.capture(request);
+    rig::CaptureRequest asked = request;
+    asked.part = part_;
+    const rig::RawFrame frame = camera_.capture(asked);
     rig::checkFrame(frame, from_, name());
     return smaller_(frame);
   }
 
  private:
   rig::Camera& camera_;
-  Size from_, size_;
+  Size from_;
+  std::optional<rig::PicturePart> part_;
+  Size size_;
   Smaller smaller_;
 };
 
@@ -75,7 +81,9 @@ rig::Rig reduced(rig::Rig& rig, const std::vector<Reduction>& reductions) {
           RELUCENT_MESSAGE("reduction.other-size", "the camera delivers {} pixels where {} were calibrated")
               .with(as::size(camera.size()), as::size(reduction.camera)),
           camera.name());
-    return std::make_unique<SmallerCamera>(camera, reduction.camera, reduction.size(), Reducer(reduction));
+    return std::make_unique<SmallerCamera>(camera, reduction.camera,
+                                           rig::PicturePart{reduction.begin, reduction.part},
+                                           reduction.size(), Reducer(reduction));
   });
 }
 
@@ -101,9 +109,10 @@ rig::Rig sparse(rig::Rig& rig, std::size_t mostPixels) {
     const Size from = camera.size();
     const int stride = strideFor(from, mostPixels);
     const Size size{(from.width - 1) / stride + 1, (from.height - 1) / stride + 1};
-    return std::make_unique<SmallerCamera>(camera, from, size, [stride](const rig::RawFrame& frame) {
+    const auto smaller = [stride](const rig::RawFrame& frame) {
       return rig::RawFrame{everyNth(frame.signal, stride), frame.bits, frame.seconds};
-    });
+    };
+    return std::make_unique<SmallerCamera>(camera, from, std::nullopt, size, smaller);
   });
 }
 

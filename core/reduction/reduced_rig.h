@@ -8,10 +8,11 @@
 
 namespace relucent::reduction {
 
-/// A rig's devices as they are measured with: its projectors, and its cameras with smaller photographs. The
-/// devices stay the rig's, which outlives the result. One reduction a camera; none at all: as they are.
-/// A photograph of another size than before is Error{input}, which names both.
-/// Throws: Error{input} if there are more or fewer cameras, or one delivers another size.
+/// A rig's devices as they are measured with: its projectors, and its cameras with smaller photographs, of
+/// which they are told what part is looked at (CaptureRequest::part). The devices stay the rig's, which
+/// outlives the result. One reduction a camera; none at all: as they are. A photograph of another size than
+/// before is Error{input}, which names both. Throws: Error{input} if there are more or fewer cameras, or one
+/// delivers another size.
 rig::Rig reduced(rig::Rig& rig, const std::vector<Reduction>& reductions);
 
 /// The same cameras, every `stride`-th pixel both ways: samples as they were taken, for what needs no more of

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,11 +41,21 @@ struct ExposureRange {
   double longest = 0.0;
 };
 
+/// A rectangle of a camera's pixels.
+struct PicturePart {
+  Pixel begin;
+  Size size;
+  bool operator==(const PicturePart&) const = default;
+};
+
 /// A request for a photograph.
 struct CaptureRequest {
   ShotId shot;
   int exposure = 0;      // index within the shot's bracket
   double seconds = 0.0;  // requested exposure time
+  /// What of the photograph is looked at; none: all. Pixels beside it may be 0: a camera that need not read
+  /// them is faster.
+  std::optional<PicturePart> part{};
 };
 
 /// One photograph as delivered by the camera.

@@ -76,6 +76,7 @@ struct FakeGigeCamera::Parts {
     auto* bytes = static_cast<std::uint8_t*>(const_cast<void*>(arv_buffer_get_data(buffer, &size)));
     parts->look({bytes,
                  {arv_buffer_get_image_width(buffer), arv_buffer_get_image_height(buffer)},
+                 {arv_buffer_get_image_x(buffer), arv_buffer_get_image_y(buffer)},
                  formatName(format),
                  exposure * 1e-6,
                  gain});

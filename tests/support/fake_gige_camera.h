@@ -24,8 +24,9 @@ class FakeGigeCamera {
  public:
   struct View {
     std::uint8_t* bytes = nullptr;  // to be filled, unpacked
-    Size sensor;
-    std::string format;  // "BayerRG12"
+    Size sensor;                    // the part of it that is delivered, ...
+    Pixel begin;                    // ... and where that begins
+    std::string format;             // "BayerRG12"
     double seconds = 0.0;
     std::uint32_t gain = 0;
   };

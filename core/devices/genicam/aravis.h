@@ -76,7 +76,17 @@ struct AravisSetup {
   SensorFormat format;
   ArvPixelFormat pixelFormat = 0;
   bool triggered = false;
+  Pixel begin;  // of the photograph on the sensor, sensor pixels
+  Size sensor;  // that the photograph takes
 };
+
+/// The smallest part of the photograph that holds `part` and that the camera can deliver alone, sensor
+/// pixels: its corners lie on multiples of what the camera steps by, and of a colour filter's cell. Throws:
+/// as AravisFailure::check().
+rig::PicturePart partOfSensor(ArvCamera* camera, const std::string& name, const AravisSetup& setup,
+                              const rig::PicturePart& part);
+/// Whether the camera delivers that part of its sensor from now on. Throws: CameraLost.
+bool setPartOfSensor(ArvCamera* camera, const std::string& name, const rig::PicturePart& part);
 
 /// Sets pixel format, part of the sensor, gain and trigger as wanted, switches everything automatic off, and
 /// fills `traits` with what was read back.

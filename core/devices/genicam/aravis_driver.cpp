@@ -82,6 +82,24 @@ class AravisDriver : public CameraDriver {
     return held * 1e-6;
   }
 
+  std::optional<rig::PicturePart> look(const rig::PicturePart& part) override {
+    const rig::PicturePart whole{setup_.begin, setup_.sensor};
+    rig::PicturePart delivered = partOfSensor(camera_.get(), name(), setup_, part);
+    stop();
+    if (!setPartOfSensor(camera_.get(), name(), delivered)) {
+      if (!setPartOfSensor(camera_.get(), name(), whole))
+        throw CameraLost(
+            RELUCENT_MESSAGE("device.part-of-sensor-lost",
+                             "the camera does not go back to the part of the sensor that it had"));
+      delivered = whole;
+    }
+    listen();
+    const int cell = sensorSize({1, 1}, setup_.format).width;
+    return rig::PicturePart{
+        {(delivered.begin.x - whole.begin.x) / cell, (delivered.begin.y - whole.begin.y) / cell},
+        photographSize(delivered.size, setup_.format)};
+  }
+
   void trigger() override {
     if (!setup_.triggered) return;
     AravisFailure failure(name());

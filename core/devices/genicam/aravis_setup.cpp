@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "relucent/base/message.h"
 #include "relucent/devices/genicam/aravis.h"
@@ -86,6 +87,8 @@ class Setup {
     gint x = 0, y = 0, width = 0, height = 0;
     arv_camera_get_region(camera_, &x, &y, &width, &height, failure);
     failure.check("part of the sensor");
+    setup_.begin = {x, y};
+    setup_.sensor = {width, height};
     traits.size = photographSize({width, height}, setup_.format);
     if (settings_.photograph && traits.size != *settings_.photograph)
       throw Error(
@@ -165,7 +168,66 @@ class Setup {
   AravisSetup setup_;
 };
 
+/// Along one axis: from `begin` on, `length` long, on steps of both, within [0, limit).
+void alignOutward(int& begin, int& length, int beginStep, int lengthStep, int least, int limit) {
+  const int end = begin + length;
+  begin = begin / beginStep * beginStep;
+  length = std::max(end - begin, least);
+  length = (length + lengthStep - 1) / lengthStep * lengthStep;
+  // Beside the sensor's end it begins earlier; where that does not fit the steps either, all is delivered.
+  if (begin + length > limit) begin = std::max(0, limit - length) / beginStep * beginStep;
+  if (begin + length > limit || begin + length < end) {
+    begin = 0;
+    length = limit;
+  }
+}
+
 }  // namespace
+
+rig::PicturePart partOfSensor(ArvCamera* camera, const std::string& name, const AravisSetup& setup,
+                              const rig::PicturePart& part) {
+  const int cell = sensorSize({1, 1}, setup.format).width;
+  rig::PicturePart wanted{{cell * part.begin.x, cell * part.begin.y}, sensorSize(part.size, setup.format)};
+  AravisFailure failure(name);
+  const auto step = [&](gint (*increment)(ArvCamera*, GError**)) {
+    AravisFailure ignored(name);  // cameras that do not say step by one
+    return std::lcm(std::max(1, increment(camera, ignored)), cell);
+  };
+  const auto least = [&](void (*bounds)(ArvCamera*, gint*, gint*, GError**)) {
+    gint from = 1, to = 1;
+    bounds(camera, &from, &to, failure);
+    failure.check("part of the sensor");
+    return std::max(1, from);
+  };
+  // Within the photograph: its own corner lies where the camera could put it.
+  alignOutward(wanted.begin.x, wanted.size.width, step(arv_camera_get_x_offset_increment),
+               step(arv_camera_get_width_increment), least(arv_camera_get_width_bounds), setup.sensor.width);
+  alignOutward(wanted.begin.y, wanted.size.height, step(arv_camera_get_y_offset_increment),
+               step(arv_camera_get_height_increment), least(arv_camera_get_height_bounds),
+               setup.sensor.height);
+  return {{setup.begin.x + wanted.begin.x, setup.begin.y + wanted.begin.y}, wanted.size};
+}
+
+bool setPartOfSensor(ArvCamera* camera, const std::string& name, const rig::PicturePart& part) {
+  AravisFailure failure(name);
+  const auto isRefused = [&] {
+    if (!failure.happened()) return false;
+    try {
+      failure.check("part of the sensor");
+    } catch (const CameraLost&) {
+      throw;
+    } catch (const Error&) {
+      return true;  // the camera goes on as it was
+    }
+    return false;
+  };
+  arv_camera_set_region(camera, part.begin.x, part.begin.y, part.size.width, part.size.height, failure);
+  if (isRefused()) return false;
+  gint x = 0, y = 0, width = 0, height = 0;
+  arv_camera_get_region(camera, &x, &y, &width, &height, failure);
+  if (isRefused()) return false;
+  return rig::PicturePart{{x, y}, {width, height}} == part;
+}
 
 AravisSetup setUp(ArvCamera* camera, const std::string& name, const GenicamSettings& settings,
                   CameraTraits& traits) {

@@ -37,7 +37,10 @@ struct Script {
   std::uint64_t frames = 0;
   std::deque<DriverFrame> underWay{};
   bool isConnected = false;
-  int shown = 0;  // what the venue shows now: the value of good frames
+  std::optional<PicturePart> part{};  // that frames hold; none: all
+  int step = 1;                       // of the corners of parts; 0: it knows none
+  int shown = 0;                      // what the venue shows now: the value of good frames
+  bool patterned = false;             // plus 10 y + x + 1
 };
 
 class ScriptedDriver : public CameraDriver {
@@ -50,6 +53,7 @@ class ScriptedDriver : public CameraDriver {
     if (script_->connectsThatFail-- > 0) throw CameraLost(Message::plain("nobody answers"));
     script_->connectsThatFail = 0;
     script_->isConnected = true;
+    script_->part.reset();
     script_->underWay.clear();
     return script_->traits;
   }
@@ -60,6 +64,15 @@ class ScriptedDriver : public CameraDriver {
   double setExposure(double seconds) override {
     script_->exposure = script_->factor * std::clamp(seconds, script_->kept.shortest, script_->kept.longest);
     return script_->exposure;
+  }
+  std::optional<PicturePart> look(const PicturePart& part) override {
+    script_->diary.push_back("look");
+    if (script_->step == 0) return std::nullopt;
+    const int step = script_->step;
+    const Pixel begin{part.begin.x / step * step, part.begin.y / step * step};
+    const Size size{part.begin.x + part.size.width - begin.x, part.begin.y + part.size.height - begin.y};
+    script_->part = {begin, size};
+    return script_->part;
   }
   void trigger() override {
     Answer answer = Answer::good;
@@ -124,9 +137,13 @@ class ScriptedDriver : public CameraDriver {
 
  private:
   void send(microseconds arrived, int value = -1) {
-    const Size size = script_->traits.size;
-    DriverFrame frame{{size, script_->traits.format, {}}, ++script_->frames, arrived, {}};
-    frame.frame.bytes.assign(size.count(), static_cast<std::uint8_t>(value < 0 ? script_->shown : value));
+    const PicturePart part = script_->part.value_or(PicturePart{{0, 0}, script_->traits.size});
+    DriverFrame frame{{part.size, script_->traits.format, {}}, ++script_->frames, arrived, {}};
+    for (std::size_t i = 0; i < part.size.count(); ++i) {
+      const Pixel at = pixelAt(part.size, i);
+      const int own = script_->patterned ? 10 * (part.begin.y + at.y) + part.begin.x + at.x + 1 : 0;
+      frame.frame.bytes.push_back(static_cast<std::uint8_t>(own + (value < 0 ? script_->shown : value)));
+    }
     script_->underWay.push_back(std::move(frame));
   }
 
@@ -252,6 +269,52 @@ class TestDrivenCamera : public QObject {
     venue.script->traits.size = {8, 6};
     const std::string sentence = sentenceOf([&] { venue.photograph(); }, ErrorKind::device);
     QVERIFY(mentions(sentence, "came back with 8x6 pixels instead of 4x3"));
+  }
+
+  /// Law: what is looked at is what it would be without saying so, the rest is that or black, and the camera
+  /// is told once, and again after it was gone.
+  void ofAPartOnlyThatIsDelivered_data() {
+    QTest::addColumn<int>("step");
+    QTest::addColumn<bool>("isGone");
+    for (int step : {0, 1, 2, 4})
+      for (bool gone : {false, true})
+        QTest::addRow("steps of %d%s", step, gone ? ", unplugged" : "") << step << gone;
+  }
+  void ofAPartOnlyThatIsDelivered() {
+    QFETCH(int, step);
+    QFETCH(bool, isGone);
+    Venue venue;
+    venue.script->traits.size = {10, 8};
+    venue.script->patterned = true;
+    venue.script->step = step;
+    venue.open();
+    const auto capture = [&](std::optional<PicturePart> part) {
+      return venue.camera->capture({{"test", 1}, 0, 0.05, part}).signal;
+    };
+    const auto looks = [&] { return std::ranges::count(venue.script->diary, "look"); };
+    const image::Image all = capture(std::nullopt);
+    QCOMPARE(looks(), 0);
+    const PicturePart part{{3, 5}, {6, 2}};
+    for (int i = 0; i < 3; ++i) {
+      if (i == 1 && isGone) venue.script->answers = {Answer::gone};
+      const image::Image seen = capture(part);
+      QCOMPARE(seen.size(), all.size());
+      int black = 0;
+      for (int y = 0; y < all.height(); ++y)
+        for (int x = 0; x < all.width(); ++x) {
+          const bool within = x >= 3 && x < 9 && y >= 5 && y < 7;
+          const float value = seen.at(x, y, 1);
+          QVERIFY(value == all.at(x, y, 1) || (!within && value == 0.0f));
+          black += value == 0.0f;
+        }
+      QCOMPARE(black > 0, step > 0);
+    }
+    QCOMPARE(looks(), isGone ? 2 : 1);
+    QVERIFY(capture(std::nullopt) == all);
+    // All of it is no part.
+    const auto before = looks();
+    capture(PicturePart{{0, 0}, {10, 8}});
+    QCOMPARE(looks(), before);
   }
 
   void aCameraThatIsNotThereIsTold() {

@@ -31,11 +31,10 @@ struct Sight {
   std::atomic<double> seconds{0.0};
   std::atomic<unsigned> gain{0};
   std::atomic<int> looks{0};
+  std::atomic<std::size_t> pixels{0};  // of the sensor that were delivered last
+  Pixel begin;                         // of the whole photograph on the sensor
   std::function<void(int)> whileLooking = [](int) {};
 
-  static int bitsOf(const std::string& format) {
-    return std::stoi(format.substr(format.find_first_of("0123456789")));
-  }
   static std::vector<std::uint8_t> bytesOf(Size sensor, int bits, unsigned scene) {
     Random random{7, scene};
     std::vector<std::uint8_t> bytes;
@@ -53,8 +52,22 @@ struct Sight {
     const unsigned now = scene;
     whileLooking(++looks);
     if (view.format == "other") return;
-    const std::vector<std::uint8_t> bytes = bytesOf(view.sensor, bitsOf(view.format), now);
-    std::copy(bytes.begin(), bytes.end(), view.bytes);
+    pixels = view.sensor.count();
+    const SensorFormat format = *sensorFormatFromName(view.format);
+    const Size whole = sensorSize(photograph, format);
+    if (view.sensor.count() >= whole.count()) {
+      begin = view.begin;
+      const std::vector<std::uint8_t> bytes = bytesOf(view.sensor, format.bits, now);
+      std::copy(bytes.begin(), bytes.end(), view.bytes);
+      return;
+    }
+    const std::vector<std::uint8_t> bytes = bytesOf(whole, format.bits, now);
+    const int each = format.bits > 8 ? 2 : 1;
+    std::uint8_t* to = view.bytes;
+    for (int y = 0; y < view.sensor.height; ++y) {
+      const int row = (view.begin.y - begin.y + y) * whole.width + view.begin.x - begin.x;
+      to = std::copy_n(bytes.begin() + each * row, each * view.sensor.width, to);
+    }
   }
 };
 
@@ -142,6 +155,52 @@ class TestGigeCamera : public QObject {
     for (unsigned scene : {1u, 2u, 3u})
       QVERIFY(venue.photographed(scene) == venue.shows(scene, format.toStdString()));
     QCOMPARE(venue.camera->repeats(), 0);
+  }
+
+  /// Law: of a part that is looked at the camera delivers what it would have in all of the photograph, and
+  /// hardly more, on whatever it steps by; afterwards all of it again.
+  void aPartIsReadAlone_data() {
+    QTest::addColumn<QString>("format");
+    QTest::addColumn<int>("x");
+    QTest::addColumn<int>("y");
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("height");
+    for (const char* format : {"Mono8", "BayerRG12"}) {
+      QTest::addRow("%s, in the middle", format) << format << 5 << 7 << 11 << 9;
+      QTest::addRow("%s, at the end", format) << format << 27 << 13 << 5 << 11;
+      QTest::addRow("%s, a pixel", format) << format << 31 << 0 << 1 << 1;
+    }
+  }
+  void aPartIsReadAlone() {
+    QFETCH(QString, format);
+    QFETCH(int, x);
+    QFETCH(int, y);
+    QFETCH(int, width);
+    QFETCH(int, height);
+    Venue venue;
+    venue.open(Venue::genicam(format.toStdString()));
+    QVERIFY(venue.photographed(1) == venue.shows(1, format.toStdString()));
+    const std::size_t all = venue.sight.pixels;
+    for (unsigned scene : {2u, 3u}) {
+      venue.sight.scene = scene;
+      const Image seen =
+          venue.camera->capture({{"test", 1}, 0, 0.01, PicturePart{{x, y}, {width, height}}}).signal;
+      const Image whole = venue.shows(scene, format.toStdString());
+      QCOMPARE(seen.size(), whole.size());
+      for (int v = y; v < y + height; ++v)
+        for (int u = x; u < x + width; ++u)
+          for (int c = 0; c < 3; ++c) QCOMPARE(seen.at(u, v, c), whole.at(u, v, c));
+      QVERIFY2(venue.sight.pixels < all / 2, qPrintable(QString::number(venue.sight.pixels)));
+    }
+    // Back from where it was switched off it is told again.
+    venue.fake->unplug();
+    venue.fake->plug();
+    venue.sight.scene = 4;
+    const Image again =
+        venue.camera->capture({{"test", 1}, 0, 0.01, PicturePart{{x, y}, {width, height}}}).signal;
+    QCOMPARE(again.at(x, y, 0), venue.shows(4, format.toStdString()).at(x, y, 0));
+    QVERIFY(venue.photographed(5) == venue.shows(5, format.toStdString()));
+    QCOMPARE(venue.sight.pixels.load(), all);
   }
 
   void exposureAndGainReachTheCamera() {

@@ -38,6 +38,32 @@ RawFrame photograph(Size size, double light, double deviation, int bits, std::ui
   return frame;
 }
 
+/// A camera that reads no more of its sensor than is looked at.
+class ThriftyCamera : public Camera {
+ public:
+  ThriftyCamera(std::unique_ptr<Camera> camera, std::size_t& read)
+      : camera_(std::move(camera)), read_(read) {}
+  std::string name() const override { return camera_->name(); }
+  Size size() const override { return camera_->size(); }
+  ExposureRange exposures() const override { return camera_->exposures(); }
+  RawFrame capture(const CaptureRequest& request) override {
+    RawFrame frame = camera_->capture(request);
+    const PicturePart part = request.part.value_or(PicturePart{{0, 0}, size()});
+    read_ = part.size.count();
+    for (std::size_t i = 0; i < frame.signal.pixels(); ++i) {
+      const Pixel at = pixelAt(size(), i);
+      const bool isRead = at.x >= part.begin.x && at.x < part.begin.x + part.size.width &&
+                          at.y >= part.begin.y && at.y < part.begin.y + part.size.height;
+      if (!isRead) std::ranges::fill(frame.signal.pixel(i), 0.0f);
+    }
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<Camera> camera_;
+  std::size_t& read_;
+};
+
 Reduction whole(Size camera, int bin) {
   return reductionTo(camera, {0, 0}, camera, bin);
 }
@@ -279,6 +305,23 @@ class TestReduction : public QObject {
             Reducer(reduction)(rig.cameras[0]->capture(request)).signal);
     // As they are.
     QVERIFY(reduced(rig, {}).cameras[0]->capture(request).signal == rig.cameras[0]->capture(request).signal);
+  }
+
+  /// Law: what is beside the part need not be read.
+  void onlyThePartIsReadOfACamera() {
+    SyntheticSettings scene;
+    ScriptedVenue venue(syntheticTransport(scene), {}, {});
+    Rig rig = venue.rig(), thrifty = venue.rig();
+    std::size_t read = 0;
+    thrifty.cameras[0] = std::make_unique<ThriftyCamera>(std::move(thrifty.cameras[0]), read);
+    const Reduction reduction = reductionTo({40, 30}, {4, 2}, {30, 20}, 2);
+    const CaptureRequest request{{"test", 3}, 0, 0.01};
+    for (Rig* each : {&rig, &thrifty}) each->projectors[0]->show(Image(each->projectors[0]->size(), 3, 0.7f));
+    QVERIFY(reduced(thrifty, {reduction}).cameras[0]->capture(request).signal ==
+            reduced(rig, {reduction}).cameras[0]->capture(request).signal);
+    QCOMPARE(read, reduction.part.count());
+    sparse(thrifty, 200).cameras[0]->capture(request);
+    QCOMPARE(read, std::size_t{40 * 30});
   }
 
   void sparseCamerasKeepSamplesAsTheyAre() {

@@ -41,6 +41,16 @@ class EngineBackend {
   /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` are invalid.
   virtual bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
                       FrameReport& report) noexcept = 0;
+
+  /// Whether there is renderToTextures(): the device's context is a host's (gl_host.h).
+  virtual bool sharesTextures() const { return false; }
+  /// The same words as textures of the host: RGBA8, one for each projector, of its size. They are complete
+  /// when this returns. Contract: sharesTextures(), drive of 8 bits. False: the device was lost.
+  virtual bool renderToTextures(const ContentFrame& /*frame*/, const FrameRequest& /*request*/,
+                                std::span<const std::uint32_t> /*textures*/,
+                                FrameReport& /*report*/) noexcept {
+    return false;
+  }
 };
 
 }  // namespace relucent::engine

@@ -10,6 +10,21 @@
 #include "relucent/engine/opengl/opengl_backend.h"
 
 namespace relucent::engine {
+namespace {
+
+/// The host's context, if it is on the same device; else null.
+std::unique_ptr<GlContext> sharedContext(const MakeGlHost& make, const GlContext& chosen) {
+  std::unique_ptr<GlHost> host = make ? make() : nullptr;
+  if (!host) return nullptr;
+  try {
+    auto shared = std::make_unique<GlContext>(std::move(host), GlContext::Device::any);
+    return shared->renderer() == chosen.renderer() ? std::move(shared) : nullptr;
+  } catch (const Error&) {
+    return nullptr;  // the windows' system has less than the card can
+  }
+}
+
+}  // namespace
 
 FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify)
     : backend_(std::move(first)), makeOther_(std::move(makeOther)), notify_(std::move(notify)) {
@@ -47,8 +62,21 @@ bool FallbackBackend::render(const ContentFrame& frame, const FrameRequest& requ
   }
 }
 
+bool FallbackBackend::renderToTextures(const ContentFrame& frame, const FrameRequest& request,
+                                       std::span<const std::uint32_t> textures,
+                                       FrameReport& report) noexcept {
+  if (backend_->renderToTextures(frame, request, textures, report)) return true;
+  if (!makeOther_) return false;
+  try {
+    goOver(RELUCENT_ENGLISH_MESSAGE("engine.device-was-lost", "the device was lost"));
+  } catch (const std::exception&) {
+    // Nor will render() find another.
+  }
+  return false;
+}
+
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
-                                           const FallbackBackend::Notify& notify) {
+                                           const FallbackBackend::Notify& notify, const MakeGlHost& host) {
   auto cpu = [&engine]() -> std::unique_ptr<EngineBackend> { return std::make_unique<CpuBackend>(engine); };
   if (choice == BackendChoice::cpu) return cpu();
 
@@ -60,6 +88,7 @@ std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendCho
     if (!automatic) throw;
     return cpu();
   }
+  if (auto shared = sharedContext(host, *context)) context = std::move(shared);
   try {
     auto openGl = std::make_unique<OpenGlBackend>(engine, std::move(context));
     return std::make_unique<FallbackBackend>(std::move(openGl), cpu, notify);

@@ -8,6 +8,7 @@
 #include "relucent/base/enum_names.h"
 #include "relucent/base/message.h"
 #include "relucent/engine/backend.h"
+#include "relucent/engine/gl_host.h"
 
 namespace relucent::engine {
 
@@ -41,6 +42,10 @@ class FallbackBackend : public EngineBackend {
   /// False only if the other one is lost too.
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
+  bool sharesTextures() const override { return backend_->sharesTextures(); }
+  /// False, too, where it has switched: sharesTextures() may have changed.
+  bool renderToTextures(const ContentFrame& frame, const FrameRequest& request,
+                        std::span<const std::uint32_t> textures, FrameReport& report) noexcept override;
 
  private:
   void goOver(const Message& why);
@@ -52,9 +57,11 @@ class FallbackBackend : public EngineBackend {
 };
 
 /// The selected back end, with the processor as fallback for a graphics card. `notify` is also called with
-/// the reason why an existing graphics card cannot be used. `engine` must outlive it. Throws: Error{device}
-/// if OpenGL was asked for and there is none.
+/// the reason why an existing graphics card cannot be used. `host`: a context that shares its textures with
+/// windows; it is taken where it is on the device that would be chosen without. `engine` must outlive it.
+/// Throws: Error{device} if OpenGL was asked for and there is none.
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
-                                           const FallbackBackend::Notify& notify);
+                                           const FallbackBackend::Notify& notify,
+                                           const MakeGlHost& host = {});
 
 }  // namespace relucent::engine

@@ -13,6 +13,7 @@
 #include "app/show_arguments.h"
 #include "desktop/termination.h"
 #include "output/engine_renderer.h"
+#include "output/shared_gl.h"
 #include "output/show.h"
 #include "relucent/base/error.h"
 #include "relucent/calibration/calibration_folder.h"
@@ -49,7 +50,11 @@ int run(const PlayShow& play) {
     return std::make_unique<EngineRenderer>(
         settings.calibration, settings.canvas, settings.adaptiveRange, quiet,
         [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
-        settings.backend);
+        settings.backend,
+        [] {
+          SharedGl* shared = SharedGl::instance();
+          return shared != nullptr ? shared->host() : nullptr;
+        });
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

@@ -21,7 +21,8 @@ constexpr double shareOfBudget = 0.7;
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
                                bool adaptiveRange, Progress& progress,
-                               const engine::FallbackBackend::Notify& notify, engine::BackendChoice choice)
+                               const engine::FallbackBackend::Notify& notify, engine::BackendChoice choice,
+                               const engine::MakeGlHost& host)
     : canvas_(canvas) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(calibration, calibration::CalibrationFolder::Access::read);
@@ -32,7 +33,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   venue_.emplace(engine::prepareVenue(calibration_.venue, calibration_.inverse,
                                       calibration_.linearization.projectors, settings));
   content_ = engine::prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = engine::makeBackend(*venue_, choice, notify);
+  backend_ = engine::makeBackend(*venue_, choice, notify, host);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
   const compensation::Method method = chosen.content.method;
@@ -40,6 +41,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   if (!adaptiveRange || method != compensation::Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
   words_.resize(calibration_.venue.transport.projectors().count());
+  cards_ = CardPictures(EngineRenderer::projectors());
 }
 
 std::vector<QSize> EngineRenderer::projectors() const {
@@ -109,37 +111,51 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
     settled = range_->settled();
   }
   engine::FrameReport report;
-  if (!backend_->render(frame, wanted, words_, report))
-    throw Error(
-        ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its graphics card"),
-        RELUCENT_MESSAGE("show.start-show-again", "start the show again"), std::string(backend_->name()));
+  RenderedFrame rendered;
+  rendered.drives = computed(frame, wanted, report);
   if (request.compensated && !request.thorough) budget_->add(report);
 
-  RenderedFrame rendered;
   rendered.clipped = report.clipped;
   rendered.steps = report.steps;
   rendered.settled = settled;
   rendered.seconds = report.seconds.count();
-  rendered.drives = drives();
   return rendered;
+}
+
+std::vector<DrivePicture> EngineRenderer::computed(const engine::ContentFrame& frame,
+                                                   const engine::FrameRequest& request,
+                                                   engine::FrameReport& report) {
+  if (backend_->sharesTextures()) {
+    const std::vector<std::shared_ptr<CardPicture>> cards = cards_.next();
+    std::vector<std::uint32_t> textures;
+    for (const auto& card : cards) textures.push_back(card->texture());
+    if (!cards.empty() && backend_->renderToTextures(frame, request, textures, report))
+      return {cards.begin(), cards.end()};
+  }
+  // No room for textures, or the graphics card was lost in this frame.
+  if (!backend_->render(frame, request, words_, report))
+    throw Error(
+        ErrorKind::device, RELUCENT_MESSAGE("show.engine-lost-device", "the engine lost its graphics card"),
+        RELUCENT_MESSAGE("show.start-show-again", "start the show again"), std::string(backend_->name()));
+  return drives();
 }
 
 RenderedFrame EngineRenderer::encoded(const compensation::Compensation& solved, double seconds) {
   const Rasters& projectors = calibration_.venue.transport.projectors();
-  return {drivePictures(solved.projector, projectors, venue_->encoders), solved.clipped, solved.iterations,
-          seconds};
+  const std::vector<QImage> pictures = drivePictures(solved.projector, projectors, venue_->encoders);
+  return {{pictures.begin(), pictures.end()}, solved.clipped, solved.iterations, seconds};
 }
 
-std::vector<QImage> EngineRenderer::drives() const {
+std::vector<DrivePicture> EngineRenderer::drives() const {
   const Rasters& projectors = calibration_.venue.transport.projectors();
-  std::vector<QImage> images;
+  std::vector<DrivePicture> images;
   for (std::size_t i = 0; i < projectors.devices(); ++i) {
     Size drive = projectors.size(i);
     QImage image(drive.width, drive.height, QImage::Format_RGBX8888);
     for (int y = 0; y < drive.height; ++y)
       std::memcpy(image.scanLine(y), &words_[projectors.offset(i) + indexOf(drive, {0, y})],
                   4 * static_cast<std::size_t>(drive.width));
-    images.push_back(std::move(image));
+    images.emplace_back(std::move(image));
   }
   return images;
 }

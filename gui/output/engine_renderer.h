@@ -25,10 +25,12 @@ class EngineRenderer : public FrameRenderer {
   /// offset follow the content, see AdaptiveRange. Placement, brightness and black level are those stored for
   /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called
   /// once, on the rendering thread, when a graphics card is lost or unusable and the processor takes over.
+  /// `host`: of SharedGl; with it pictures stay on the graphics card where they are computed there.
   /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
                  Progress& progress, const engine::FallbackBackend::Notify& notify = {},
-                 engine::BackendChoice choice = engine::BackendChoice::automatic);
+                 engine::BackendChoice choice = engine::BackendChoice::automatic,
+                 const engine::MakeGlHost& host = {});
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }
@@ -38,10 +40,13 @@ class EngineRenderer : public FrameRenderer {
   void interrupt() override;
 
  private:
+  /// By the graphics card where it shares its textures, else through memory. Throws: Error{device}.
+  std::vector<DrivePicture> computed(const engine::ContentFrame& frame, const engine::FrameRequest& request,
+                                     engine::FrameReport& report);
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
   RenderedFrame encoded(const compensation::Compensation& solved, double seconds);
   /// Views of `words_`, one per projector.
-  std::vector<QImage> drives() const;
+  std::vector<DrivePicture> drives() const;
   int stepsFor(const RenderRequest& request);
 
   Canvas canvas_;
@@ -53,6 +58,7 @@ class EngineRenderer : public FrameRenderer {
   std::chrono::steady_clock::time_point rangeAsked_{};
   std::unique_ptr<StillSolver> still_;  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
+  CardPictures cards_{{}};
   std::optional<engine::StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // refresh time of the budget
 };

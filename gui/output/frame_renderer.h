@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QImage>
 #include <QSize>
 #include <QString>
 #include <functional>
@@ -9,6 +8,7 @@
 
 #include "content/canvas.h"
 #include "content/content_source.h"
+#include "output/drive_picture.h"
 
 namespace relucent::gui {
 
@@ -26,9 +26,9 @@ using Outdated = std::function<bool()>;
 
 /// The pictures of all projectors, with statistics.
 struct RenderedFrame {
-  std::vector<QImage> drives;  // one a projector, of its size
-  double clipped = 0.0;        // share of drive values that were clipped
-  int steps = 0;               // of refinement
+  std::vector<DrivePicture> drives;  // one a projector, of its size
+  double clipped = 0.0;              // share of drive values that were clipped
+  int steps = 0;                     // of refinement
   double seconds = 0.0;
   bool settled = true;  // false: rendering the same content again would differ slightly
 };

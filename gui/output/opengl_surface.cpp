@@ -4,6 +4,8 @@
 #include <QOpenGLFunctions>
 #include <utility>
 
+#include "output/shared_gl.h"
+
 namespace relucent::gui {
 
 OpenGlSurface::OpenGlSurface(QWindow& window) : window_(window) {
@@ -17,41 +19,54 @@ OpenGlSurface::~OpenGlSurface() {
 void OpenGlSurface::forget() {
   if (context_ == nullptr) return;
   context_->makeCurrent(&window_);
-  texture_.reset();
+  picture_ = {};
+  overlay_ = {};
   blitter_.destroy();
   context_.reset();
-  uploaded_ = 0;
 }
 
 /// With a new context where the old one was lost, as it is when the graphics card was reset.
 bool OpenGlSurface::begin() {
   if (context_ != nullptr && context_->makeCurrent(&window_)) return true;
   forget();
+  SharedGl* const shared = SharedGl::existing();
   context_ = std::make_unique<QOpenGLContext>();
   context_->setFormat(window_.requestedFormat());
   context_->setScreen(window_.screen());
-  return context_->create() && context_->makeCurrent(&window_) && blitter_.create();
+  if (shared != nullptr) context_->setShareContext(shared->root());
+  if (!context_->create() || !context_->makeCurrent(&window_) || !blitter_.create()) return false;
+  isSharing_ = shared != nullptr && QOpenGLContext::areSharing(context_.get(), shared->root());
+  return true;
 }
 
-void OpenGlSurface::upload(const QImage& picture) {
-  if (std::exchange(uploaded_, picture.cacheKey()) == picture.cacheKey()) return;
+void OpenGlSurface::Upload::take(const QImage& picture) {
+  if (std::exchange(key, picture.cacheKey()) == picture.cacheKey()) return;
   if (picture.isNull()) {
-    texture_.reset();
+    texture.reset();
     return;
   }
   QImage pixels = picture.convertToFormat(QImage::Format_RGBA8888);
-  if (texture_ == nullptr || texture_->width() != pixels.width() || texture_->height() != pixels.height()) {
-    texture_ = std::make_unique<QOpenGLTexture>(QOpenGLTexture::Target2D);
-    texture_->setFormat(QOpenGLTexture::RGBA8_UNorm);
-    texture_->setSize(pixels.width(), pixels.height());
-    texture_->setMinMagFilters(QOpenGLTexture::Nearest, QOpenGLTexture::Nearest);
-    texture_->setWrapMode(QOpenGLTexture::ClampToEdge);
-    texture_->allocateStorage(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8);
+  if (texture == nullptr || texture->width() != pixels.width() || texture->height() != pixels.height()) {
+    texture = std::make_unique<QOpenGLTexture>(QOpenGLTexture::Target2D);
+    texture->setFormat(QOpenGLTexture::RGBA8_UNorm);
+    texture->setSize(pixels.width(), pixels.height());
+    texture->setMinMagFilters(QOpenGLTexture::Nearest, QOpenGLTexture::Nearest);
+    texture->setWrapMode(QOpenGLTexture::ClampToEdge);
+    texture->allocateStorage(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8);
   }
-  texture_->setData(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8, pixels.constBits());
+  texture->setData(QOpenGLTexture::RGBA, QOpenGLTexture::UInt8, pixels.constBits());
 }
 
-void OpenGlSurface::draw(const QImage& picture) {
+/// 0: black.
+unsigned OpenGlSurface::textureOf(const DrivePicture& picture) {
+  const CardPicture* card = picture.card();
+  if (card != nullptr && isSharing_) return card->texture();
+  // Where drivers do not share, what is on the card goes through memory; it is drawn once.
+  picture_.take(picture.image());
+  return picture_.name();
+}
+
+void OpenGlSurface::draw(const DrivePicture& picture, const QImage& overlay) {
   if (!begin()) return;
   QOpenGLFunctions* gl = context_->functions();
   QSize native = nativeSize(window_);
@@ -60,16 +75,19 @@ void OpenGlSurface::draw(const QImage& picture) {
   gl->glDisable(GL_DITHER);
   gl->glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   gl->glClear(GL_COLOR_BUFFER_BIT);
-  upload(picture);
-  if (texture_ != nullptr) {
-    QRect place = middleOf(native, picture.size());
-    blitter_.bind();
-    blitter_.blit(texture_->textureId(),
-                  QOpenGLTextureBlitter::targetTransform(QRectF(place), QRect(QPoint(), native)),
+  const QRect place = middleOf(native, picture.isNull() ? native : picture.size());
+  overlay_.take(overlay);
+  blitter_.bind();
+  const auto blit = [&](unsigned texture, const QRect& at) {
+    if (texture == 0) return;
+    blitter_.blit(texture, QOpenGLTextureBlitter::targetTransform(QRectF(at), QRect(QPoint(), native)),
                   QOpenGLTextureBlitter::OriginTopLeft);
-    blitter_.release();
-  }
+  };
+  blit(textureOf(picture), place);
+  blit(overlay_.name(), {place.topLeft(), overlay.size()});
+  blitter_.release();
   context_->swapBuffers(&window_);
+  drawn_ = picture;
 }
 
 }  // namespace relucent::gui

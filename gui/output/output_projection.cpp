@@ -7,6 +7,7 @@
 
 #include "output/output_playlist.h"
 #include "output/output_tap.h"
+#include "output/shared_gl.h"
 #include "relucent/base/error.h"
 #include "text/message_text.h"
 
@@ -64,13 +65,19 @@ void OutputProjection::open(const Wanted& wanted) {
   wanted_ = true;
   screens_ = wanted.screens;
   made_ = std::make_shared<Made>();
-  job_.start([made = made_, tap = tap_, wanted](Progress& progress) {
+  // Made on the windows' thread.
+  auto host = std::make_shared<std::unique_ptr<engine::GlHost>>();
+  if (hasGraphicsCard() && SharedGl::instance() != nullptr) *host = SharedGl::instance()->host();
+  job_.start([made = made_, tap = tap_, host, wanted](Progress& progress) {
     Progress preparing =
         progress.part(1.0, RELUCENT_MESSAGE("stage.preparing-engine", "Preparing the engine"));
     Canvas canvas = canvasFor(wanted.list, wanted.fit);
     made->content = std::make_shared<Playlist>(wanted.list, canvas);
     made->renderer = std::make_unique<TappedRenderer>(
-        std::make_unique<EngineRenderer>(wanted.calibration, canvas, false, preparing), tap);
+        std::make_unique<EngineRenderer>(wanted.calibration, canvas, false, preparing,
+                                         engine::FallbackBackend::Notify(), engine::BackendChoice::automatic,
+                                         [host] { return std::move(*host); }),
+        tap);
   });
   Q_EMIT changed();
 }
@@ -197,7 +204,7 @@ std::vector<Message> OutputProjection::skipped() const {
 
 QImage OutputProjection::onProjector(std::size_t projector) const {
   if (!player_) return {};
-  QImage drive = tap_->get(projector);
+  QImage drive = tap_->get(projector).image();
   if (isBlack() && !drive.isNull()) drive.fill(Qt::black);
   return drive;
 }
@@ -220,17 +227,18 @@ void OutputProjection::watch(QSize within) {
 
 void OutputProjection::reflect() {
   if (scaling_.isBusy()) return;
-  QImage drive = tap_->get(mirrored_);
+  DrivePicture drive = tap_->get(mirrored_);
   if (drive.isNull()) return;
   bool black = isBlack();
   // A picture that stands is scaled once. Keys of pictures are positive.
-  qint64 picture = black ? -drive.cacheKey() : drive.cacheKey();
+  qint64 picture = black ? -drive.key() : drive.key();
   if (std::exchange(reflected_, picture) == picture) return;
   scaling_.ask([drive = std::move(drive), black, within = within_] {
     QSize size = drive.size();
     if (size.width() > within.width() || size.height() > within.height())
       size.scale(within, Qt::KeepAspectRatio);
-    if (!black) return drive.scaled(size.expandedTo({1, 1}), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    if (!black)
+      return drive.image().scaled(size.expandedTo({1, 1}), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
     QImage dark(size.expandedTo({1, 1}), QImage::Format_RGB32);
     dark.fill(Qt::black);
     return dark;

@@ -13,19 +13,19 @@ namespace relucent::gui {
 /// A copy of what went to the projectors, for the operator to see.
 class OutputTap {
  public:
-  void put(const std::vector<QImage>& drives) {
+  void put(const std::vector<DrivePicture>& drives) {
     QMutexLocker lock(&guard_);
     drives_ = drives;
   }
   /// Null where there is none.
-  QImage get(std::size_t projector) const {
+  DrivePicture get(std::size_t projector) const {
     QMutexLocker lock(&guard_);
-    return projector < drives_.size() ? drives_[projector] : QImage();
+    return projector < drives_.size() ? drives_[projector] : DrivePicture();
   }
 
  private:
   mutable QMutex guard_;
-  std::vector<QImage> drives_;
+  std::vector<DrivePicture> drives_;
 };
 
 /// A renderer that lets somebody look on.

@@ -33,19 +33,22 @@ QStringList overlayLines(const OverlayState& state) {
   return lines;
 }
 
-void drawOverlay(QImage& picture, const QStringList& lines) {
-  QPainter painter(&picture);
-  QFont font = painter.font();
-  font.setPixelSize(std::clamp(picture.height() / 40, 9, 48));
-  painter.setFont(font);
-  QString text = lines.join('\n');
-  int margin = font.pixelSize() / 2;
+QImage overlayPicture(QSize size, const QStringList& lines) {
+  QFont font;
+  font.setPixelSize(std::clamp(size.height() / 40, 9, 48));
+  const int margin = font.pixelSize() / 2;
   // At the left in every language: what is projected is not mirrored.
   constexpr int side = Qt::AlignAbsolute | Qt::AlignLeft;
-  QRect place = painter.boundingRect(QRect(QPoint(margin, margin), picture.size()), side, text);
-  painter.fillRect(place.adjusted(-margin, -margin, margin, margin), Qt::black);
+  const QString text = lines.join('\n');
+  const QRect place = QFontMetrics(font).boundingRect(QRect(QPoint(margin, margin), size), side, text);
+  QImage picture(QSize(place.right() + 1 + margin, place.bottom() + 1 + margin).boundedTo(size),
+                 QImage::Format_RGBX8888);
+  picture.fill(Qt::black);
+  QPainter painter(&picture);
+  painter.setFont(font);
   painter.setPen(QColor(160, 160, 160));
   painter.drawText(place, side, text);
+  return picture;
 }
 
 }  // namespace relucent::gui

@@ -22,7 +22,8 @@ struct OverlayState {
 /// other modes.
 QStringList overlayLines(const OverlayState& state);
 
-/// Writes lines into the upper left corner, grey on black, in a legible size.
-void drawOverlay(QImage& picture, const QStringList& lines);
+/// Lines for the upper left corner of a picture of this size, and no larger than that: grey on black,
+/// legible.
+QImage overlayPicture(QSize size, const QStringList& lines);
 
 }  // namespace relucent::gui

@@ -131,9 +131,12 @@ void Player::present() {
       windows_[i]->blacken();
       continue;
     }
-    QImage drive = last_.rendered.drives[i];
-    if (hasOverlay()) drawOverlay(drive, overlayLines({statistics(), isCompensated(), isFrozen(), chart_}));
-    windows_[i]->present(drive);
+    const DrivePicture& drive = last_.rendered.drives[i];
+    QImage overlay;
+    if (hasOverlay())
+      overlay =
+          overlayPicture(drive.size(), overlayLines({statistics(), isCompensated(), isFrozen(), chart_}));
+    windows_[i]->present(drive, overlay);
   }
   Q_EMIT shown();
 }

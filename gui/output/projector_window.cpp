@@ -75,13 +75,14 @@ QSize ProjectorWindow::displaySize() const {
   return screen ? nativeSize(*screen) : QSize();
 }
 
-void ProjectorWindow::present(const QImage& drive) {
+void ProjectorWindow::present(const DrivePicture& drive, const QImage& overlay) {
   picture_ = drive;
+  overlay_ = overlay;
   update();
 }
 
 void ProjectorWindow::blacken() {
-  present(QImage());
+  present({});
 }
 
 void ProjectorWindow::goTo(QScreen* screen) {
@@ -136,7 +137,7 @@ void ProjectorWindow::draw() {
   fresh_ = true;
   if (!isExposed() || refreshing_.isActive()) return;
   fresh_ = false;
-  surface_->draw(picture_);
+  surface_->draw(picture_, overlay_);
   if (!surface_->keepsStep()) return refreshing_.start(refreshOf(screen()));
   Q_EMIT frameSwapped();
 }

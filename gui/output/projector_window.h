@@ -40,8 +40,8 @@ class ProjectorWindow : public QWindow {
   QSize displaySize() const;
 
   /// Shows drive values from the next swap on. If their size differs from the display's they are centred,
-  /// never scaled.  Shape: the display's, 8 bits a channel.
-  void present(const QImage& drive);
+  /// never scaled.  Shape: the display's, 8 bits a channel. `overlay`: over their upper left corner.
+  void present(const DrivePicture& drive, const QImage& overlay = {});
   /// Black, until the next picture.
   void blacken();
   /// Schedules a repaint of the present picture.
@@ -75,7 +75,8 @@ class ProjectorWindow : public QWindow {
   ScreenIdentity display_;
   bool wanted_ = false;
   QScreen* on_ = nullptr;  // where it is shown; nullptr while hidden
-  QImage picture_;
+  DrivePicture picture_;
+  QImage overlay_;
   bool fresh_ = false;  // not drawn yet
   std::unique_ptr<WindowSurface> surface_;
   QTimer refreshing_;  // refresh time, where drawing does not wait for the display

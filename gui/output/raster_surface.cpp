@@ -19,9 +19,12 @@ RasterSurface::RasterSurface(QWindow& window) : window_(window), store_(&window)
   window_.setSurfaceType(QSurface::RasterSurface);
 }
 
-void RasterSurface::draw(const QImage& picture) {
+void RasterSurface::draw(const DrivePicture& drive, const QImage& overlay) {
+  const QImage picture = drive.image();
   QSize native = nativeSize(window_);
   QImage all = picture.size() == native ? picture : centred(picture, native);
+  if (!overlay.isNull())
+    QPainter(&all).drawImage(middleOf(native, picture.isNull() ? native : picture.size()).topLeft(), overlay);
   // Pixel for pixel on desktops that scale, too.
   all.setDevicePixelRatio(window_.devicePixelRatio());
   QRect place(QPoint(), window_.size());

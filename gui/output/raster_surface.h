@@ -14,7 +14,7 @@ class RasterSurface : public WindowSurface {
 
   QString name() const override { return "memory"; }
   bool keepsStep() const override { return false; }
-  void draw(const QImage& picture) override;
+  void draw(const DrivePicture& drive, const QImage& overlay) override;
 
  private:
   QWindow& window_;

@@ -3,28 +3,46 @@
 
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <string>
 
 #include "output/opengl_surface.h"
 #include "output/raster_surface.h"
 #include "output/screen_identity.h"
+#include "relucent/engine/gl_host.h"
 
 namespace relucent::gui {
 namespace {
 
-bool foundOpenGl() {
+/// Its device; empty: there is none.
+std::string deviceOfOpenGl() {
   QOffscreenSurface surface;
   surface.create();
   // Asked first: Qt ends the program that wants a context of an X server whose GLX has no driver here.
-  if (!surface.isValid()) return false;
+  if (!surface.isValid()) return {};
   QOpenGLContext context;
-  return context.create() && context.makeCurrent(&surface);
+  if (!context.create() || !context.makeCurrent(&surface)) return {};
+  const GLubyte* name = context.functions()->glGetString(GL_RENDERER);
+  return name != nullptr ? reinterpret_cast<const char*>(name) : "unknown";
+}
+
+const std::string& device() {
+  static const std::string found = deviceOfOpenGl();
+  return found;
 }
 
 }  // namespace
 
+bool hasOpenGl() {
+  return !device().empty();
+}
+
+bool hasGraphicsCard() {
+  return hasOpenGl() && !engine::isSoftwareRenderer(device());
+}
+
 std::unique_ptr<WindowSurface> surfaceFor(QWindow& window) {
-  static const bool hasOpenGl = foundOpenGl();
-  if (hasOpenGl) return std::make_unique<OpenGlSurface>(window);
+  if (hasOpenGl()) return std::make_unique<OpenGlSurface>(window);
   return std::make_unique<RasterSurface>(window);
 }
 

@@ -6,6 +6,8 @@
 #include <QWindow>
 #include <memory>
 
+#include "output/drive_picture.h"
+
 namespace relucent::gui {
 
 /// Draws a projector's window. Created before the window is shown and destroyed before the window.
@@ -18,8 +20,13 @@ class WindowSurface {
   /// display still shows the previous picture.
   virtual bool keepsStep() const = 0;
   /// Draws the whole window: the picture centred pixel for pixel, black around it; a null picture is black.
-  virtual void draw(const QImage& picture) = 0;
+  /// `overlay`: lies over the picture's upper left corner; null: none.
+  virtual void draw(const DrivePicture& picture, const QImage& overlay) = 0;
 };
+
+/// Whether there is OpenGL, and whether a graphics card draws it. First called on the windows' thread.
+bool hasOpenGl();
+bool hasGraphicsCard();
 
 /// By OpenGL, or in memory if that is not available.
 std::unique_ptr<WindowSurface> surfaceFor(QWindow& window);

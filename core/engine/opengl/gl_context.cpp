@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "relucent/base/error.h"
 
@@ -45,6 +46,17 @@ GlContext::GlContext(Device wanted) {
                 advice, found.empty() ? "" : "found only" + found);
 }
 
+GlContext::GlContext(std::unique_ptr<GlHost> host, Device wanted) : host_(std::move(host)) {
+  require(host_ != nullptr, "no host");
+  std::string found;
+  const Current current(*this);
+  if (!current || !accepts(wanted, found))
+    throw Error(ErrorKind::device,
+                RELUCENT_MESSAGE("engine.no-graphics-card",
+                                 "there is no graphics card with OpenGL 4.3 and compute shaders"),
+                advice, found.empty() ? "" : "found only" + found);
+}
+
 /// Whether the context that is current may become this one. `found`: names of those that did not.
 bool GlContext::accepts(Device wanted, std::string& found) {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -55,6 +67,15 @@ bool GlContext::accepts(Device wanted, std::string& found) {
   if (wanted == Device::any || !software_) return true;
   found += (found.empty() ? " " : ", ") + renderer_;
   return false;
+}
+
+GlContext::Current::Current(const GlContext& context) noexcept : host_(context.host_.get()) {
+  if (host_ == nullptr) own_.emplace(*context.context_);
+  made_ = host_ != nullptr ? host_->makeCurrent() : static_cast<bool>(*own_);
+}
+
+GlContext::Current::~Current() {
+  if (host_ != nullptr && made_) host_->doneCurrent();
 }
 
 bool GlContext::failed() const noexcept {

@@ -94,6 +94,16 @@ void GlBuffer::read(std::size_t begin, void* data, std::size_t bytes) const noex
                      data);
 }
 
+void GlBuffer::copyToTexture(GLuint texture, Size size, std::size_t begin) const noexcept {
+  glMemoryBarrier(GL_PIXEL_BUFFER_BARRIER_BIT);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, name_);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                  reinterpret_cast<const void*>(begin));
+  glBindTexture(GL_TEXTURE_2D, 0);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
 void GlBuffer::clear(std::size_t begin, std::size_t bytes) noexcept {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_);

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "relucent/base/raster.h"
+
 namespace relucent::engine {
 
 /// A shader storage buffer. Like all objects of OpenGL it is made, used and destroyed while the context that
@@ -39,6 +41,8 @@ class GlBuffer {
   void bind(unsigned binding, std::size_t begin, std::size_t count) const noexcept;
   void write(std::size_t begin, const void* data, std::size_t bytes) noexcept;
   void read(std::size_t begin, void* data, std::size_t bytes) const noexcept;
+  /// Words from byte `begin` on, after all previous writes of shaders, become the pixels of an RGBA8 texture.
+  void copyToTexture(GLuint texture, Size size, std::size_t begin) const noexcept;
   void clear() noexcept { clear(0, bytes_); }
   void clear(std::size_t begin, std::size_t bytes) noexcept;
   /// Declares the old content unused, which avoids waiting for shaders that still read it.

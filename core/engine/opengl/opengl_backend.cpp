@@ -193,8 +193,9 @@ void OpenGlBackend::setContent(const EngineContent& content) {
               RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"), name_);
 }
 
-bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,
-                           std::span<std::uint32_t> words, FrameReport& report) noexcept {
+template <typename Deliver>
+bool OpenGlBackend::renderTo(const ContentFrame& frame, const FrameRequest& request, const Deliver& deliver,
+                             FrameReport& report) noexcept {
   report = {};
   const Clock::time_point begin = Clock::now();
   GlContext::Current current(*context_);
@@ -203,8 +204,9 @@ bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& reques
   if (request.compensated) report.steps = std::clamp(request.steps, 0, static_cast<int>(lengths));
   objects_->render(frame, request, report.steps);
 
+  deliver();
   std::uint32_t clipped = 0;
-  objects_->words.read(0, words.data(), words.size_bytes());
+  // Waits for all that was asked for before.
   objects_->counters.read(0, &clipped, sizeof clipped);
   if (context_->failed()) return false;
   if (request.compensated)
@@ -214,6 +216,30 @@ bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& reques
     report.clipped = static_cast<double>(clipped) / static_cast<double>(objects_->freeValues);
   report.seconds = Clock::now() - begin;
   return true;
+}
+
+bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,
+                           std::span<std::uint32_t> words, FrameReport& report) noexcept {
+  return renderTo(
+      frame, request, [&] { objects_->words.read(0, words.data(), words.size_bytes()); }, report);
+}
+
+bool OpenGlBackend::sharesTextures() const {
+  return context_->isShared();
+}
+
+bool OpenGlBackend::renderToTextures(const ContentFrame& frame, const FrameRequest& request,
+                                     std::span<const std::uint32_t> textures, FrameReport& report) noexcept {
+  return renderTo(
+      frame, request,
+      [&] {
+        const Rasters& projectors = objects_->engine.venue.transport.projectors();
+        for (std::size_t projector = 0; projector < textures.size(); ++projector)
+          objects_->words.copyToTexture(textures[projector], projectors.size(projector),
+                                        sizeof(std::uint32_t) * projectors.offset(projector));
+        glFinish();
+      },
+      report);
 }
 
 }  // namespace relucent::engine

@@ -23,6 +23,9 @@ class OpenGlBackend : public EngineBackend {
   void setContent(const EngineContent& content) override;
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
+  bool sharesTextures() const override;
+  bool renderToTextures(const ContentFrame& frame, const FrameRequest& request,
+                        std::span<const std::uint32_t> textures, FrameReport& report) noexcept override;
 
   /// The parts of a frame, for benchmarks: p = clamp(M u) and one step. Return seconds on the device's clock.
   double applyWindows() noexcept;
@@ -37,6 +40,10 @@ class OpenGlBackend : public EngineBackend {
 
  private:
   struct Objects;
+  /// `deliver` takes the words of a frame that has been computed.
+  template <typename Deliver>
+  bool renderTo(const ContentFrame& frame, const FrameRequest& request, const Deliver& deliver,
+                FrameReport& report) noexcept;
 
   std::unique_ptr<GlContext> context_;
   std::string name_;

@@ -28,6 +28,11 @@ class FailingBackend : public EngineBackend {
     if (frames_-- <= 0) return false;
     return cpu_.render(frame, request, words, report);
   }
+  bool sharesTextures() const override { return true; }
+  bool renderToTextures(const ContentFrame&, const FrameRequest&, std::span<const std::uint32_t>,
+                        FrameReport&) noexcept override {
+    return frames_-- > 0;
+  }
 
  private:
   CpuBackend cpu_;
@@ -77,6 +82,30 @@ class TestFallbackBackend : public QObject {
     QCOMPARE(told.size(), std::size_t{lost ? 1u : 0u});
     if (lost) QVERIFY(told[0].starts_with("scripted: ") && told[0].find("CPU") != std::string::npos);
     QCOMPARE(backend.name().starts_with("CPU"), lost);
+  }
+
+  /// Law: lost while it renders to textures, the frame is there to be rendered to memory.
+  void losesNoFrameOnTheCard() {
+    EngineScene made = engineSceneOf("wall");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::natural, {37, 28}, 3);
+    EngineContent placed = prepareContent(engine, content.size());
+    int told = 0;
+    FallbackBackend backend(
+        std::make_unique<FailingBackend>(engine, 2), [&] { return std::make_unique<CpuBackend>(engine); },
+        [&](const Message&) { ++told; });
+    backend.setContent(placed);
+    std::vector<std::uint32_t> textures(1), words(engine.brightest.size());
+    FrameReport report;
+    for (int frame = 0; frame < 2; ++frame) {
+      QVERIFY(backend.sharesTextures());
+      QVERIFY(backend.renderToTextures(frameOf(content), {}, textures, report));
+    }
+    QVERIFY(!backend.renderToTextures(frameOf(content), {}, textures, report));
+    QCOMPARE(told, 1);
+    QVERIFY(!backend.sharesTextures());
+    QVERIFY(backend.render(frameOf(content), {}, words, report));
+    QVERIFY(backend.name().starts_with("CPU"));
   }
 
   void bothLost() {

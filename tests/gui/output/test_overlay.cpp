@@ -37,14 +37,15 @@ class TestOverlay : public QObject {
   }
   void staysInItsCorner() {
     QFETCH(QSize, size);
-    QImage picture(size, QImage::Format_RGBX8888);
-    picture.fill(qRgb(10, 200, 30));
-    QImage before = picture;
-    drawOverlay(picture, overlayLines({}));
-    QVERIFY(picture != before);
+    const QImage overlay = overlayPicture(size, overlayLines({}));
+    QVERIFY(!overlay.isNull());
+    QVERIFY(overlay.width() <= size.width() && overlay.height() <= size.height());
     if (size.height() < 700) return;
-    QRect lower(0, size.height() / 5, size.width(), size.height() - size.height() / 5);
-    QVERIFY(picture.copy(lower) == before.copy(lower));
+    QVERIFY(overlay.height() <= size.height() / 5);
+    bool isLegible = false;
+    for (int y = 0; y < overlay.height(); ++y)
+      for (int x = 0; x < overlay.width(); ++x) isLegible = isLegible || qGray(overlay.pixel(x, y)) > 120;
+    QVERIFY(isLegible);
   }
 };
 

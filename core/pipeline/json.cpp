@@ -302,7 +302,10 @@ calibration::Json toJson(const ImportResult& result) {
 calibration::Json toJson(const std::vector<venue::VenueDescription>& venues) {
   calibration::Json list = calibration::Json::array();
   for (const venue::VenueDescription& venue : venues)
-    list.push_back({{"name", venue.name}, {"sentence", venue.sentence}, {"projectors", venue.projectors}});
+    list.push_back({{"name", venue.name},
+                    {"sentence", venue.sentence},
+                    {"projectors", venue.projectors},
+                    {"cameras", venue.cameras}});
   return {{"venues", std::move(list)}};
 }
 

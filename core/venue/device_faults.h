@@ -22,6 +22,12 @@ enum class FaultKind {
   unplugged,        // the camera does not answer
 };
 
+/// Whether all cameras see it; the others are of one camera and of what stands before it.
+constexpr bool isOfTheRoom(FaultKind kind) {
+  return kind == FaultKind::flicker || kind == FaultKind::ambient || kind == FaultKind::mirroredScreen ||
+         kind == FaultKind::asleepProjector;
+}
+
 /// One fault, during shots [first, last] of a stage; `flash` and `hand` affect the rectangle [x0, x1) x [y0,
 /// y1) as shares of its width and height.
 struct DeviceFault {

@@ -72,7 +72,7 @@ Scene reliefScene(const VenueSettings& settings) {
     projector.aperture = defocus * projector.pixelPitch();
     scene.projectors.push_back(projector);
   }
-  scene.camera.pose = Pose::lookingAt({0.0f, 0.10f, 2.5f}, target);
+  scene.cameras.front().pose = Pose::lookingAt({0.0f, 0.10f, 2.5f}, target);
   return scene;
 }
 

@@ -18,7 +18,7 @@ struct Surface {
 struct Scene {
   std::vector<Surface> surfaces;
   std::vector<ProjectorOptics> projectors;
-  CameraOptics camera;
+  std::vector<CameraOptics> cameras;
 };
 
 }  // namespace relucent::venue

@@ -78,8 +78,54 @@ Scene domeScene(const VenueSettings& settings) {
   projector.pose = Pose::lookingAt({0.25f, -0.35f, 0.3f}, {0.0f, 0.5f, -2.5f});
   projector.focus = 2.75f;
   projector.aperture = 6.0f * projector.pixelPitch();
-  scene.camera.throwRatio = 0.60f;
-  scene.camera.pose = Pose::lookingAt({-0.30f, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
+  CameraOptics& camera = scene.cameras.front();
+  camera.throwRatio = 0.60f;
+  camera.pose = Pose::lookingAt({-0.30f, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
+  return scene;
+}
+
+/// Four projectors share the dome, a quarter each and a little more; two cameras see all of it.
+Scene dome4Scene(const VenueSettings& settings) {
+  Scene scene = domeScene(settings);
+  const ProjectorOptics one = scene.projectors.front();
+  scene.projectors.clear();
+  for (float up : {1.15f, -0.15f})
+    for (float side : {-1.0f, 1.0f}) {
+      const Vector3f target(0.85f * side, up, -2.2f);
+      ProjectorOptics& projector = scene.projectors.emplace_back(one);
+      projector.throwRatio = 1.0f;
+      projector.pose = Pose::lookingAt({0.35f * side, -0.35f, 0.3f}, target);
+      projector.focus = (target - projector.pose.position).norm();
+      projector.aperture = 6.0f * projector.pixelPitch();
+    }
+  const CameraOptics camera = scene.cameras.front();
+  scene.cameras.clear();
+  for (float side : {-1.0f, 1.0f})
+    scene.cameras.emplace_back(camera).pose =
+        Pose::lookingAt({0.55f * side, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
+  return scene;
+}
+
+/// Round a statue: two projectors, and three cameras where viewers stand.
+Scene statue3Scene(const VenueSettings& settings) {
+  Scene scene = statueScene(settings);
+  const Vector3f target(0.0f, -0.10f, -0.10f);
+  const auto around = [&](float degrees, float height, float distance) -> Vector3f {
+    const float angle = degrees / 180.0f * pi;
+    return {target.x() + distance * std::sin(angle), height, target.z() + distance * std::cos(angle)};
+  };
+  const ProjectorOptics one = scene.projectors.front();
+  scene.projectors.clear();
+  for (float degrees : {-35.0f, 35.0f}) {
+    ProjectorOptics& projector = scene.projectors.emplace_back(one);
+    projector.pose = Pose::lookingAt(around(degrees, 0.25f, 2.4f), target);
+    projector.focus = (target - projector.pose.position).norm();
+    projector.aperture = 8.0f * projector.pixelPitch();
+  }
+  const CameraOptics camera = scene.cameras.front();
+  scene.cameras.clear();
+  for (float degrees : {0.0f, -45.0f, 45.0f})
+    scene.cameras.emplace_back(camera).pose = Pose::lookingAt(around(degrees, 0.10f, 2.5f), target);
   return scene;
 }
 
@@ -102,6 +148,11 @@ const std::vector<Offer>& offers() {
       {{"relief", "carved stone, lit from both sides: each projector shines into the other's shadows", 2},
        reliefScene},
       {{"plain", "a flat wall, painted in diamonds", 1}, plainScene},
+      {{"dome4", "the painted dome, shared by four projectors that overlap, seen from two places", 4, 2},
+       dome4Scene},
+      {{"statue3",
+        "the bust between two projectors that shine into each other's shadows, seen from three sides", 2, 3},
+       statue3Scene},
   };
   return all;
 }
@@ -129,9 +180,11 @@ void placeDevices(Scene& scene, const VenueSettings& settings, const Vector3f& t
   projector.vignetting = static_cast<float>(settings.devices.vignetting);
   scene.projectors.push_back(projector);
 
-  scene.camera.raster = settings.camera;
-  scene.camera.pose = Pose::lookingAt({-0.40f, 0.12f, 2.5f}, target);
-  scene.camera.throwRatio = 1.68f;
+  CameraOptics camera;
+  camera.raster = settings.camera;
+  camera.pose = Pose::lookingAt({-0.40f, 0.12f, 2.5f}, target);
+  camera.throwRatio = 1.68f;
+  scene.cameras.push_back(camera);
 }
 
 Scene buildScene(const VenueSettings& settings) {

@@ -47,8 +47,8 @@ class FastNormal {
 
 }  // namespace
 
-SensorModel::SensorModel(const DeviceModelSettings& settings, std::uint64_t seed)
-    : settings_(settings), seed_(seed) {}
+SensorModel::SensorModel(const DeviceModelSettings& settings, std::uint64_t seed, std::size_t camera)
+    : settings_(settings), seed_(seed), camera_(camera) {}
 
 double SensorModel::granted(double seconds) {
   return std::clamp(seconds, exposures().shortest, exposures().longest);
@@ -77,8 +77,9 @@ rig::RawFrame SensorModel::expose(const CameraStack& radiance, Size size,
   std::size_t width = 3 * static_cast<std::size_t>(size.width);
 
   parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t y) {
-    FastNormal normal(Random({seed_, sensorKey, stage, static_cast<std::uint64_t>(request.shot.number),
-                              static_cast<std::uint64_t>(request.exposure), y}));
+    FastNormal normal(
+        Random({seed_, sensorKey + (camera_ << 16), stage, static_cast<std::uint64_t>(request.shot.number),
+                static_cast<std::uint64_t>(request.exposure), y}));
     for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
       float light = radiance[i] * seconds;
       float signal = light + std::sqrt(std::max(0.0f, light) * shotVariance + readVariance) * normal();

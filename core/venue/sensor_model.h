@@ -7,12 +7,13 @@
 
 namespace relucent::venue {
 
-/// How a camera turns light into a photograph.
+/// How a camera turns light into a photograph. Cameras of one seed have noise of their own; the lamps' power
+/// is the same for all.
 ///   z = radiance * seconds;  z' = z + N(0, z / fullWell + (read / fullWell)^2), clipped to [0, 1]
 ///   signal = z'^(1 / cameraGamma), rounded to codes
 class SensorModel {
  public:
-  SensorModel(const DeviceModelSettings& settings, std::uint64_t seed);
+  SensorModel(const DeviceModelSettings& settings, std::uint64_t seed, std::size_t camera = 0);
 
   /// The photograph that `request` asks for. The noise depends on the request and the seed alone.
   /// Shapes: radiance of size.count() pixels, three channels.
@@ -27,7 +28,7 @@ class SensorModel {
 
  private:
   DeviceModelSettings settings_;
-  std::uint64_t seed_;
+  std::uint64_t seed_, camera_;
 };
 
 }  // namespace relucent::venue

@@ -11,7 +11,7 @@
 namespace relucent::venue {
 namespace {
 
-/// What the projectors of one rig show, and what that looks like to the camera: computed for the first
+/// What the projectors of one rig show, and what that looks like to the cameras: computed for the first
 /// exposure, kept for the others.
 class Stage {
  public:
@@ -22,10 +22,16 @@ class Stage {
   }
 
   const VenueLight& light() const { return *light_; }
-  /// Mean radiance at full light.
+  /// A camera's part of a stack of all.
+  CameraStack partOf(const CameraStack& all, std::size_t camera) const {
+    const Rasters& cameras = light_->cameras();
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(3 * cameras.offset(camera));
+    return CameraStack(Stack(begin, begin + static_cast<std::ptrdiff_t>(3 * cameras.size(camera).count())));
+  }
+  /// Mean radiance that the first camera sees at full light.
   double full() {
     std::call_once(fullMade_, [&] {
-      CameraStack flood = light_->transport().floodlight();
+      CameraStack flood = partOf(light_->transport().floodlight(), 0);
       for (float value : flood) full_ += static_cast<double>(value) / static_cast<double>(flood.size());
     });
     return full_;
@@ -85,36 +91,43 @@ class SimulatedProjector : public rig::Projector {
 
 class SimulatedCamera : public rig::Camera {
  public:
-  explicit SimulatedCamera(std::shared_ptr<Stage> stage)
+  SimulatedCamera(std::shared_ptr<Stage> stage, std::size_t index)
       : stage_(std::move(stage)),
-        sensor_(stage_->light().settings().devices, stage_->light().settings().seed) {}
+        index_(index),
+        ambient_(stage_->partOf(stage_->light().ambient(), index)),
+        sensor_(stage_->light().settings().devices, stage_->light().settings().seed, index) {}
 
-  std::string name() const override { return "simulated camera"; }
-  Size size() const override { return stage_->light().settings().camera; }
+  std::string name() const override {
+    return stage_->light().cameras().devices() == 1 ? "simulated camera"
+                                                    : fmt::format("simulated camera {}", index_ + 1);
+  }
+  Size size() const override { return stage_->light().cameras().size(index_); }
   rig::ExposureRange exposures() const override { return SensorModel::exposures(); }
   rig::RawFrame capture(const rig::CaptureRequest& request) override {
-    std::shared_ptr<const CameraStack> fromProjectors = stage_->fromProjectors();
-    const CameraStack& ambient = stage_->light().ambient();
     float power = static_cast<float>(sensor_.lampPower(request));
     std::vector<DeviceFault> faults = stage_->faultsDuring(request.shot);
     if (!faults.empty()) return faulty(request, power, faults);
-    CameraStack radiance(ambient.size());
-    for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = power * (*fromProjectors)[i] + ambient[i];
+    CameraStack radiance = stage_->partOf(*stage_->fromProjectors(), index_);
+    for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = power * radiance[i] + ambient_[i];
     return sensor_.expose(radiance, size(), request);
   }
 
  private:
-  rig::RawFrame faulty(const rig::CaptureRequest& request, float power,
-                       const std::vector<DeviceFault>& faults) {
+  rig::RawFrame faulty(const rig::CaptureRequest& request, float power, const std::vector<DeviceFault>& all) {
+    std::vector<DeviceFault> faults;
+    for (const DeviceFault& fault : all)
+      if (index_ == 0 || isOfTheRoom(fault.kind)) faults.push_back(fault);
     requireConnected(faults, name());
-    CameraStack light = stage_->lightOfFaultyProjectors(faults);
+    CameraStack light = stage_->partOf(stage_->lightOfFaultyProjectors(faults), index_);
     for (float& value : light) value *= power;
-    CameraStack view(withFaults(std::move(light), stage_->light().ambient(), size(), stage_->full(),
-                                request.exposure, faults));
+    CameraStack view(
+        withFaults(std::move(light), ambient_, size(), stage_->full(), request.exposure, faults));
     return sensor_.expose(view, size(), request);
   }
 
   std::shared_ptr<Stage> stage_;
+  std::size_t index_;
+  CameraStack ambient_;
   SensorModel sensor_;
 };
 
@@ -125,12 +138,14 @@ rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light) {
 }
 
 rig::Rig simulatedRig(std::shared_ptr<const VenueLight> light, FaultsDuring faults) {
-  std::size_t projectors = light->layout().projectors().devices();
+  const std::size_t projectors = light->layout().projectors().devices();
+  const std::size_t cameras = light->cameras().devices();
   auto stage = std::make_shared<Stage>(std::move(light), std::move(faults));
   rig::Rig rig;
   for (std::size_t i = 0; i < projectors; ++i)
     rig.projectors.push_back(std::make_unique<SimulatedProjector>(stage, i));
-  rig.cameras.push_back(std::make_unique<SimulatedCamera>(stage));
+  for (std::size_t i = 0; i < cameras; ++i)
+    rig.cameras.push_back(std::make_unique<SimulatedCamera>(stage, i));
   return rig;
 }
 

@@ -51,7 +51,8 @@ void appendRow(const TransportRow& row, const transport::NodeLayout& layout, Lin
   line.rowStart.push_back(line.node.size());
 }
 
-Line traceLine(const Tracer& tracer, const TracerSettings& settings, int width, std::size_t y) {
+/// `first`: its first pixel.
+Line traceLine(const Tracer& tracer, const TracerSettings& settings, std::size_t first, int width) {
   int coarsest = tracer.layout().levels() - 1;
   for (std::size_t p = 0; p < tracer.layout().projectors().devices(); ++p)
     coarsest = std::min(coarsest, tracer.layout().levels(p) - 1);
@@ -59,7 +60,7 @@ Line traceLine(const Tracer& tracer, const TracerSettings& settings, int width, 
   Line line;
   for (int x = 0; x < width; ++x) {
     row.clear();
-    Spectrum seen = tracer.trace(y * static_cast<std::size_t>(width) + static_cast<std::size_t>(x), row);
+    Spectrum seen = tracer.trace(first + static_cast<std::size_t>(x), row);
     row.condense(weakShare, std::min(settings.finestIndirectLevel, coarsest), coarsest);
     appendRow(row, tracer.layout(), line);
     Eigen::Array3f room = underRoomLight(seen);
@@ -68,14 +69,25 @@ Line traceLine(const Tracer& tracer, const TracerSettings& settings, int width, 
   return line;
 }
 
-std::vector<Line> traceLines(const Tracer& tracer, const TracerSettings& settings, Size camera,
-                             Progress& progress) {
-  std::vector<Line> lines(static_cast<std::size_t>(camera.height));
+/// Of all cameras in turn.
+std::vector<Line> traceLines(const Tracer& tracer, const TracerSettings& settings, Progress& progress) {
+  struct Place {
+    std::size_t first;
+    int width;
+  };
+  std::vector<Place> places;
+  for (std::size_t camera = 0; camera < tracer.cameras().devices(); ++camera) {
+    const Size size = tracer.cameras().size(camera);
+    for (int y = 0; y < size.height; ++y)
+      places.push_back({tracer.cameras().offset(camera) + indexOf(size, {0, y}), size.width});
+  }
+  std::vector<Line> lines(places.size());
   constexpr std::size_t together = 8;
   for (std::size_t begin = 0; begin < lines.size(); begin += together) {
     std::size_t end = std::min(lines.size(), begin + together);
-    parallelFor(begin, end, 1,
-                [&](std::size_t y) { lines[y] = traceLine(tracer, settings, camera.width, y); });
+    parallelFor(begin, end, 1, [&](std::size_t line) {
+      lines[line] = traceLine(tracer, settings, places[line].first, places[line].width);
+    });
     progress.report(static_cast<double>(end) / static_cast<double>(lines.size()));
   }
   return lines;
@@ -111,12 +123,12 @@ std::vector<float> largestByNode(const std::vector<Line>& lines, std::size_t nod
 TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
                                Progress& progress) {
   Tracer tracer(scene, settings);
-  std::vector<Line> lines = traceLines(tracer, settings, scene.camera.raster, progress);
+  std::vector<Line> lines = traceLines(tracer, settings, progress);
   float factor = unitsFactor(lines, brightSignal);
 
   TracedTransport traced;
   traced.fullScale = largestByNode(lines, tracer.layout().count(), factor);
-  transport::BlockSparseBuilder builder(scene.camera.raster.count(), traced.fullScale);
+  transport::BlockSparseBuilder builder(tracer.cameras().count(), traced.fullScale);
   std::size_t pixel = 0;
   for (Line& line : lines) {
     for (std::size_t i = 0; i < line.scale.size(); ++i, ++pixel) {

@@ -15,13 +15,12 @@ struct TracedTransport {
   /// Full scale of the fixed-point values of each row; together with the values it determines the matrix
   /// exactly.
   std::vector<float> fullScale;
-  /// The camera's picture under room light, white = 1. Shape: 3 * camera pixels.
+  /// The cameras' pictures under room light, white = 1. Shape: 3 * camera pixels.
   CameraStack roomLight;
 };
 
-/// Traces every camera pixel, then scales everything so that the flood image's bright pixels (its 99th
-/// percentile) reach `brightSignal` per second.
-/// Throws: Cancelled.
+/// Traces every pixel of all cameras, then scales everything so that the flood image's bright pixels (its
+/// 99th percentile) reach `brightSignal` per second. Throws: Cancelled.
 TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
                                Progress& progress);
 

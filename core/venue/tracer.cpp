@@ -29,11 +29,19 @@ Rasters projectorRasters(const Scene& scene) {
   return Rasters(std::move(sizes));
 }
 
-/// Photons are gathered within less than a camera pixel.
+Rasters cameraRasters(const Scene& scene) {
+  std::vector<Size> sizes;
+  for (const CameraOptics& camera : scene.cameras) sizes.push_back(camera.raster);
+  return Rasters(std::move(sizes));
+}
+
+/// Photons are gathered within less than a pixel of any camera.
 float causticRadius(const Scene& scene) {
-  float widest = 0.0f;
+  float widest = 0.0f, finest = 0.0f;
   for (const ProjectorOptics& projector : scene.projectors) widest = std::max(widest, projector.focus);
-  return 0.8f * widest / (scene.camera.throwRatio * static_cast<float>(scene.camera.raster.width));
+  for (const CameraOptics& camera : scene.cameras)
+    finest = std::max(finest, camera.throwRatio * static_cast<float>(camera.raster.width));
+  return 0.8f * widest / finest;
 }
 
 }  // namespace
@@ -56,6 +64,7 @@ Tracer::Tracer(const Scene& scene, const TracerSettings& settings)
     : scene_(scene),
       settings_(settings),
       layout_(projectorRasters(scene)),
+      cameras_(cameraRasters(scene)),
       samples_(settings.pathsPerPixel, settings.seed),
       rays_(std::make_unique<SceneRays>(scene)),
       caustics_(std::make_unique<Caustics>(scene, *rays_, settings.photonsPerPixel, causticRadius(scene))) {}
@@ -63,7 +72,10 @@ Tracer::Tracer(const Scene& scene, const TracerSettings& settings)
 Tracer::~Tracer() = default;
 
 Spectrum Tracer::trace(std::size_t cameraPixel, TransportRow& row) const {
-  Pixel pixel = pixelAt(scene_.camera.raster, cameraPixel);
+  std::size_t device = 0;
+  while (cameraPixel >= cameras_.offset(device) + cameras_.size(device).count()) ++device;
+  const CameraOptics& camera = scene_.cameras[device];
+  Pixel pixel = pixelAt(camera.raster, cameraPixel - cameras_.offset(device));
   Random random({settings_.seed, cameraPixel});
   float spacing = 1.0f / std::sqrt(static_cast<float>(samples_.count()));
   Vector2f shift(spacing * random.uniformFloat(), spacing * random.uniformFloat());
@@ -76,8 +88,7 @@ Spectrum Tracer::trace(std::size_t cameraPixel, TransportRow& row) const {
     path.shift = shift;
     Vector2f within = samples_.point(sample, path.pair++, shift);
     Vector2f blur = cameraBlur * (samples_.point(sample, path.pair++, shift) - Vector2f(0.5f, 0.5f));
-    path.ray =
-        scene_.camera.ray(Vector2f(static_cast<float>(pixel.x), static_cast<float>(pixel.y)) + within + blur);
+    path.ray = camera.ray(Vector2f(static_cast<float>(pixel.x), static_cast<float>(pixel.y)) + within + blur);
     path.throughput.setConstant(weight * pi);
     path.scattering.diffuse.setZero();
     followPath(path, row);

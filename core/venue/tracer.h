@@ -21,7 +21,7 @@ struct TracerSettings {
   std::uint64_t seed = 1;
 };
 
-/// Follows light paths from the camera into a scene. At every vertex the path is connected to a point on
+/// Follows light paths from the cameras into a scene. At every vertex the path is connected to a point on
 /// every projector's lens; the transport is added to the projector pixel that this path comes from:
 ///   T[camera pixel, node] += throughput * brdf * cosine * irradiance
 /// Paths without a diffuse bounce, those through glass included, land on single projector pixels. Light
@@ -37,6 +37,8 @@ class Tracer {
   ~Tracer();
 
   const transport::NodeLayout& layout() const { return layout_; }
+  /// The pixels of all cameras, numbered consecutively.
+  const Rasters& cameras() const { return cameras_; }
   /// Adds the transport of one camera pixel to `row`; returns the mean reflectance that it sees.
   Spectrum trace(std::size_t cameraPixel, TransportRow& row) const;
 
@@ -53,6 +55,7 @@ class Tracer {
   const Scene& scene_;
   TracerSettings settings_;
   transport::NodeLayout layout_;
+  Rasters cameras_;
   SamplePattern samples_;
   std::unique_ptr<const SceneRays> rays_;
   std::unique_ptr<const Caustics> caustics_;

@@ -51,13 +51,13 @@ std::string traceFingerprint(const VenueSettings& settings) {
 }
 
 TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene,
-                               const transport::NodeLayout& layout, const std::filesystem::path& cache,
-                               Progress& progress) {
+                               const transport::NodeLayout& layout, std::size_t cameraPixels,
+                               const std::filesystem::path& cache, Progress& progress) {
   std::string fingerprint = traceFingerprint(settings);
   std::filesystem::path file = cache / fmt::format("{}-{}.venue", settings.name, fingerprint.substr(0, 12));
   if (!cache.empty()) {
     createFolder(cache);
-    if (auto kept = readTracedTransport(file, fingerprint, layout.count(), settings.camera.count())) {
+    if (auto kept = readTracedTransport(file, fingerprint, layout.count(), cameraPixels)) {
       progress.report(1.0);
       return *std::move(kept);
     }
@@ -81,8 +81,9 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
   Scene scene = buildScene(settings);
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
   transport::NodeLayout layout{Rasters(sizes)};
-  TracedTransport traced = tracedOrCached(settings, scene, layout, cache, progress);
-  return std::make_shared<VenueLight>(settings, std::move(layout), std::move(traced));
+  Rasters cameras(std::vector<Size>(scene.cameras.size(), settings.camera));
+  TracedTransport traced = tracedOrCached(settings, scene, layout, cameras.count(), cache, progress);
+  return std::make_shared<VenueLight>(settings, std::move(layout), std::move(cameras), std::move(traced));
 }
 
 }  // namespace

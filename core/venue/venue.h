@@ -24,6 +24,7 @@ struct VenueDescription {
   std::string name;      // "corner"
   std::string sentence;  // short description
   int projectors = 1;
+  int cameras = 1;
 };
 const std::vector<VenueDescription>& venues();
 
@@ -45,17 +46,17 @@ struct DeviceModelSettings {
 
 struct VenueSettings {
   std::string name = "corner";
-  Size projector{256, 192};
-  Size camera{160, 120};
-  std::uint64_t seed = 1;   // of the devices' noise; the scene does not depend on it
-  int pathsPerPixel = 256;  // of the light tracer
+  Size projector{256, 192};  // each
+  Size camera{160, 120};     // each
+  std::uint64_t seed = 1;    // of the devices' noise; the scene does not depend on it
+  int pathsPerPixel = 256;   // of the light tracer
   DeviceModelSettings devices{};
 };
 std::vector<Message> problems(const VenueSettings& settings);
 
 class VenueLight;
 
-/// A simulated venue: a scene with its traced light transport, and models of projectors and a camera with
+/// A simulated venue: a scene with its traced light transport, and models of projectors and cameras with
 /// quantisation, noise, saturation and response curves.
 /// The brightest parts of the flood image reach full scale in 1/60 s.
 class SimulatedVenue {

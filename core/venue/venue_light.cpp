@@ -14,9 +14,11 @@ double mean(const Stack& stack) {
 
 }  // namespace
 
-VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layout, TracedTransport traced)
+VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layout, Rasters cameras,
+                       TracedTransport traced)
     : settings_(settings),
       layout_(std::move(layout)),
+      cameras_(std::move(cameras)),
       projectorModel_(settings.devices),
       cameraByNode_(std::move(traced.cameraByNode)),
       ambient_(std::move(traced.roomLight)) {
@@ -53,8 +55,7 @@ CameraStack VenueLight::fromProjectors(const std::vector<image::Image>& encodedD
 
 const transport::TransportMatrix& VenueLight::transport() const {
   std::call_once(transportMade_, [&] {
-    transport_ =
-        transport::TransportMatrix(settings_.camera, layout_.projectors(), cameraByNode_.transposed());
+    transport_ = transport::TransportMatrix(cameras_, layout_.projectors(), cameraByNode_.transposed());
   });
   return transport_;
 }

@@ -9,13 +9,15 @@
 
 namespace relucent::venue {
 
-/// What the camera of a simulated venue measures under any picture, free of noise. Camera signal per second.
+/// What the cameras of a simulated venue measure under any picture, free of noise. Camera signal per second.
 class VenueLight {
  public:
-  VenueLight(const VenueSettings& settings, transport::NodeLayout layout, TracedTransport traced);
+  VenueLight(const VenueSettings& settings, transport::NodeLayout layout, Rasters cameras,
+             TracedTransport traced);
 
   const VenueSettings& settings() const { return settings_; }
   const transport::NodeLayout& layout() const { return layout_; }
+  const Rasters& cameras() const { return cameras_; }
   const ProjectorModel& projectorModel() const { return projectorModel_; }
 
   /// Light from the projectors: their pictures and their black level.
@@ -29,6 +31,7 @@ class VenueLight {
  private:
   VenueSettings settings_;
   transport::NodeLayout layout_;
+  Rasters cameras_;
   ProjectorModel projectorModel_;
   transport::BlockSparse cameraByNode_;
   CameraStack projectorBlack_, ambient_, black_;

@@ -2,6 +2,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "relucent/base/error.h"
@@ -74,7 +75,8 @@ class TestVenue : public QObject {
     QFETCH(QString, name);
     Progress progress;
     SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
-    double perRow = static_cast<double>(venue.trueTransport().leaves().blocks()) / (40.0 * 30.0);
+    double perRow = static_cast<double>(venue.trueTransport().leaves().blocks()) /
+                    static_cast<double>(venue.trueTransport().cameras().count());
     qInfo("%.1f blocks a row", perRow);
     QVERIFY(perRow < 100.0);
   }
@@ -93,8 +95,8 @@ class TestVenue : public QObject {
       QVERIFY(std::abs(predicted[i] + venue.trueBlack()[i] - seen[i]) < 1e-4f * largest);
   }
 
-  void everyVenueHasTheProjectorsThatItSays_data() { forEachVenue(); }
-  void everyVenueHasTheProjectorsThatItSays() {
+  void everyVenueHasTheDevicesThatItSays_data() { forEachVenue(); }
+  void everyVenueHasTheDevicesThatItSays() {
     QFETCH(QString, name);
     auto offer = std::find_if(venues().begin(), venues().end(), [&](const VenueDescription& venue) {
       return venue.name == name.toStdString();
@@ -104,6 +106,109 @@ class TestVenue : public QObject {
     QCOMPARE(venue.rig().projectors.size(), static_cast<std::size_t>(offer->projectors));
     QCOMPARE(venue.trueTransport().projectors(),
              Rasters(std::vector<Size>(venue.rig().projectors.size(), Size{64, 48})));
+    const Rig rig = venue.rig();
+    QCOMPARE(rig.cameras.size(), static_cast<std::size_t>(offer->cameras));
+    QCOMPARE(venue.trueTransport().cameras(), Rasters(std::vector<Size>(rig.cameras.size(), Size{40, 30})));
+    QCOMPARE(rig.cameraRasters(), venue.trueTransport().cameras());
+  }
+
+  /// Law: each camera photographs its own rows of T, with noise of its own under one lamp.
+  void eachCameraSeesItsOwnRows() {
+    VenueSettings settings = smallVenue("statue3");
+    settings.devices.cameraBits = 16;
+    settings.devices.flicker = 0.01;
+    Progress progress;
+    SimulatedVenue venue(settings, {}, progress);
+    Rig rig = venue.rig();
+    QCOMPARE(rig.cameras[2]->name(), std::string("simulated camera 3"));
+    for (std::size_t i = 0; i < rig.projectors.size(); ++i) rig.projectors[i]->show(flood(venue)[i]);
+    const CameraStack seen = venue.trueRadiance(flood(venue));
+    const Rasters& cameras = venue.trueTransport().cameras();
+    const double seconds = 1.0 / 120.0;
+    std::vector<Stack> noise;
+    std::vector<double> power;
+    for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+      const RawFrame frame = rig.cameras[camera]->capture({{"flood", 1}, 0, seconds});
+      double signal = 0.0, expected = 0.0;
+      Stack& deviations = noise.emplace_back();
+      for (std::size_t i = 0; i < frame.signal.data().size(); ++i) {
+        const double light = seconds * static_cast<double>(seen[3 * cameras.offset(camera) + i]);
+        const double value = static_cast<double>(frame.signal.data()[i]);
+        if (light > 0.8) continue;  // some are full
+        signal += value;
+        expected += light;
+        deviations.push_back(static_cast<float>(value - light));
+      }
+      power.push_back(signal / expected);
+    }
+    // A lamp that flickers by 1 % is the same for all to what noise of 3600 values leaves.
+    for (double each : power) QVERIFY2(std::abs(each - power[0]) < 1e-3, qPrintable(QString::number(each)));
+    QVERIFY(std::abs(power[0] - 1.0) > 1e-4);
+    QVERIFY(std::vector(noise[0].begin(), noise[0].begin() + 50) !=
+            std::vector(noise[1].begin(), noise[1].begin() + 50));
+  }
+
+  /// What several cameras are for: each sees parts of the projectors' light that another does not.
+  void threeSidesOfAStatueAreNotOne() {
+    Progress progress;
+    SimulatedVenue venue(smallVenue("statue3"), {}, progress);
+    const TransportMatrix& transport = venue.trueTransport();
+    const NodeLayout& layout = transport.layout();
+    // Direct light by projector pixel and camera.
+    std::vector<std::vector<float>> seen(3, std::vector<float>(transport.projectors().count()));
+    for (std::size_t camera = 0; camera < 3; ++camera)
+      for (std::size_t pixel = 0; pixel < 1200; ++pixel) {
+        const std::size_t row = transport.cameras().offset(camera) + pixel;
+        const BlockSparse& leaves = transport.leaves();
+        for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+          const Node node = layout.node(leaves.column(entry));
+          if (node.level == 0) seen[camera][leaves.column(entry)] += leaves.block(row, entry).sum();
+        }
+      }
+    int anywhere = 0, fromOneSideOnly = 0;
+    for (std::size_t j = 0; j < transport.projectors().count(); ++j) {
+      int places = 0;
+      for (const std::vector<float>& camera : seen) places += camera[j] > 1.0f;
+      anywhere += places > 0;
+      fromOneSideOnly += places == 1;
+    }
+    qInfo("%d of %zu projector pixels are seen, %d from one side only", anywhere,
+          transport.projectors().count(), fromOneSideOnly);
+    QVERIFY(anywhere > 0.6 * static_cast<double>(transport.projectors().count()));
+    QVERIFY(fromOneSideOnly > 0.03 * anywhere);
+  }
+
+  /// Four projectors cover the dome, and where they meet they overlap.
+  void fourProjectorsShareTheDome() {
+    Progress progress;
+    SimulatedVenue venue(smallVenue("dome4"), {}, progress);
+    const TransportMatrix& transport = venue.trueTransport();
+    const BlockSparse& leaves = transport.leaves();
+    std::array<int, 5> lit{};  // directly by so many
+    std::array<int, 4> by{};
+    for (std::size_t row = 0; row < leaves.rows(); ++row) {
+      std::array<float, 4> direct{};
+      float all = 0.0f;
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+        const Node node = transport.layout().node(leaves.column(entry));
+        if (node.level > 0) continue;
+        direct[static_cast<std::size_t>(node.projector)] += leaves.block(row, entry).sum();
+        all += leaves.block(row, entry).sum();
+      }
+      int count = 0;
+      for (std::size_t projector = 0; projector < 4; ++projector) {
+        const bool isLit = direct[projector] > 0.05f * all && all > 0.0f;
+        count += isLit;
+        by[projector] += isLit;
+      }
+      ++lit[static_cast<std::size_t>(count)];
+    }
+    qInfo("directly lit by none %d, one %d, two %d, three %d, four %d", lit[0], lit[1], lit[2], lit[3],
+          lit[4]);
+    const double rows = static_cast<double>(leaves.rows());
+    QVERIFY(lit[0] < 0.3 * rows);
+    QVERIFY(lit[2] + lit[3] + lit[4] > 0.1 * rows && lit[1] > 0.2 * rows);
+    for (int each : by) QVERIFY(each > 0.1 * rows);
   }
 
   /// Superposition: what two projectors give together is what each gives alone, black counted once.

@@ -115,8 +115,12 @@ class TestSeveralDevices : public QObject {
       page.chooseVenue(i);
       shots[page.venues()[i].id] = page.expected().shots;
     }
-    QCOMPARE(shots.size(), venues().size());
-    for (const VenueDescription& venue : venues())
+    // What pages show is the first camera's: venues with more are for the command line.
+    std::vector<VenueDescription> offered;
+    std::ranges::copy_if(venues(), std::back_inserter(offered),
+                         [](const VenueDescription& venue) { return venue.cameras == 1; });
+    QCOMPARE(shots.size(), offered.size());
+    for (const VenueDescription& venue : offered)
       QVERIFY2((shots.at(venue.name) > shots.at("plain")) == (venue.projectors > 1), venue.name.c_str());
   }
 

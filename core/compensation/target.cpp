@@ -17,7 +17,8 @@ Size firstCamera(const MeasuredVenue& venue) {
 void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
   std::size_t pixels = venue.transport.cameras().count();
   require(venue.black.size() == 3 * pixels && venue.flood.size() == 3 * pixels &&
-              venue.usable.size() == pixels && (venue.direct.empty() || venue.direct.size() == pixels),
+              venue.usable.size() == pixels && (venue.direct.empty() || venue.direct.size() == pixels) &&
+              (venue.views.empty() || venue.views.size() == pixels),
           "{} black, {} flood values and {} flags for {} camera pixels", venue.black.size(),
           venue.flood.size(), venue.usable.size(), pixels);
   require(!content.empty() && content.channels() == 3, "content of {} channels; three are needed",
@@ -80,6 +81,21 @@ Message cornerProblem(const Corners& corners) {
   return RELUCENT_ENGLISH_MESSAGE(
       "compensation.corners-not-convex",
       "the corners of the content do not span a convex quadrilateral: they must go clockwise from top left");
+}
+
+/// Content and what it covers, from the first camera's view into the others.
+void lieInOtherViews(const MeasuredVenue& venue, Target& target) {
+  const Size view = firstCamera(venue);
+  const CameraMask inside(target.inside.begin(),
+                          target.inside.begin() + static_cast<std::ptrdiff_t>(view.count()));
+  parallelFor(view.count(), target.inside.size(), 1024, [&](std::size_t i) {
+    const std::optional<ViewSample> sample = sampleAt(venue.views[i], view, inside);
+    if (!sample) return;
+    target.inside[i] = 1;
+    for (std::size_t k = 0; k < sample->pixel.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        target.content[3 * i + c] += sample->share[k] * target.content[3 * sample->pixel[k] + c];
+  });
 }
 
 /// The brightest white that all but `percentile` percent of the usable pixels inside can show.
@@ -174,6 +190,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   target.inside.resize(pixels, 0);
   target.content = CameraStack(std::move(placed.image.data()));
   target.content.resize(3 * pixels, 0.0f);
+  if (!venue.views.empty()) lieInOtherViews(venue, target);
 
   float white = whiteLevel(venue, target.inside, settings.reachablePercentile);
   target.white = {white, white, white};

@@ -9,6 +9,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/compensation/placement.h"
+#include "relucent/compensation/views.h"
 #include "relucent/image/image.h"
 #include "relucent/transport/transport_matrix.h"
 
@@ -22,6 +23,8 @@ struct MeasuredVenue {
   CameraMask usable;  // per camera pixel: lit by the projector and not flagged
   /// Per camera pixel: directly lit, see directlyLit(). Empty: all of them.
   CameraMask direct{};
+  /// Where the content of the first camera's view lies in the others', see viewMap(). Empty: in none.
+  ViewMap views{};
 };
 
 /// Per pixel of all cameras: usable, and directly lit.
@@ -57,6 +60,7 @@ transport::ColourBlock meanColourMixing(const MeasuredVenue& venue);
 
 /// Places and scales linear content (three channels, values 0 to 1) to the target of the first camera:
 ///   wanted = white * (lift + (1 - lift) K content).
+/// In the views of other cameras it lies on the surface where the first one sees it (MeasuredVenue::views).
 /// White is the same signal in all channels: as bright as `reachablePercentile` allows, that is so bright
 /// that this share of the usable pixels inside cannot show it (their T 1 + e lies below it in some channel).
 /// Source: core/compensation/README.md.

@@ -149,9 +149,29 @@ class Sampler {
   int samples_ = 2;
 };
 
+/// Its weights are added to `weights`.
+ContentWarp::Footprint coded(const Patch& mean, std::vector<std::uint16_t>& weights) {
+  const double largest = *std::max_element(mean.weight.begin(), mean.weight.end());
+  ContentWarp::Footprint footprint{mean.x0,
+                                   mean.y0,
+                                   static_cast<std::uint16_t>(mean.width()),
+                                   static_cast<std::uint16_t>(mean.y1 - mean.y0),
+                                   static_cast<std::uint32_t>(weights.size()),
+                                   0.0f};
+  double sum = 0.0;
+  for (double weight : mean.weight) {
+    auto code = static_cast<std::uint16_t>(std::lround(weight / largest * 65535.0));
+    weights.push_back(code);
+    sum += code;
+  }
+  footprint.scale = static_cast<float>(1.0 / sum);
+  return footprint;
+}
+
 }  // namespace
 
-ContentWarp::ContentWarp(Size content, const compensation::Placement& placement, Size view)
+ContentWarp::ContentWarp(Size content, const compensation::Placement& placement, Size view,
+                         const compensation::ViewMap& views)
     : content_(content) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
   Sampler sampler(content, placement);
@@ -164,21 +184,7 @@ ContentWarp::ContentWarp(Size content, const compensation::Placement& placement,
     int y = static_cast<int>(row);
     for (int x = 0; x < view.width; ++x) {
       if (!sampler.inside(x + 0.5, y + 0.5)) continue;
-      Patch mean = sampler.meanOver(x, y);
-      double largest = *std::max_element(mean.weight.begin(), mean.weight.end()), sum = 0.0;
-      Footprint& footprint = footprint_[indexOf(view, {x, y})];
-      footprint = {mean.x0,
-                   mean.y0,
-                   static_cast<std::uint16_t>(mean.width()),
-                   static_cast<std::uint16_t>(mean.y1 - mean.y0),
-                   static_cast<std::uint32_t>(rows[row].weight.size()),
-                   0.0f};
-      for (double weight : mean.weight) {
-        auto code = static_cast<std::uint16_t>(std::lround(weight / largest * 65535.0));
-        rows[row].weight.push_back(code);
-        sum += code;
-      }
-      footprint.scale = static_cast<float>(1.0 / sum);
+      footprint_[indexOf(view, {x, y})] = coded(sampler.meanOver(x, y), rows[row].weight);
     }
   });
   for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -187,6 +193,39 @@ ContentWarp::ContentWarp(Size content, const compensation::Placement& placement,
       footprint_[indexOf(view, {x, static_cast<int>(row)})].weight += before;
     weight_.insert(weight_.end(), rows[row].weight.begin(), rows[row].weight.end());
     rows[row].weight = {};
+  }
+  if (!views.empty()) lieInOtherViews(view, views);
+}
+
+/// Of up to four rectangles that lie beside each other, one.
+void ContentWarp::lieInOtherViews(Size view, const compensation::ViewMap& views) {
+  CameraMask covered(view.count());
+  for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = inside(i);
+  footprint_.resize(views.size());
+  for (std::size_t i = view.count(); i < views.size(); ++i) {
+    const std::optional<compensation::ViewSample> sample = compensation::sampleAt(views[i], view, covered);
+    if (!sample) continue;
+    Patch mean{content_.width, content_.height, 0, 0, {}};
+    for (std::size_t k = 0; k < sample->pixel.size(); ++k) {
+      if (!(sample->share[k] > 0.0f)) continue;
+      const Footprint& from = footprint_[sample->pixel[k]];
+      mean.x0 = std::min(mean.x0, from.x);
+      mean.y0 = std::min(mean.y0, from.y);
+      mean.x1 = std::max(mean.x1, from.x + from.width);
+      mean.y1 = std::max(mean.y1, from.y + from.height);
+    }
+    mean.weight.assign(static_cast<std::size_t>(mean.width()) * static_cast<std::size_t>(mean.y1 - mean.y0),
+                       0.0);
+    for (std::size_t k = 0; k < sample->pixel.size(); ++k) {
+      if (!(sample->share[k] > 0.0f)) continue;
+      const Footprint& from = footprint_[sample->pixel[k]];
+      for (int y = 0; y < from.height; ++y)
+        for (int x = 0; x < from.width; ++x)
+          mean.at(from.x + x, from.y + y) +=
+              static_cast<double>(sample->share[k] * from.scale) *
+              weight_[from.weight + static_cast<std::size_t>(y * from.width + x)];
+    }
+    footprint_[i] = coded(mean, weight_);
   }
 }
 

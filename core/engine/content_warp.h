@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "relucent/compensation/placement.h"
+#include "relucent/compensation/views.h"
 
 namespace relucent::engine {
 
-/// The perspective warp of content of one size into a camera's view as a sparse operator: for every camera
+/// The perspective warp of content of one size into the cameras' views as a sparse operator: for every camera
 /// pixel a small rectangle of content pixels with weights, the same means as place() takes. 16 bits a weight.
 class ContentWarp {
  public:
@@ -21,8 +22,10 @@ class ContentWarp {
   };
 
   ContentWarp() = default;
-  /// Throws: std::logic_error if `content` is empty or the placement is not convex.
-  ContentWarp(Size content, const compensation::Placement& placement, Size view);
+  /// `views`: of the other cameras, whose pixels follow the first one's; there the content lies where
+  /// fitTarget() has it. Throws: std::logic_error if `content` is empty or the placement is not convex.
+  ContentWarp(Size content, const compensation::Placement& placement, Size view,
+              const compensation::ViewMap& views = {});
 
   Size content() const { return content_; }
   const std::vector<Footprint>& footprints() const { return footprint_; }
@@ -31,6 +34,8 @@ class ContentWarp {
   bool inside(std::size_t pixel) const { return footprint_[pixel].width > 0; }
 
  private:
+  void lieInOtherViews(Size view, const compensation::ViewMap& views);
+
   Size content_;
   std::vector<Footprint> footprint_;
   std::vector<std::uint16_t> weight_;

@@ -60,7 +60,7 @@ void CpuBackend::passBack(float weight, std::vector<float>& sums) noexcept {
 
 /// What frames need for C: T^T W T 1 while all content is reachable.
 void CpuBackend::prepareBound() noexcept {
-  // The content lies in the first camera's view.
+  // Cameras that it is not known of see nothing of the content.
   for (std::size_t i = 0; i < content_->warp.footprints().size(); ++i)
     weight_[i] = content_->warp.inside(i) && engine_.venue.usable[i] ? 1.0f : 0.0f;
   passBack(1.0f, part_);

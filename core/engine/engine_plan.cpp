@@ -87,8 +87,8 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   EngineContent result;
   result.corners = target.corners;
   result.white = target.white[0];
-  result.warp =
-      ContentWarp(content, placementOf(engine, content, target.corners), venue.transport.cameras().size(0));
+  result.warp = ContentWarp(content, placementOf(engine, content, target.corners),
+                            venue.transport.cameras().size(0), venue.views);
 
   result.free = compensation::contentPixels(engine.brightest, target);
   auto lit = compensation::stackOf<ProjectorStack>(

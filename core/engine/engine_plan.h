@@ -45,7 +45,7 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
 
 /// Content of one size as prepared for rendering: its placement and the projector pixels concerned.
 struct EngineContent {
-  ContentWarp warp;                 // into the first camera's view
+  ContentWarp warp;                 // into the cameras' views
   compensation::Corners corners{};  // where the content was placed
   float white = 0.0f;               // wanted signal of the content's white
   ProjectorMask free;               // per projector pixel: it belongs to the content; the others are black

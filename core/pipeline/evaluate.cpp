@@ -90,31 +90,35 @@ class Judge {
     return reachable;
   }
 
-  /// What the first camera would see, free of noise.
-  image::Image seen(const compensation::Compensation& compensation) const {
+  std::size_t views() const { return rasters_.devices(); }
+
+  /// What the cameras would see, free of noise.
+  CameraStack seen(const compensation::Compensation& compensation) const {
     std::vector<image::Image> drive =
         encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
-    const CameraStack seen = reduction::reducedRadiance(venue_.trueRadiance(drive), measured_.reductions);
-    return image::imageFromStack(seen, rasters_, 0);
+    return reduction::reducedRadiance(venue_.trueRadiance(drive), measured_.reductions);
+  }
+  /// Of a stack of all cameras.
+  image::Image view(const CameraStack& stack, std::size_t camera) const {
+    return image::imageFromStack(stack, rasters_, camera);
+  }
+  CameraMask view(const CameraMask& mask, std::size_t camera) const {
+    const auto begin = mask.begin() + static_cast<std::ptrdiff_t>(rasters_.offset(camera));
+    return {begin, begin + static_cast<std::ptrdiff_t>(rasters_.size(camera).count())};
   }
 
-  image::Image wanted(const compensation::Target& target) const {
-    return image::imageFromStack(target.wanted, rasters_, 0);
-  }
-
-  MethodScore score(compensation::Method method, const image::Image& seen, const compensation::Target& target,
-                    const std::vector<std::uint8_t>& reachableMask) const {
-    std::size_t pixels = rasters_.size(0).count();
-    std::span<const std::uint8_t> inside(target.inside.data(), pixels);
-    std::span<const std::uint8_t> mask(reachableMask.data(), pixels);
-    image::Image wantedImage = wanted(target);
+  /// What a camera sees against what is wanted there.
+  MethodScore score(compensation::Method method, const CameraStack& seen, const compensation::Target& target,
+                    const CameraMask& reachable, std::size_t camera) const {
+    const CameraMask inside = view(target.inside, camera), mask = view(reachable, camera);
+    const image::Image wanted = view(target.wanted, camera), is = view(seen, camera);
 
     MethodScore result;
     result.method = method;
-    result.psnrReachable = psnr(seen, wantedImage, target.white, mask);
-    result.psnrAll = psnr(seen, wantedImage, target.white, inside);
-    image::Image seenEncoded = image::viewed(seen, target.white);
-    image::Image wantedEncoded = image::viewed(wantedImage, target.white);
+    result.psnrReachable = psnr(is, wanted, target.white, mask);
+    result.psnrAll = psnr(is, wanted, target.white, inside);
+    image::Image seenEncoded = image::viewed(is, target.white);
+    image::Image wantedEncoded = image::viewed(wanted, target.white);
     result.ssim = ssim(seenEncoded, wantedEncoded, inside);
     result.deltaE = meanDeltaE(seenEncoded, wantedEncoded, inside);
     return result;
@@ -173,11 +177,16 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   for (const NamedImage& image : content) {
     compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
     CameraMask reachable = judge.reachable(target);
-    ImageScore score{image.name, shareOf(reachable, target.inside), {}};
-    std::size_t pixels = measured.venue.transport.cameras().size(0).count();
-    EvaluatedPictures pictures{image.name,   judge.wanted(target), {},
-                               target.white, target.inside,        score.reachable};
-    pictures.inside.resize(pixels);
+    ImageScore score;
+    score.name = image.name;
+    score.others.resize(judge.views() - 1);
+    const auto viewOf = [&](std::size_t camera) -> ViewScore& {
+      return camera == 0 ? score : score.others[camera - 1];
+    };
+    for (std::size_t camera = 0; camera < judge.views(); ++camera)
+      viewOf(camera).reachable = shareOf(judge.view(reachable, camera), judge.view(target.inside, camera));
+    EvaluatedPictures pictures{image.name,   judge.view(target.wanted, 0), {},
+                               target.white, judge.view(target.inside, 0), score.reachable};
     for (compensation::Method method : methods) {
       Progress solving = judging.part(
           share,
@@ -185,10 +194,12 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       Stopwatch watch;
       compensation::Compensation compensation = compensator.solve(method, target, solving);
       double seconds = watch.seconds();
-      image::Image seen = judge.seen(compensation);
-      score.methods.push_back(judge.score(method, seen, target, reachable));
-      score.methods.back().seconds = seconds;
-      pictures.seen.emplace(method, std::move(seen));
+      const CameraStack seen = judge.seen(compensation);
+      for (std::size_t camera = 0; camera < judge.views(); ++camera) {
+        viewOf(camera).methods.push_back(judge.score(method, seen, target, reachable, camera));
+        viewOf(camera).methods.back().seconds = seconds;
+      }
+      pictures.seen.emplace(method, judge.view(seen, 0));
     }
     result.reachable += score.reachable / static_cast<double>(content.size());
     result.images.push_back(std::move(score));

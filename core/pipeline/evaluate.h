@@ -30,10 +30,16 @@ struct MethodScore {
   double seconds = 0.0;  // for one frame
 };
 
-struct ImageScore {
-  std::string name;
+/// As a camera sees it.
+struct ViewScore {
   double reachable = 0.0;  // share of this image's pixels
   std::vector<MethodScore> methods;
+};
+
+/// What the first camera sees, in whose view the image lies.
+struct ImageScore : ViewScore {
+  std::string name;
+  std::vector<ViewScore> others;  // what the other cameras see of it on the surface
 };
 
 /// How well T itself was measured; relative errors.

@@ -24,15 +24,24 @@ calibration::Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
   return json;
 }
 
-calibration::Json scoreToJson(const ImageScore& image) {
+calibration::Json viewToJson(const ViewScore& view) {
   calibration::Json methods = calibration::Json::object();
-  for (const MethodScore& score : image.methods)
+  for (const MethodScore& score : view.methods)
     methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
                                                   {"psnr_all", score.psnrAll},
                                                   {"ssim", score.ssim},
                                                   {"delta_e", score.deltaE},
                                                   {"seconds", score.seconds}};
-  return {{"name", image.name}, {"reachable", image.reachable}, {"methods", std::move(methods)}};
+  return {{"reachable", view.reachable}, {"methods", std::move(methods)}};
+}
+
+calibration::Json scoreToJson(const ImageScore& image) {
+  calibration::Json json = viewToJson(image);
+  json["name"] = image.name;
+  if (image.others.empty()) return json;
+  json["other_views"] = calibration::Json::array();
+  for (const ViewScore& view : image.others) json["other_views"].push_back(viewToJson(view));
+  return json;
 }
 
 calibration::Json sharesToJson(const std::map<compensation::Uncorrectable, double>& shares) {

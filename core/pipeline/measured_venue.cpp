@@ -82,6 +82,7 @@ compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquis
   venue.flood = acquisition.flood;
   Progress quiet;
   venue.direct = compensation::directlyLit(compensation::directLooks(venue.transport, {}, quiet));
+  venue.views = compensation::viewMap(venue.transport, compensation::seesProjection(venue));
   return venue;
 }
 

@@ -151,7 +151,7 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   frame = GlBuffer(bytesPerPixel(ContentFrame::Format::linearFloat) * size.count() + 4 * size.count());
   static_assert(sizeof(ContentWarp::Footprint) == 20);
   std::vector<ContentWarp::Footprint> all = warp.footprints();
-  // Only the first camera is looked at; the others see nothing of the content.
+  // Cameras that it is not known of see nothing of the content.
   all.resize(cameraPixels);
   footprints = GlBuffer(all);
   weights = GlBuffer(warp.weights());

@@ -104,13 +104,18 @@ inline compensation::MeasuredVenue holes(std::uint64_t seed) {
 
 /// Scenes by name, for data-driven tests.
 inline const std::vector<std::string>& engineSceneNames() {
-  static const std::vector<std::string> names{"wall",         "defocus", "coarse tiles", "several devices",
-                                              "single pixel", "holes"};
+  static const std::vector<std::string> names{
+      "wall", "defocus", "coarse tiles", "several devices", "several views", "single pixel", "holes"};
   return names;
 }
 
 inline EngineScene engineSceneOf(const std::string& name) {
   if (name == "several devices") return engineScene(severalDevices(3));
+  if (name == "several views") {
+    compensation::MeasuredVenue venue = severalDevices(3);
+    venue.views = compensation::viewMap(venue.transport, venue.usable);
+    return engineScene(std::move(venue));
+  }
   if (name == "holes") return engineScene(holes(4));
   SceneSettings settings;
   if (name == "defocus") settings = {{50, 37}, {41, 29}, 2, 0.8, 2.0};

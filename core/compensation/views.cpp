@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/compensation/views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+
+namespace relucent::compensation {
+namespace {
+
+using Place = std::array<float, 2>;
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float leastKnown = 0.25f;  // of a pixel's direct light
+constexpr float near = 3.0f;         // pixels of the first camera: what lies further apart is another surface
+constexpr int smoothings = 100;      // of what is filled in
+
+bool isKnown(const Place& place) {
+  return std::isfinite(place[0]);
+}
+
+/// Light of a pixel's direct leaves, projector pixel by projector pixel.
+struct DirectLight {
+  std::size_t projectorPixel;
+  float light;
+};
+
+class Correspondence {
+ public:
+  Correspondence(const transport::TransportMatrix& transport, const CameraMask& usable,
+                 const DirectLightSettings& settings)
+      : transport_(transport), usable_(usable), direct_(transport, settings) {
+    const Size view = transport.cameras().size(0);
+    std::vector<double> sums(3 * transport.projectors().count(), 0.0);
+    std::vector<DirectLight> seen;
+    for (std::size_t row = 0; row < view.count(); ++row) {
+      if (!usable[row]) continue;
+      const Pixel at = pixelAt(view, row);
+      read(row, seen);
+      for (const DirectLight& each : seen) {
+        double* sum = &sums[3 * each.projectorPixel];
+        const auto light = static_cast<double>(each.light);
+        sum[0] += light * (at.x + 0.5);
+        sum[1] += light * (at.y + 0.5);
+        sum[2] += light;
+      }
+    }
+    place_.resize(transport.projectors().count(), {unknown, unknown});
+    for (std::size_t j = 0; j < place_.size(); ++j)
+      if (sums[3 * j + 2] > 0.0)
+        place_[j] = {static_cast<float>(sums[3 * j] / sums[3 * j + 2]),
+                     static_cast<float>(sums[3 * j + 1] / sums[3 * j + 2])};
+  }
+
+  Place placeOf(std::size_t row) const {
+    std::vector<DirectLight> seen;
+    read(row, seen);
+    float all = 0.0f, most = 0.0f;
+    Place centre{unknown, unknown};
+    for (const DirectLight& each : seen) {
+      all += each.light;
+      if (!isKnown(place_[each.projectorPixel]) || !(each.light > most)) continue;
+      most = each.light;
+      centre = place_[each.projectorPixel];
+    }
+    if (!isKnown(centre)) return centre;
+    float together = 0.0f;
+    for (int round = 0; round < 3; ++round) {
+      float x = 0.0f, y = 0.0f;
+      together = 0.0f;
+      for (const DirectLight& each : seen) {
+        const Place& place = place_[each.projectorPixel];
+        if (!isKnown(place) || std::abs(place[0] - centre[0]) > near || std::abs(place[1] - centre[1]) > near)
+          continue;
+        x += each.light * place[0];
+        y += each.light * place[1];
+        together += each.light;
+      }
+      centre = {x / together, y / together};
+    }
+    return together >= leastKnown * all ? centre : Place{unknown, unknown};
+  }
+
+ private:
+  void read(std::size_t row, std::vector<DirectLight>& seen) const {
+    const transport::NodeLayout& layout = transport_.layout();
+    const Rasters& projectors = transport_.projectors();
+    seen.clear();
+    direct_.eachDirect(row, [&](std::size_t entry, const transport::Block& block) {
+      const float light = transport_.leaves().block(row, entry).sum() / static_cast<float>(block.count());
+      if (!(light > 0.0f)) return;
+      const auto projector =
+          static_cast<std::size_t>(layout.node(transport_.leaves().column(entry)).projector);
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});
+    });
+  }
+
+  const transport::TransportMatrix& transport_;
+  const CameraMask& usable_;
+  DirectLeaves direct_;
+  std::vector<Place> place_;  // a_j
+};
+
+/// One camera's part of the map goes on into usable pixels that nothing is known of: from the nearest known
+/// ones, then smoothly between them.
+void fill(std::span<Place> map, std::span<const std::uint8_t> usable, Size size) {
+  constexpr std::array<Pixel, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const auto eachNeighbour = [&](std::size_t pixel, const auto& visit) {
+    const Pixel at = pixelAt(size, pixel);
+    for (const Pixel& step : beside) {
+      const Pixel to{at.x + step.x, at.y + step.y};
+      if (to.x >= 0 && to.y >= 0 && to.x < size.width && to.y < size.height) visit(indexOf(size, to));
+    }
+  };
+  std::vector<std::size_t> reached, filled;
+  for (std::size_t i = 0; i < map.size(); ++i)
+    if (isKnown(map[i])) reached.push_back(i);
+  for (std::size_t next = 0; next < reached.size(); ++next)
+    eachNeighbour(reached[next], [&](std::size_t to) {
+      if (!usable[to] || isKnown(map[to])) return;
+      map[to] = map[reached[next]];
+      reached.push_back(to);
+      filled.push_back(to);
+    });
+  for (int round = 0; round < smoothings; ++round)
+    for (std::size_t pixel : filled) {
+      float x = 0.0f, y = 0.0f, count = 0.0f;
+      eachNeighbour(pixel, [&](std::size_t from) {
+        if (!isKnown(map[from])) return;
+        x += map[from][0];
+        y += map[from][1];
+        count += 1.0f;
+      });
+      map[pixel] = {x / count, y / count};
+    }
+}
+
+}  // namespace
+
+ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& usable,
+                const DirectLightSettings& settings) {
+  const Rasters& cameras = transport.cameras();
+  require(usable.size() == cameras.count(), "{} flags for {} camera pixels", usable.size(), cameras.count());
+  if (cameras.devices() < 2) return {};
+  const Correspondence correspondence(transport, usable, settings);
+  ViewMap map(cameras.count(), {unknown, unknown});
+  for (std::size_t row = 0; row < cameras.size(0).count(); ++row) {
+    const Pixel at = pixelAt(cameras.size(0), row);
+    map[row] = {static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f};
+  }
+  parallelFor(cameras.size(0).count(), cameras.count(), 256, [&](std::size_t row) {
+    if (usable[row]) map[row] = correspondence.placeOf(row);
+  });
+  for (std::size_t camera = 1; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
+    fill({map.data() + begin, count}, {usable.data() + begin, count}, cameras.size(camera));
+  }
+  return map;
+}
+
+std::optional<ViewSample> sampleAt(const Place& place, Size view, const CameraMask& inside) {
+  if (!isKnown(place)) return std::nullopt;
+  const int column = static_cast<int>(std::floor(place[0])), line = static_cast<int>(std::floor(place[1]));
+  if (column < 0 || line < 0 || column >= view.width || line >= view.height ||
+      !inside[indexOf(view, {column, line})])
+    return std::nullopt;
+  const float x = place[0] - 0.5f, y = place[1] - 0.5f;
+  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+  const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
+  ViewSample sample;
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool right = i % 2 == 1, below = i / 2 == 1;
+    const Pixel at{x0 + (right ? 1 : 0), y0 + (below ? 1 : 0)};
+    if (at.x < 0 || at.y < 0 || at.x >= view.width || at.y >= view.height) continue;
+    sample.pixel[i] = indexOf(view, at);
+    if (!inside[sample.pixel[i]]) continue;
+    sample.share[i] = (right ? u : 1.0f - u) * (below ? v : 1.0f - v);
+    sum += sample.share[i];
+  }
+  for (float& share : sample.share) share /= sum;
+  return sample;
+}
+
+}  // namespace relucent::compensation

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+// Venues that several cameras look at, from the map between their views to what each of them sees.
+#include "relucent/compensation/views.h"
+
+#include <QTemporaryDir>
+#include <QTest>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "relucent/base/random.h"
+#include "relucent/compensation/methods.h"
+#include "relucent/image/metrics.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/standard_images.h"
+#include "relucent/venue/scenes.h"
+#include "relucent/venue/traced_transport.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::image;
+using namespace relucent::pipeline;
+using namespace relucent::transport;
+using namespace relucent::venue;
+using Eigen::Vector2f;
+using Eigen::Vector3f;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Where a camera sees a point.
+Vector2f seenAt(const CameraOptics& camera, const Vector3f& point) {
+  const Vector3f path = point - camera.pose.position;
+  const float depth = path.dot(camera.pose.forward), width = static_cast<float>(camera.raster.width);
+  return {0.5f * width + path.dot(camera.pose.right) / depth * camera.throwRatio * width,
+          0.5f * static_cast<float>(camera.raster.height) -
+              path.dot(camera.pose.up) / depth * camera.throwRatio * width};
+}
+
+/// Of a venue, what its first camera measured alone.
+MeasuredVenue firstAlone(const MeasuredVenue& all) {
+  const Size size = all.transport.cameras().size(0);
+  const BlockSparse& leaves = all.transport.leaves();
+  std::vector<float> fullScale(size.count());
+  for (std::size_t row = 0; row < size.count(); ++row)
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      fullScale[row] = std::max(fullScale[row], leaves.sizeOf(row, entry).largest);
+  BlockSparseBuilder builder(leaves.columns(), fullScale);
+  for (std::size_t row = 0; row < size.count(); ++row)
+    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+      builder.add(row, leaves.column(entry), leaves.block(row, entry));
+  const auto first = [&](const auto& values, std::size_t each) {
+    auto part = values;
+    part.resize(each * size.count());
+    return part;
+  };
+  MeasuredVenue venue;
+  venue.transport = TransportMatrix(Rasters(size), all.transport.projectors(), builder.build());
+  venue.black = first(all.black, 3);
+  venue.flood = first(all.flood, 3);
+  venue.usable = first(all.usable, 1);
+  venue.direct = first(all.direct, 1);
+  return venue;
+}
+
+}  // namespace
+
+class TestSeveralViews : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  fs::path root() const { return temporary_.path().toStdString(); }
+
+ private slots:
+  /// Law: on a flat wall the map between two views is their homography, to less than half a pixel.
+  void aFlatWallIsAHomography_data() {
+    QTest::addColumn<float>("x");
+    QTest::addColumn<float>("y");
+    QTest::addColumn<float>("throwRatio");
+    QTest::newRow("the same place") << -0.40f << 0.12f << 1.68f;
+    QTest::newRow("from the side") << 1.2f << 0.3f << 1.6f;
+    QTest::newRow("from below, finer") << 0.1f << -0.8f << 2.4f;
+  }
+  void aFlatWallIsAHomography() {
+    QFETCH(float, x);
+    QFETCH(float, y);
+    QFETCH(float, throwRatio);
+    VenueSettings settings;
+    settings.name = "plain";
+    settings.projector = {64, 48};
+    settings.camera = {56, 42};
+    Scene scene = buildScene(settings);
+    CameraOptics second = scene.cameras.front();
+    second.pose = Pose::lookingAt({x, y, 2.4f}, {0.0f, 0.0f, 0.0f});
+    second.throwRatio = throwRatio;
+    scene.cameras.push_back(second);
+    Progress silent;
+    const TracedTransport traced = traceTransport(scene, {.pathsPerPixel = 64}, 60.0, silent);
+    const TransportMatrix transport(Rasters(std::vector<Size>(2, settings.camera)),
+                                    Rasters(settings.projector), traced.cameraByNode.transposed());
+    const CameraStack flood = transport.floodlight();
+    CameraMask lit(transport.cameras().count());
+    for (std::size_t i = 0; i < lit.size(); ++i) lit[i] = flood[3 * i + 1] > 5.0f;
+    const ViewMap map = viewMap(transport, lit);
+    std::vector<double> apart;
+    for (std::size_t i = 0; i < settings.camera.count(); ++i) {
+      const Pixel at = pixelAt(settings.camera, i);
+      const auto& first = map[i];
+      QVERIFY(first[0] == static_cast<float>(at.x) + 0.5f && first[1] == static_cast<float>(at.y) + 0.5f);
+      const auto& place = map[settings.camera.count() + i];
+      QCOMPARE(std::isfinite(place[0]), lit[settings.camera.count() + i] != 0);
+      if (!std::isfinite(place[0])) continue;
+      const Ray ray = second.ray(Vector2f(static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f));
+      const Vector3f point = ray.origin - ray.origin.z() / ray.direction.z() * ray.direction;
+      const Vector2f expected = seenAt(scene.cameras.front(), point);
+      // Beyond what the first camera sees lit the map is a guess.
+      if (expected.x() < 2 || expected.y() < 2 || expected.x() > 54 || expected.y() > 40) continue;
+      if (!lit[indexOf(settings.camera, {static_cast<int>(expected.x()), static_cast<int>(expected.y())})])
+        continue;
+      apart.push_back(std::hypot(place[0] - expected.x(), place[1] - expected.y()));
+    }
+    QVERIFY2(apart.size() > 500, qPrintable(QString::number(apart.size())));
+    std::sort(apart.begin(), apart.end());
+    qInfo("%zu places, median %.2f, 95 %% within %.2f, all within %.2f pixels", apart.size(),
+          apart[apart.size() / 2], apart[apart.size() * 95 / 100], apart.back());
+    QVERIFY(apart[apart.size() * 95 / 100] < 0.5);
+  }
+
+  /// Law: shares sum to one, lie beside the place, and are of pixels that are inside.
+  void samplesAreOfPixelsInside() {
+    const Size view{9, 7};
+    Random random{3};
+    CameraMask inside(view.count());
+    for (auto& flag : inside) flag = random.below(3) > 0;
+    for (int i = 0; i < 2000; ++i) {
+      const std::array<float, 2> place{12.0f * random.uniformFloat() - 1.5f,
+                                       10.0f * random.uniformFloat() - 1.5f};
+      const auto sample = sampleAt(place, view, inside);
+      const Pixel own{static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1]))};
+      const bool isWithin = own.x >= 0 && own.y >= 0 && own.x < view.width && own.y < view.height;
+      QCOMPARE(sample.has_value(), isWithin && inside[indexOf(view, own)] != 0);
+      if (!sample) continue;
+      float sum = 0.0f;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (!(sample->share[k] > 0.0f)) continue;
+        const Pixel at = pixelAt(view, sample->pixel[k]);
+        QVERIFY(inside[sample->pixel[k]]);
+        QVERIFY(std::abs(static_cast<float>(at.x) + 0.5f - place[0]) <= 1.0f &&
+                std::abs(static_cast<float>(at.y) + 0.5f - place[1]) <= 1.0f);
+        sum += sample->share[k];
+      }
+      QVERIFY(std::abs(sum - 1.0f) < 1e-5f);
+    }
+    QVERIFY(!sampleAt({std::nanf(""), 1.0f}, view, inside));
+  }
+
+  /// One camera knows of no other view: nothing changes.
+  void oneCameraHasNoMap() {
+    VenueSettings settings;
+    settings.projector = {32, 24};
+    settings.camera = {24, 18};
+    settings.pathsPerPixel = 16;
+    Progress silent;
+    const SimulatedVenue venue(settings, {}, silent);
+    QVERIFY(viewMap(venue.trueTransport(), CameraMask(24 * 18, 1)).empty());
+  }
+
+  /// What several cameras are for: the picture is right from each of three sides, where a calibration from
+  /// one side is wrong from the others.
+  void threeViewsAreBetterThanOne() {
+    VenueSettings venue;
+    venue.name = "statue3";
+    venue.projector = {96, 72};
+    venue.camera = {64, 48};
+    venue.pathsPerPixel = 64;
+    CalibrateSettings settings;
+    settings.rig = venue;
+    Progress silent;
+    calibrate(root() / "statue3", settings, root() / "cache", silent);
+    EvaluateSettings evaluating;
+    evaluating.methods = {Method::refined};
+    const EvaluateResult joint = evaluate(root() / "statue3", evaluating, root() / "cache", silent);
+
+    const MeasuredCalibration measured =
+        loadCalibration(CalibrationFolder::open(root() / "statue3", CalibrationFolder::Access::read), silent);
+    const MeasuredVenue alone = firstAlone(measured.venue);
+    const compensation::RidgeChoice inverse = invert(alone, settings, silent);
+    const Compensator compensator(alone, inverse.inverse);
+    const OpenedRig rig = openRig(measured.rig, root() / "cache", silent);
+    const Rasters& cameras = measured.venue.transport.cameras();
+    std::vector<double> together(3, 0.0), single(3, 0.0);
+    const std::vector<NamedImage> images = standardImages();
+    for (std::size_t image = 0; image < images.size(); ++image) {
+      const Target wanted = fitTarget(images[image].linear, measured.venue, {});
+      TargetSettings sameCorners;
+      sameCorners.corners = wanted.corners;
+      const Target own = fitTarget(images[image].linear, alone, sameCorners);
+      const Compensation solved = compensator.solve(Method::refined, own, silent);
+      const CameraStack seen = rig.venue->trueRadiance(
+          encodedDrive(solved.projector, measured.venue.transport.projectors(), measured.linearization));
+      // As bright as it aims to be.
+      CameraStack bright = wanted.wanted;
+      for (std::size_t i = 0; i < bright.size(); ++i)
+        if (wanted.inside[i / 3]) bright[i] *= own.white[0] / wanted.white[0];
+      for (std::size_t camera = 0; camera < 3; ++camera) {
+        const auto begin = wanted.reachable.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera));
+        const CameraMask mask(begin, begin + static_cast<std::ptrdiff_t>(cameras.size(camera).count()));
+        single[camera] += psnr(imageFromStack(seen, cameras, camera), imageFromStack(bright, cameras, camera),
+                               own.white, mask) /
+                          static_cast<double>(images.size());
+        const ViewScore& score =
+            camera == 0 ? joint.images[image] : joint.images[image].others.at(camera - 1);
+        together[camera] += score.methods.front().psnrReachable / static_cast<double>(images.size());
+      }
+    }
+    for (std::size_t camera = 0; camera < 3; ++camera)
+      qInfo("camera %zu: %.2f dB from all views, %.2f dB from the first alone", camera + 1, together[camera],
+            single[camera]);
+    QVERIFY(std::ranges::min(together) > std::ranges::min(single) + 4.0);
+    QVERIFY(joint.images[0].others[0].reachable > 0.7);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestSeveralViews)
+#include "test_several_views.moc"

@@ -110,10 +110,10 @@ std::string textOf(const pipeline::CompensateResult& result) {
 
 namespace {
 
-std::string tableOf(const std::string& title, const pipeline::ViewScore& view) {
+std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods) {
   std::string text = fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", title, "reachable dB", "all dB",
                                  "SSIM", "dE2000", "seconds");
-  for (const pipeline::MethodScore& score : view.methods)
+  for (const pipeline::MethodScore& score : methods)
     text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", nameOf(score.method),
                         score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
   return text;
@@ -125,9 +125,9 @@ std::string textOf(const pipeline::EvaluateResult& result) {
   std::string text =
       fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
   for (const pipeline::ImageScore& image : result.images) {
-    text += tableOf(image.name, image);
+    text += tableOf(image.name, image.methods);
     for (std::size_t view = 0; view < image.others.size(); ++view)
-      text += tableOf(fmt::format("camera {}", view + 2), image.others[view]);
+      text += tableOf(fmt::format("camera {}", view + 2), image.others[view].methods);
   }
   return text;
 }

@@ -177,14 +177,12 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   for (const NamedImage& image : content) {
     compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
     CameraMask reachable = judge.reachable(target);
-    ImageScore score;
-    score.name = image.name;
-    score.others.resize(judge.views() - 1);
-    const auto viewOf = [&](std::size_t camera) -> ViewScore& {
-      return camera == 0 ? score : score.others[camera - 1];
+    const auto reachableOf = [&](std::size_t camera) {
+      return shareOf(judge.view(reachable, camera), judge.view(target.inside, camera));
     };
-    for (std::size_t camera = 0; camera < judge.views(); ++camera)
-      viewOf(camera).reachable = shareOf(judge.view(reachable, camera), judge.view(target.inside, camera));
+    ImageScore score{image.name, reachableOf(0), {}};
+    for (std::size_t camera = 1; camera < judge.views(); ++camera)
+      score.others.push_back({reachableOf(camera), {}});
     EvaluatedPictures pictures{image.name,   judge.view(target.wanted, 0), {},
                                target.white, judge.view(target.inside, 0), score.reachable};
     for (compensation::Method method : methods) {
@@ -196,8 +194,9 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       double seconds = watch.seconds();
       const CameraStack seen = judge.seen(compensation);
       for (std::size_t camera = 0; camera < judge.views(); ++camera) {
-        viewOf(camera).methods.push_back(judge.score(method, seen, target, reachable, camera));
-        viewOf(camera).methods.back().seconds = seconds;
+        MethodScore of = judge.score(method, seen, target, reachable, camera);
+        of.seconds = seconds;
+        (camera == 0 ? score.methods : score.others[camera - 1].methods).push_back(of);
       }
       pictures.seen.emplace(method, judge.view(seen, 0));
     }

@@ -30,16 +30,18 @@ struct MethodScore {
   double seconds = 0.0;  // for one frame
 };
 
-/// As a camera sees it.
+/// What another camera sees of an image on the surface.
 struct ViewScore {
-  double reachable = 0.0;  // share of this image's pixels
+  double reachable = 0.0;  // share of the image's pixels in that view
   std::vector<MethodScore> methods;
 };
 
 /// What the first camera sees, in whose view the image lies.
-struct ImageScore : ViewScore {
+struct ImageScore {
   std::string name;
-  std::vector<ViewScore> others;  // what the other cameras see of it on the surface
+  double reachable = 0.0;  // share of this image's pixels
+  std::vector<MethodScore> methods;
+  std::vector<ViewScore> others{};  // camera after camera
 };
 
 /// How well T itself was measured; relative errors.

@@ -24,23 +24,22 @@ calibration::Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
   return json;
 }
 
-calibration::Json viewToJson(const ViewScore& view) {
+calibration::Json methodsToJson(const std::vector<MethodScore>& scores) {
   calibration::Json methods = calibration::Json::object();
-  for (const MethodScore& score : view.methods)
+  for (const MethodScore& score : scores)
     methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
                                                   {"psnr_all", score.psnrAll},
                                                   {"ssim", score.ssim},
                                                   {"delta_e", score.deltaE},
                                                   {"seconds", score.seconds}};
-  return {{"reachable", view.reachable}, {"methods", std::move(methods)}};
+  return methods;
 }
 
 calibration::Json scoreToJson(const ImageScore& image) {
-  calibration::Json json = viewToJson(image);
-  json["name"] = image.name;
-  if (image.others.empty()) return json;
-  json["other_views"] = calibration::Json::array();
-  for (const ViewScore& view : image.others) json["other_views"].push_back(viewToJson(view));
+  calibration::Json json{
+      {"name", image.name}, {"reachable", image.reachable}, {"methods", methodsToJson(image.methods)}};
+  for (const ViewScore& view : image.others)
+    json["other_views"].push_back({{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}});
   return json;
 }
 

@@ -139,7 +139,7 @@ class TestPackedTransport : public QObject {
         // Half a code a leaf, all of the same sign at worst; the same for the codes of T itself.
         float rounding = static_cast<float>(blocks.size() + 1) * (largest + 1e-6f) / 32767.0f;
         QVERIFY((sum - sums[pixel]).cwiseAbs().maxCoeff() <= rounding);
-        if (scene.rfind("several", 0) == 0) continue;
+        if (scene.startsWith("several")) continue;
         Blocks whole;
         for (std::size_t entry = leaves.rowBegin(pixel); entry < leaves.rowBegin(pixel + 1); ++entry)
           whole.emplace(leaves.column(entry), leaves.block(pixel, entry));

@@ -213,9 +213,9 @@ class TestSeveralViews : public QObject {
         single[camera] += psnr(imageFromStack(seen, cameras, camera), imageFromStack(bright, cameras, camera),
                                own.white, mask) /
                           static_cast<double>(images.size());
-        const ViewScore& score =
-            camera == 0 ? joint.images[image] : joint.images[image].others.at(camera - 1);
-        together[camera] += score.methods.front().psnrReachable / static_cast<double>(images.size());
+        const std::vector<MethodScore>& scores =
+            camera == 0 ? joint.images[image].methods : joint.images[image].others.at(camera - 1).methods;
+        together[camera] += scores.front().psnrReachable / static_cast<double>(images.size());
       }
     }
     for (std::size_t camera = 0; camera < 3; ++camera)

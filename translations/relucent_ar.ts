@@ -2910,6 +2910,14 @@
             <numerusform>%n نمط مع كل الفحوص</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>بانتظار إجابتك.</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>قرر ما العمل</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5431,10 +5439,6 @@ projector %2</source>
         <translation>فشلت</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>قيد القياس</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>الحالية</translation>
     </message>
@@ -5453,6 +5457,10 @@ projector %2</source>
     <message>
         <source>stopped early</source>
         <translation>أُوقف مبكرًا</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>قيد التنفيذ</translation>
     </message>
 </context>
 <context>

@@ -2842,6 +2842,14 @@
             <numerusform>%n Muster mit allen Prüfungen</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>Wartet auf Ihre Antwort.</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>Entscheiden, was zu tun ist</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5319,10 +5327,6 @@ Projektor %2</translation>
         <translation>gescheitert</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>misst</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>aktuell</translation>
     </message>
@@ -5341,6 +5345,10 @@ Projektor %2</translation>
     <message>
         <source>stopped early</source>
         <translation>vorzeitig gestoppt</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>läuft</translation>
     </message>
 </context>
 <context>

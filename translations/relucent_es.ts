@@ -2842,6 +2842,14 @@
             <numerusform>%n patrones con todas las comprobaciones</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>Esperando su respuesta.</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>Decidir qué hacer</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5319,10 +5327,6 @@ proyector %2</translation>
         <translation>fallido</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>midiendo</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>actual</translation>
     </message>
@@ -5341,6 +5345,10 @@ proyector %2</translation>
     <message>
         <source>stopped early</source>
         <translation>detenido antes de tiempo</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>en curso</translation>
     </message>
 </context>
 <context>

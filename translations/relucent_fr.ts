@@ -2842,6 +2842,14 @@
             <numerusform>%n motifs avec tous les contrôles</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>En attente de votre réponse.</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>Décider que faire</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5319,10 +5327,6 @@ projecteur %2</translation>
         <translation>en échec</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>mesure en cours</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>actuelle</translation>
     </message>
@@ -5341,6 +5345,10 @@ projecteur %2</translation>
     <message>
         <source>stopped early</source>
         <translation>arrêté avant la fin</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>en cours</translation>
     </message>
 </context>
 <context>

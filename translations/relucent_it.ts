@@ -2842,6 +2842,14 @@
             <numerusform>%n motivi con tutti i controlli</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>In attesa di una risposta.</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>Decidi cosa fare</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5319,10 +5327,6 @@ proiettore %2</translation>
         <translation>non riuscito</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>in misura</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>attuale</translation>
     </message>
@@ -5341,6 +5345,10 @@ proiettore %2</translation>
     <message>
         <source>stopped early</source>
         <translation>fermato in anticipo</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>in corso</translation>
     </message>
 </context>
 <context>

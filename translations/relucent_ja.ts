@@ -2825,6 +2825,14 @@
             <numerusform>確認を含めて %n パターン</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>回答を待っています。</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>対処方法を選ぶ</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5291,10 +5299,6 @@ projector %2</source>
         <translation>失敗</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>測定中</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>現在のステップ</translation>
     </message>
@@ -5313,6 +5317,10 @@ projector %2</source>
     <message>
         <source>stopped early</source>
         <translation>途中で停止</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>実行中</translation>
     </message>
 </context>
 <context>

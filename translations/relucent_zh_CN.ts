@@ -2825,6 +2825,14 @@
             <numerusform>%n 个图案（含全部检查）</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>正在等待您的回答。</translation>
+    </message>
+    <message>
+        <source>Decide what to do</source>
+        <translation>决定怎么办</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -5291,10 +5299,6 @@ projector %2</source>
         <translation>失败</translation>
     </message>
     <message>
-        <source>measuring</source>
-        <translation>正在测量</translation>
-    </message>
-    <message>
         <source>current</source>
         <translation>当前</translation>
     </message>
@@ -5313,6 +5317,10 @@ projector %2</source>
     <message>
         <source>stopped early</source>
         <translation>提前停止</translation>
+    </message>
+    <message>
+        <source>under way</source>
+        <translation>进行中</translation>
     </message>
 </context>
 <context>

@@ -34,6 +34,11 @@ std::string descriptionOf(const FakeGigeSettings& settings) {
   while (!text.empty() && text.back() == '\0') text.pop_back();
 
   replaceOnce(text, "<EnumEntry Name=\"Mono8\"", moreFormats + std::string("<EnumEntry Name=\"Mono8\""));
+  if (!settings.sensor.empty()) {
+    const auto value = [](int side) { return "<Value>" + std::to_string(side) + "</Value>"; };
+    replaceOnce(text, "<pValue>SensorWidthRegister</pValue>", value(settings.sensor.width));
+    replaceOnce(text, "<pValue>SensorHeightRegister</pValue>", value(settings.sensor.height));
+  }
   if (settings.longestKept > 0) {
     const std::string limit = std::to_string(settings.longestKept);
     replaceOnce(text, "<FormulaTo>FROM</FormulaTo>",

@@ -13,6 +13,7 @@ namespace relucent::test {
 
 struct FakeGigeSettings {
   std::string serial = "RL01";
+  Size sensor;                     // all of it; empty: the library's, which is larger than anybody needs
   double lostPackets = 0.0;        // share of the packets that never arrive
   std::uint32_t longestKept = 0;   // microseconds; longer exposures are cut to this without a word; 0: none
   double framesPerSecond = 400.0;  // how often it looks whether a photograph is wanted

@@ -82,6 +82,7 @@ void AcquirePage::makeCommands() {
   return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
   goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
+  decide_ = addCommand(Icon::warning, [this] { askAgain(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
@@ -90,10 +91,15 @@ void AcquirePage::makeCommands() {
 }
 
 PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
-  return addCommand(icon, [this, answer] {
-    if (answer == sentinels::Answer::retry) session_.putRight();
-    question_->give(answer);
-  });
+  return addCommand(icon, [this, answer] { this->answer(answer); });
+}
+
+void AcquirePage::answer(sentinels::Answer answer) {
+  if (answer == sentinels::Answer::retry) session_.putRight();
+  asked_ = false;
+  question_->give(answer);
+  tellProgress();
+  tellStatus();
 }
 
 AcquirePage::~AcquirePage() {
@@ -103,8 +109,8 @@ AcquirePage::~AcquirePage() {
 StepStatus AcquirePage::status() const {
   const bool hasResult = session_.result(calibration::Stage::acquisition).has_value();
   const QString share = percentText(progress().value_or(0.0));
-  if (isPaused() || isDiskFull())
-    return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull()};
+  if (isPaused() || isDiskFull() || isAsked())
+    return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull() || isAsked()};
   if (isCountingDown())
     return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(share), hasResult};
@@ -130,6 +136,7 @@ StepStatus AcquirePage::status() const {
 QString AcquirePage::hint() const {
   if (isMeasuring() && session_.isScreenMissing()) return tr("Waiting for the projector's screen.");
   if (isMeasuring() && session_.isCameraSilent()) return tr("Waiting for the camera.");
+  if (isAsked()) return tr("Waiting for your answer.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
@@ -174,6 +181,7 @@ void AcquirePage::updateCommands() {
   goOnWithDisk_->show(tr("Go on now"));
   goOnMeasuring_->show(goOnMeasuringText(), mayStart);
   goOnMeasuring_->setToolTip(mayStart ? QString() : hint());
+  decide_->show(tr("Decide what to do"));
   retryAlarm_->show(tr("Measure again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
@@ -198,6 +206,7 @@ std::vector<PageCommand*> AcquirePage::secondary() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
+  if (isAsked()) return askingBanner();
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
@@ -216,6 +225,12 @@ Banner AcquirePage::staleBanner() const {
   return {Banner::Kind::amber, tr("Measuring again has not ended"),
           tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
              nullptr, again_)};
+}
+
+/// Whoever has closed the question finds it here again.
+Banner AcquirePage::askingBanner() const {
+  return {Banner::Kind::amber, AcquisitionTrace::headingOf(alarm_->kind), fullSentence(alarm_->what),
+          decide_};
 }
 
 bool AcquirePage::isStale() const {
@@ -317,6 +332,7 @@ void AcquirePage::begin() {
   leaving_.stop();
   question_->setClosed(false);
   alarm_.reset();
+  asked_ = false;
   viewBefore_ = {};
   begunAt_ = lastCount_ = session_.live().photographs();
   rate_ = secondsAPattern_ = 0.0;
@@ -370,6 +386,9 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm) {
   if (viewBefore_.empty()) viewBefore_ = session_.live().floodlight().signal;
   if (alarm.kind == sentinels::AlarmKind::moved && !viewBefore_.empty()) report.repair = pushBack_;
   alarm_ = alarm;
+  asked_ = true;
+  tellProgress();
+  tellStatus();
   Q_EMIT failed(report);
   Q_EMIT asks();
 }
@@ -380,6 +399,7 @@ void AcquirePage::askAgain() {
 
 void AcquirePage::ended() {
   second_.stop();
+  asked_ = false;
   trace_.end();
   if (session_.isOpen()) {
     session_.reload();

@@ -65,8 +65,12 @@ class AcquirePage : public DevicePage {
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
   /// The measurement waits for room on the disk.
   bool isDiskFull() const { return isMeasuring() && room_.waiting().has_value(); }
+  /// The measurement waits for an answer to an alarm.
+  bool isAsked() const { return isMeasuring() && asked_; }
   /// By somebody, or by something that is missing.
-  bool isHeldUp() const { return isPaused() || isDiskFull() || (isMeasuring() && session_.isDeviceLost()); }
+  bool isHeldUp() const {
+    return isPaused() || isDiskFull() || isAsked() || (isMeasuring() && session_.isDeviceLost());
+  }
   bool isStopping() const { return isMeasuring() && job_.isStopping(); }
   QString stage() const { return job_.stage(); }
   /// Of the shown projector and camera.
@@ -177,6 +181,8 @@ class AcquirePage : public DevicePage {
   void keep(const acquisition::AcquisitionSettings& settings);
   void diskChanged();
   void askAboutAlarm(const sentinels::Alarm& alarm);
+  void answer(sentinels::Answer answer);
+  Banner askingBanner() const;
   PageCommand* answering(Icon icon, sentinels::Answer answer);
   void ended();
   void tick();
@@ -186,6 +192,7 @@ class AcquirePage : public DevicePage {
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
   PageCommand* goOnWithDisk_;                                                 // of the banner too
   PageCommand* goOnMeasuring_;                                                // of the banner
+  PageCommand* decide_;                                                       // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *pushBack_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
@@ -215,6 +222,7 @@ class AcquirePage : public DevicePage {
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
   std::optional<sentinels::Alarm> alarm_;  // the last
+  bool asked_ = false;                     // about it, and nobody has answered yet
   image::Image viewBefore_;
   RoomQuestion room_;
   bool diskWasFull_ = false;

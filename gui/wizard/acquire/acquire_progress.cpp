@@ -107,6 +107,7 @@ void AcquirePage::resume() {
 void AcquirePage::stopAndKeep() {
   job_.stopAndKeep();
   session_.giveUpCamera();
+  if (isAsked()) answer(sentinels::Answer::keepAndStop);
   resume();
 }
 

@@ -183,8 +183,11 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
                 .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
            {true, view, view ? tr("Camera still") : tr("The view changed"),
             tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
-           {true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
-            tr("Its light drifted by %1 and is corrected.").arg(fineShare(std::abs(now.lamp - 1.0)))},
+           // What is seen of another view says nothing of the lamp.
+           view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
+                             tr("Its light drifted by %1 and is corrected.")
+                                 .arg(fineShare(std::abs(now.lamp - 1.0)))}
+                : WatchState{false, true, tr("Projector"), {}},
            {true, even, even ? tr("No flicker") : tr("The light flickers"),
             // One exposure alone has nothing to differ from.
             now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))

@@ -14,12 +14,16 @@ namespace relucent::gui {
 namespace {
 
 /// From the middle of the view to where the camera has to be turned; as long as the way, but to be seen.
-QImage arrowTo(QSize size, double x, double y) {
+/// Finer than the photograph where that has few pixels, so that an arrow stays an arrow.
+QImage arrowTo(QSize view, double x, double y) {
+  constexpr int leastSide = 480;
+  const int fine = std::max(1, leastSide / std::max(1, std::min(view.width(), view.height())));
+  const QSize size = fine * view;
   QImage overlay(size, QImage::Format_ARGB32_Premultiplied);
   overlay.fill(Qt::transparent);
   const double way = std::hypot(x, y), side = std::min(size.width(), size.height());
   if (way < NudgeSight::nearEnough) return overlay;
-  const double length = std::clamp(way, 0.15 * side, 0.4 * side), head = 0.05 * side;
+  const double length = std::clamp(fine * way, 0.15 * side, 0.4 * side), head = 0.05 * side;
   const QPointF from(0.5 * size.width(), 0.5 * size.height()), along(x / way, y / way),
       across(-along.y(), along.x()), tip = from + length * along;
   QPainter painter(&overlay);

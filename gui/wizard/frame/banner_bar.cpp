@@ -9,6 +9,7 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 12);
   frame_ = new QFrame;
+  frame_->setObjectName("banner");
   all->addWidget(frame_);
   auto* row = new QHBoxLayout(frame_);
   row->setContentsMargins(16, 12, 12, 12);
@@ -18,6 +19,8 @@ BannerBar::BannerBar(Wizard& wizard, QWidget* parent) : QWidget(parent), wizard_
   texts->setSpacing(2);
   texts->addWidget(sentence_ = labelOf({}, "strong"));
   texts->addWidget(more_ = labelOf({}, "note"));
+  sentence_->setObjectName("banner-sentence");
+  more_->setObjectName("banner-more");
   row->addLayout(texts, 1);
   // The page has one primary command, in the action bar.
   row->addWidget(button_ = buttonOf({}));

@@ -62,6 +62,8 @@ StatusStrip::StatusStrip(Session& session, QWidget* parent) : QFrame(parent), se
   roomLight_ = part(Icon::sun, tr("Room light"));
   roomLight_->setObjectName("room-light");
   projector_->setObjectName("strip-projector");
+  camera_->setObjectName("strip-camera");
+  disk_->setObjectName("strip-disk");
   room_ = roomLight_->parentWidget();
   row->addStretch(1);
   row->addWidget(saved_ = new Fact);

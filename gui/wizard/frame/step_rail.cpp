@@ -46,7 +46,7 @@ QString stateText(const StepStatus& status, bool current, bool locked) {
     case StepState::failed:
       return StepRail::tr("failed");
     case StepState::busy:
-      return StepRail::tr("measuring");
+      return StepRail::tr("under way");
     case StepState::open:
       break;
   }

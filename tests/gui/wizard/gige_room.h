@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "gui/output/two_screens.h"
 #include "relucent/devices/check/latency.h"
 #include "relucent/devices/sensor_frame.h"
 #include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/venue/device_faults.h"
 #include "relucent/venue/venue.h"
 #include "support/fake_gige_camera.h"
 #include "support/screen_light.h"
@@ -60,10 +63,12 @@ class Room {
   Room(const venue::VenueSettings& settings, const std::filesystem::path& cache) : light_("DUMMY1") {
     Progress silent;
     venue_.emplace(settings, cache, silent);
-    rig_ = venue_->rig();
+    rig_ = venue_->rig([this](const rig::ShotId&) { return faultsNow(); });
     brightness_ = 8.0 / frameRate / wellExposed();
+    test::FakeGigeSettings camera;
+    camera.sensor = sensor();
     fake_ = std::make_unique<test::FakeGigeCamera>(
-        test::FakeGigeSettings{}, [this](const test::FakeGigeCamera::View& view) { look(view); });
+        camera, [this](const test::FakeGigeCamera::View& view) { look(view); });
   }
   ~Room() { fake_.reset(); }
 
@@ -72,6 +77,22 @@ class Room {
   int photographs() const { return photographs_; }
   /// Seconds of the camera's that are one of the venue's: its exposures need not be waited for in full.
   double brightness() const { return brightness_; }
+  /// Somebody bumps the camera: what it sees has moved by so many pixels to the right and down. 0: it is put
+  /// back.
+  void bump(double pixels) {
+    std::lock_guard guard(lock_);
+    bumped_ = pixels;
+  }
+  /// No photograph follows the one before in less.
+  void setLeastInterval(std::chrono::milliseconds time) {
+    std::lock_guard guard(lock_);
+    leastInterval_ = time;
+  }
+  /// What shone while they were taken, one after the other: equal numbers for equal patterns.
+  std::vector<std::size_t> patterns() const {
+    std::lock_guard guard(lock_);
+    return patterns_;
+  }
   /// Which photograph comes next: what noise depends on.
   void expect(const rig::CaptureRequest& request) {
     std::lock_guard guard(lock_);
@@ -87,11 +108,36 @@ class Room {
     return seconds;
   }
 
+  Size sensor() const {
+    return devices::sensorSize(rig_.cameras[0]->size(), {devices::SensorLayout::bayerRG, 12});
+  }
+  std::vector<venue::DeviceFault> faultsNow() const {
+    std::lock_guard guard(lock_);
+    if (bumped_ == 0.0) return {};
+    venue::DeviceFault bump;
+    bump.kind = venue::FaultKind::shiftedCamera;
+    bump.amount = bumped_;
+    return {bump};
+  }
+  void remember(const image::Image& shone) {
+    const auto* bytes = reinterpret_cast<const char*>(shone.data().data());
+    const std::size_t pattern = std::hash<std::string_view>()({bytes, shone.data().size() * sizeof(float)});
+    std::lock_guard guard(lock_);
+    patterns_.push_back(pattern);
+  }
+
   /// Called from the camera's thread.
   void look(const test::FakeGigeCamera::View& view) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(view.seconds);
+    using Clock = std::chrono::steady_clock;
+    auto end = Clock::now() +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(view.seconds));
     const Size size = rig_.projectors[0]->size();
     image::Image shone = light_.look(size);
+    {
+      std::lock_guard guard(lock_);
+      end = std::max(end, lastEnd_ + leastInterval_);
+      lastEnd_ = end;
+    }
     std::this_thread::sleep_until(end);  // what a sensor does
     const image::Image after = light_.look(size);
     for (std::size_t i = 0; i < shone.data().size(); ++i)
@@ -101,12 +147,11 @@ class Room {
       std::lock_guard guard(lock_);
       request = request_;
     }
-    if (view.format != "BayerRG12" ||
-        view.sensor != devices::sensorSize(rig_.cameras[0]->size(), {devices::SensorLayout::bayerRG, 12}))
-      return;
+    if (view.format != "BayerRG12" || view.sensor != sensor()) return;
     request.seconds = view.seconds / brightness_;
     rig_.projectors[0]->show(shone);
     test::fillBayerRG12(rig_.cameras[0]->capture(request).signal, view.bytes);
+    remember(shone);
     ++photographs_;
   }
 
@@ -114,7 +159,11 @@ class Room {
   std::optional<venue::SimulatedVenue> venue_;
   rig::Rig rig_;
   double brightness_ = 1.0;
-  std::mutex lock_;
+  mutable std::mutex lock_;
+  double bumped_ = 0.0;
+  std::chrono::milliseconds leastInterval_{0};
+  std::chrono::steady_clock::time_point lastEnd_;
+  std::vector<std::size_t> patterns_;
   rig::CaptureRequest request_{{"none", 0}, 0, 1.0};
   std::atomic<int> photographs_ = 0;
   std::unique_ptr<test::FakeGigeCamera> fake_;

@@ -130,6 +130,7 @@ class TestRehearsal : public QObject {
     QVERIFY(!asked.safe.isEmpty() && !asked.failure.advice.isEmpty() && asked.keep && asked.goOn);
     QVERIFY(session_->surprises()->lasts(Surprise::roomLight));
     asked.resume->trigger();
+    QVERIFY(!acquire_->isHeldUp() && !wizard_->banner());
     endsAsIfNothingHadHappened(Surprise::roomLight);
   }
 
@@ -158,6 +159,25 @@ class TestRehearsal : public QObject {
     acquire_->askAgain();
     question().resume->trigger();
     endsAsIfNothingHadHappened(Surprise::bump);
+  }
+
+  /// Law: a measurement that waits for an answer says so, and asks again whoever has closed the question.
+  void aQuestionThatWasClosedIsAskedAgain() {
+    rehearse({Surprise::bump});
+    const FailureReport asked = question();
+    QVERIFY(acquire_->isHeldUp() && wizard_->statusOf(1).isHeldUp);
+    QVERIFY2(wizard_->statusOf(1).result.startsWith("Paused"), qPrintable(wizard_->statusOf(1).result));
+    QCOMPARE(acquire_->hint(), QString("Waiting for your answer."));
+    const std::optional<Banner> banner = wizard_->banner();
+    QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
+    QCOMPARE(banner->sentence, asked.failure.heading);
+    QCOMPARE(banner->more, asked.failure.what);
+    banner->command->trigger();
+    QCOMPARE(question().failure.what, asked.failure.what);
+    // And the page's own command is an answer.
+    acquire_->stopAndKeep();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
+    QVERIFY(!acquire_->isHeldUp() && told_->isEmpty());
   }
 
   void aCableThatComesOut() {

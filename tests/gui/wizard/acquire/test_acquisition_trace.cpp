@@ -138,7 +138,8 @@ class TestAcquisitionTrace : public QObject {
     QCoreApplication::processEvents();
     auto states = trace.states();
     for (int i = 0; i < 4; ++i) {
-      QVERIFY(states[static_cast<std::size_t>(i)].isKnown);
+      // Through another view nobody sees how bright the lamp is.
+      QCOMPARE(states[static_cast<std::size_t>(i)].isKnown, state != 1 || i != 2);
       QCOMPARE(states[static_cast<std::size_t>(i)].isSteady, i != state);
     }
     QVERIFY2(

@@ -5245,11 +5245,11 @@ proyector %2</translation>
     </message>
     <message>
         <source>blind to light between clusters</source>
-        <translation>ignora la luz entre clústeres</translation>
+        <translation>ciego entre clústeres</translation>
     </message>
     <message>
         <source>recommended; plays all films</source>
-        <translation>recomendado; para todo vídeo</translation>
+        <translation>recomendado, vídeos</translation>
     </message>
 </context>
 <context>

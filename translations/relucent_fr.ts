@@ -5245,11 +5245,11 @@ projecteur %2</translation>
     </message>
     <message>
         <source>blind to light between clusters</source>
-        <translation>ignore la lumière entre groupes</translation>
+        <translation>aveugle entre groupes</translation>
     </message>
     <message>
         <source>recommended; plays all films</source>
-        <translation>recommandée&#x202f;; pour toute vidéo</translation>
+        <translation>recommandée, vidéos</translation>
     </message>
 </context>
 <context>

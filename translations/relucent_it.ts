@@ -5245,11 +5245,11 @@ proiettore %2</translation>
     </message>
     <message>
         <source>blind to light between clusters</source>
-        <translation>ignora la luce tra i cluster</translation>
+        <translation>cieco tra i cluster</translation>
     </message>
     <message>
         <source>recommended; plays all films</source>
-        <translation>consigliato; per tutti i video</translation>
+        <translation>consigliato, video</translation>
     </message>
 </context>
 <context>

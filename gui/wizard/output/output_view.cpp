@@ -259,7 +259,6 @@ class OutputStage : public QWidget {
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->reflect();
     output_->setCaption(figures());
-    projector_->setSubtitle(page_.playsEarlier() ? OutputPage::tr("earlier correction") : QString());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
     if (proof != shown_) {
       shown_ = proof;
@@ -277,6 +276,7 @@ class OutputStage : public QWidget {
   QString figures() const {
     PlayerStatistics s = page_.projection().statistics();
     if (!page_.isOpen() || !page_.missingScreen().isEmpty() || s.frames == 0) return {};
+    if (page_.playsEarlier()) return OutputPage::tr("Earlier correction");
     QString clipped = percentText(s.clipped);
     if (!(s.framesPerSecond > 0.0))
       return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);

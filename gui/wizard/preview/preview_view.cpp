@@ -114,6 +114,14 @@ class PreviewStage : public QWidget {
         page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
+ protected:
+  /// In a small window the stage scrolls, and its picture is one that can be judged.
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    constexpr int narrow = 600, leastHeight = 280;
+    card_->setMinimumHeight(width() < narrow ? leastHeight : 0);
+  }
+
  private:
   /// What is looked at, and its numbers.
   ShownView shownView() const {
@@ -177,7 +185,7 @@ class PreviewStage : public QWidget {
       case compensation::Method::clusters:
         return PreviewPage::tr("blind to light between clusters");
       case compensation::Method::refined:
-        return PreviewPage::tr("recommended; plays all films");
+        return PreviewPage::tr("recommended");
       case compensation::Method::optimum:
         return PreviewPage::tr("limit of this venue");
       default:
@@ -203,6 +211,7 @@ class PreviewStage : public QWidget {
       for (int cell = 0; cell < cells.size(); ++cell) {
         auto* item = new QTableWidgetItem(cells[cell]);
         item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
+        if (cell == MethodsTable::note) item->setToolTip(cells[cell]);
         if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
         table_->setItem(row, cell, item);
       }

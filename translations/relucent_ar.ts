@@ -3457,10 +3457,6 @@
         <translation>التجميع</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>قسّم الموقع إلى مجموعات صغيرة من البكسلات تُحل كل منها وحدها، بسرعة تكفي للفيديو.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>خريطة التجمّعات</translation>
     </message>
@@ -3666,6 +3662,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>تُعرض الأفلام بطريقة «كل الانعكاسات، للأفلام» مهما كانت التجمّعات. تبيّن التجمّعات أي الأماكن يضيء بعضها بعضًا، ويمكن مقارنتها في المعاينة.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>اعرف أي أجزاء السطح يضيء بعضها بعضًا، وقسّمها إلى مجموعات تُحل كل منها على حدة.</translation>
     </message>
 </context>
 <context>
@@ -4943,10 +4943,6 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>الشاشة %1 مفصولة. لا يُعرض شيء.</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>التصحيح السابق</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5356,8 +5352,8 @@ projector %2</source>
         <translation>لا ترى الضوء بين التجمّعات</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>موصى بها؛ تعرض كل الأفلام</translation>
+        <source>recommended</source>
+        <translation>موصى بها</translation>
     </message>
 </context>
 <context>

@@ -3385,10 +3385,6 @@
         <translation>Cluster</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Teilen Sie den Spielort in kleine Pixelgruppen, die sich einzeln lösen lassen, schnell genug für Video.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Clusterkarte</translation>
     </message>
@@ -3574,6 +3570,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>Filme zeigt „Alle Reflexe, für Filme“, gleich wie die Cluster sind. Cluster sagen, welche Stellen einander beleuchten, und lassen sich bei Vorschau vergleichen.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Sehen, welche Teile der Oberfläche einander beleuchten, und sie in Gruppen teilen, die für sich lösbar sind.</translation>
     </message>
 </context>
 <context>
@@ -4835,10 +4835,6 @@ Projektor %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>Der Bildschirm %1 ist nicht angeschlossen. Es wird nichts projiziert.</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>frühere Korrektur</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5248,8 +5244,8 @@ Projektor %2</translation>
         <translation>blind für Licht zwischen Clustern</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>empfohlen; spielt alle Filme</translation>
+        <source>recommended</source>
+        <translation>empfohlen</translation>
     </message>
 </context>
 <context>

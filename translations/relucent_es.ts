@@ -3385,10 +3385,6 @@
         <translation>Clústeres</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Divida el lugar en pequeños grupos de píxeles que se resuelven por separado, con rapidez suficiente para vídeo.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Mapa de clústeres</translation>
     </message>
@@ -3574,6 +3570,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>Los vídeos usan «Todos los rebotes, para vídeo», sean como sean los clústeres. Los clústeres indican qué sitios se iluminan entre sí y pueden compararse en la vista previa.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Ver qué partes de la superficie se iluminan entre sí y dividirlas en grupos que se resuelven por separado.</translation>
     </message>
 </context>
 <context>
@@ -4835,10 +4835,6 @@ proyector %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>La pantalla %1 está desconectada. No se proyecta nada.</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>corrección anterior</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5248,8 +5244,8 @@ proyector %2</translation>
         <translation>ciego entre clústeres</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>recomendado, vídeos</translation>
+        <source>recommended</source>
+        <translation>recomendado</translation>
     </message>
 </context>
 <context>

@@ -3385,10 +3385,6 @@
         <translation>Groupes</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Découpez le lieu en petits groupes de pixels résolus séparément, assez vite pour la vidéo.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Carte des groupes</translation>
     </message>
@@ -3574,6 +3570,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>Les vidéos utilisent «&#x202f;Tous les rebonds, pour la vidéo&#x202f;», quels que soient les groupes. Les groupes disent quels endroits s’éclairent entre eux et se comparent dans l’aperçu.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Voir quelles parties de la surface s’éclairent entre elles et les diviser en groupes qui se résolvent seuls.</translation>
     </message>
 </context>
 <context>
@@ -4835,10 +4835,6 @@ projecteur %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>L’écran %1 est débranché. Rien n’est projeté.</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>ancienne correction</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5248,8 +5244,8 @@ projecteur %2</translation>
         <translation>aveugle entre groupes</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>recommandée, vidéos</translation>
+        <source>recommended</source>
+        <translation>recommandée</translation>
     </message>
 </context>
 <context>

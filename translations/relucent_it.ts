@@ -3385,10 +3385,6 @@
         <translation>Cluster</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Dividere il luogo in piccoli gruppi di pixel risolvibili da soli, abbastanza veloci per il video.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Mappa cluster</translation>
     </message>
@@ -3574,6 +3570,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>I video usano «Tutti i rimbalzi, per i video», quali che siano i cluster. I cluster dicono quali punti si illuminano a vicenda e si confrontano nell’anteprima.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Vedere quali parti della superficie si illuminano a vicenda e dividerle in gruppi risolvibili da soli.</translation>
     </message>
 </context>
 <context>
@@ -4835,10 +4835,6 @@ proiettore %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>Lo schermo %1 è scollegato. Nulla viene proiettato.</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>correzione precedente</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5248,8 +5244,8 @@ proiettore %2</translation>
         <translation>cieco tra i cluster</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>consigliato, video</translation>
+        <source>recommended</source>
+        <translation>consigliato</translation>
     </message>
 </context>
 <context>

@@ -3367,10 +3367,6 @@
         <translation>クラスター</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>会場を、個別に解ける小さな画素グループに分け、動画に十分な速度にします。</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>クラスターマップ</translation>
     </message>
@@ -3551,6 +3547,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>動画は、クラスターにかかわらず「相互反射すべて、動画用」で表示されます。クラスターは互いに照らし合う場所を示し、プレビューで比較できます。</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>投影面のどの部分が互いに照らし合うかを調べ、個別に解けるグループに分けます。</translation>
     </message>
 </context>
 <context>
@@ -4808,10 +4808,6 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>画面 %1 が外れています。何も投影していません。</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>以前の補正</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5221,8 +5217,8 @@ projector %2</source>
         <translation>クラスター間の光を無視</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>推奨、動画はすべてこれ</translation>
+        <source>recommended</source>
+        <translation>推奨</translation>
     </message>
 </context>
 <context>

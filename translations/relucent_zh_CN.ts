@@ -3367,10 +3367,6 @@
         <translation>聚类</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>将场地划分为可独立求解的小像素组，快得足以用于视频。</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>簇图</translation>
     </message>
@@ -3551,6 +3547,10 @@
     <message>
         <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
         <translation>视频始终用“全部反射，用于视频”显示，与簇无关。簇说明哪些位置互相照亮，可在预览中比较。</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>查看表面哪些部分互相照亮，并分成可各自求解的组。</translation>
     </message>
 </context>
 <context>
@@ -4808,10 +4808,6 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>屏幕 %1 已断开。当前没有投影。</translation>
     </message>
-    <message>
-        <source>earlier correction</source>
-        <translation>以前的补偿</translation>
-    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5221,8 +5217,8 @@ projector %2</source>
         <translation>不计簇间的光</translation>
     </message>
     <message>
-        <source>recommended; plays all films</source>
-        <translation>推荐；播放所有视频</translation>
+        <source>recommended</source>
+        <translation>推荐</translation>
     </message>
 </context>
 <context>

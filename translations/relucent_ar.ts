@@ -1463,6 +1463,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>لا تعود الكاميرا إلى جزء المستشعر الذي كان لها</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3458,10 +3465,6 @@
         <translation>التجميع</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>قسّم الموقع إلى مجموعات صغيرة من البكسلات تُحل كل منها وحدها، بسرعة تكفي للفيديو.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>خريطة التجمّعات</translation>
     </message>
@@ -3659,6 +3662,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>السطح ضبابي بين البكسلات المتجاورة فتتصل المجموعات. يبقيها الحد منفصلة.</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>التجمّعات المحفوظة تعود إلى قياس سابق</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>تُعرض الأفلام بطريقة «كل الانعكاسات، للأفلام» مهما كانت التجمّعات. تبيّن التجمّعات أي الأماكن يضيء بعضها بعضًا، ويمكن مقارنتها في المعاينة.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>اعرف أي أجزاء السطح يضيء بعضها بعضًا، وقسّمها إلى مجموعات تُحل كل منها على حدة.</translation>
     </message>
 </context>
 <context>
@@ -4817,10 +4832,6 @@ projector %2</source>
         <translation>اللقطة بحاجة إلى تحديث</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>تغيّر ما يُعرض منذ ذلك الحين. التقطها من جديد للتحقق مما يُعرض الآن.</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>يبدأ عرض موقع آخر عند تسجيل الدخول. تثبيت هذا العرض يحل محله.</translation>
     </message>
@@ -4875,6 +4886,70 @@ projector %2</source>
     <message>
         <source>taken %1, out of date</source>
         <translation>التُقطت في ⁨%1⁩، بحاجة إلى تحديث</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>لم تُختر شاشة</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1، مفصولة</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>لا يمكن التحقق بعد</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>ما زال جهاز العرض يعرض التصحيح السابق. أظهر الجديد ثم التقط اللقطة.</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>قيس ما تُظهره أو اختير من جديد منذ ذلك الحين. التقطها مرة أخرى للتحقق مما يُعرض الآن.</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>كما هو متوقّع، لكن الأخطاء واضحة للعين</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>لم يتحرّك شيء: التوقّع نفسه تقريبي. يفيد قياس أدق أو محتوى أعتم.</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>التصحيح السابق</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>في انتظار عودة شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>ما يُعرض ليس آخر ما قيس أو اختير. أظهره أولًا.</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>إظهار التصحيح الجديد</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>ألقِ نظرة أولًا</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>العرض ما زال يستخدم التصحيح السابق</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>ما قيس أو اختير منذ ذلك الحين لم يصل إلى جهاز العرض بعد.</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>ما قيس أو اختير منذ ذلك الحين لم يصل إلى جهاز العرض بعد. الخطوات التي تحتاج إلى تحديث تسري كما اختيرت من قبل.</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>الشاشة %1 مفصولة. لا يُعرض شيء.</translation>
     </message>
 </context>
 <context>
@@ -5121,20 +5196,12 @@ projector %2</source>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>زمن الصورة</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>ملاحظات</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>لا ترى الانعكاسات</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>موصى بها</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5259,6 +5326,42 @@ projector %2</source>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>المخطّط: %1 لا يمكن بلوغه</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>أُعيد القياس بعد وضع المحتوى</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>تغيّرت العتبة بعد وضع المحتوى</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>ما تراه هنا متوقّع من جديد. يُحفظ عند الانتقال إلى الخرج.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>متوقّع من القياس. يستمر الخرج في العرض.</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>صورة ثابتة</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>الزمن اللازم لحساب صورة ثابتة مرة واحدة. تُعرض الأفلام دائمًا بطريقة «كل الانعكاسات، للأفلام» في محرك العرض الأسرع: وتُذكر سرعتها في «التجميع».</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>لهذا المحتوى حيث يمكن بلوغه. ما يتوقّعه القياس متوسط صور أخرى: وقد يختلف الرقمان ببضعة dB.</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>لا ترى الضوء بين التجمّعات</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>موصى بها</translation>
     </message>
 </context>
 <context>

@@ -1447,6 +1447,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>die Kamera kehrt nicht zu dem Teil des Sensors zurück, den sie hatte</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3386,10 +3393,6 @@
         <translation>Cluster</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Teilen Sie den Spielort in kleine Pixelgruppen, die sich einzeln lösen lassen, schnell genug für Video.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Clusterkarte</translation>
     </message>
@@ -3567,6 +3570,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>Die Fläche ist über Nachbarpixel hinweg unscharf, sodass Gruppen zusammenwachsen. Die Grenze hält sie getrennt.</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>Die gespeicherten Cluster gehören zu einer früheren Messung</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>Filme zeigt „Alle Reflexe, für Filme“, gleich wie die Cluster sind. Cluster sagen, welche Stellen einander beleuchten, und lassen sich bei Vorschau vergleichen.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Sehen, welche Teile der Oberfläche einander beleuchten, und sie in Gruppen teilen, die für sich lösbar sind.</translation>
     </message>
 </context>
 <context>
@@ -4709,10 +4724,6 @@ Projektor %2</translation>
         <translation>Das Foto ist veraltet</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>Was gezeigt wird, wurde seitdem geändert. Nehmen Sie es neu auf, um das jetzt Gezeigte zu prüfen.</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>Die Show eines anderen Spielorts startet bei der Anmeldung. Diese zu installieren ersetzt sie.</translation>
     </message>
@@ -4767,6 +4778,70 @@ Projektor %2</translation>
     <message>
         <source>taken %1, out of date</source>
         <translation>um %1, veraltet</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>Kein Bildschirm gewählt</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, nicht angeschlossen</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>Noch nicht zu prüfen</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>Der Projektor zeigt noch die frühere Korrektur. Zeigen Sie die neue, dann nehmen Sie das Foto auf.</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>Was es zeigt, wurde seitdem neu gemessen oder gewählt. Nehmen Sie es neu auf, um zu prüfen, was jetzt gezeigt wird.</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>Wie vorhergesagt, aber Fehler sind deutlich zu sehen</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>Nichts hat sich bewegt: Die Vorhersage selbst ist grob. Feiner messen oder dunklere Inhalte helfen.</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>Frühere Korrektur</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>Wartet, bis der Bildschirm des Projektors zurückkommt.</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>Was läuft, ist nicht das zuletzt Gemessene oder Gewählte. Zeigen Sie zuerst dieses.</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>Neue Korrektur zeigen</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>Erst ansehen</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>Die Show spielt noch die frühere Korrektur</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>Was seitdem gemessen oder gewählt wurde, ist noch nicht auf dem Projektor.</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>Was seitdem gemessen oder gewählt wurde, ist noch nicht auf dem Projektor. Veraltete Schritte gelten so, wie sie zuvor gewählt wurden.</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>Der Bildschirm %1 ist nicht angeschlossen. Es wird nichts projiziert.</translation>
     </message>
 </context>
 <context>
@@ -5013,20 +5088,12 @@ Projektor %2</translation>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>Zeit je Bild</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>Hinweise</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>blind für Reflexionen</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>empfohlen</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5151,6 +5218,42 @@ Projektor %2</translation>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>Schraffiert: %1 unerreichbar</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>Seit der Inhalt platziert wurde, ist neu gemessen worden</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>Seit der Inhalt platziert wurde, ist die Schwelle geändert worden</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>Was Sie hier sehen, ist neu vorhergesagt. Mit dem Schritt zur Ausgabe wird es gespeichert.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>Aus der Messung vorhergesagt. Die Ausgabe läuft weiter.</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>Standbild</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>Wie lange ein Standbild einmal zu berechnen ist. Filme laufen immer mit „Alle Reflexe, für Filme“ im schnelleren Rechenkern der Show: Wie schnell, steht bei Cluster.</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>Für diesen Inhalt, wo er erreichbar ist. Was Messen erwartet, ist ein Mittel über andere Bilder: Beide können um einige dB auseinanderliegen.</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>blind für Licht zwischen Clustern</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>empfohlen</translation>
     </message>
 </context>
 <context>

@@ -1447,6 +1447,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>la cámara no vuelve a la parte del sensor que tenía</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3386,10 +3393,6 @@
         <translation>Clústeres</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Divida el lugar en pequeños grupos de píxeles que se resuelven por separado, con rapidez suficiente para vídeo.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Mapa de clústeres</translation>
     </message>
@@ -3567,6 +3570,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>La superficie se desenfoca entre píxeles vecinos y los grupos se unen. El límite los mantiene separados.</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>Los clústeres guardados corresponden a una medición anterior</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>Los vídeos usan «Todos los rebotes, para vídeo», sean como sean los clústeres. Los clústeres indican qué sitios se iluminan entre sí y pueden compararse en la vista previa.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Ver qué partes de la superficie se iluminan entre sí y dividirlas en grupos que se resuelven por separado.</translation>
     </message>
 </context>
 <context>
@@ -4709,10 +4724,6 @@ proyector %2</translation>
         <translation>La fotografía está desactualizada</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>Lo que se muestra ha cambiado desde entonces. Tómela de nuevo para comprobar lo que se muestra ahora.</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>El show de otro lugar empieza al iniciar sesión. Instalar este lo reemplaza.</translation>
     </message>
@@ -4767,6 +4778,70 @@ proyector %2</translation>
     <message>
         <source>taken %1, out of date</source>
         <translation>tomada: %1, desactualizada</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>Ninguna pantalla elegida</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, desconectada</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>Aún no se puede verificar</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>El proyector muestra aún la corrección anterior. Muestre la nueva y luego tome la fotografía.</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>Lo que muestra se ha medido o elegido de nuevo desde entonces. Tómela otra vez para verificar lo que se muestra ahora.</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>Según lo previsto, pero los errores se ven claramente</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>Nada se ha movido: la propia previsión es tosca. Ayuda medir con más detalle o un contenido más oscuro.</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>Corrección anterior</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>Esperando a que vuelva la pantalla del proyector.</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>Lo que se reproduce no es lo último medido o elegido. Muéstrelo primero.</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>Mostrar la nueva corrección</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>Verla antes</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>El show aún usa la corrección anterior</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>Lo medido o elegido desde entonces aún no está en el proyector.</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>Lo medido o elegido desde entonces aún no está en el proyector. Los pasos desactualizados valen como se eligieron antes.</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>La pantalla %1 está desconectada. No se proyecta nada.</translation>
     </message>
 </context>
 <context>
@@ -5013,20 +5088,12 @@ proyector %2</translation>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>Tiempo/imagen</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>Notas</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>ignora rebotes</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>recomendado</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5151,6 +5218,42 @@ proyector %2</translation>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>Rayado: %1 fuera de alcance</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>Se ha medido de nuevo desde que se colocó el contenido</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>Se ha cambiado el umbral desde que se colocó el contenido</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>Lo que ve aquí está previsto de nuevo. Al pasar a la salida se guarda.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>Previsto a partir de la medición. La salida sigue reproduciendo.</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>Imagen fija</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>Cuánto tarda en calcularse una imagen fija, una sola vez. Los vídeos usan siempre «Todos los rebotes, para vídeo» en el motor del show, más rápido: la velocidad está en Clústeres.</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>De este contenido, donde es alcanzable. Lo que espera la medición es una media de otras imágenes: ambos pueden diferir en algunos dB.</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>ciego entre clústeres</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>recomendado</translation>
     </message>
 </context>
 <context>

@@ -1447,6 +1447,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>la caméra ne revient pas à la partie du capteur qu’elle avait</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3386,10 +3393,6 @@
         <translation>Groupes</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Découpez le lieu en petits groupes de pixels résolus séparément, assez vite pour la vidéo.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Carte des groupes</translation>
     </message>
@@ -3567,6 +3570,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>La surface est floue d’un pixel à l’autre, si bien que les groupes se rejoignent. La limite les sépare.</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>Les groupes gardés datent d’une ancienne mesure</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>Les vidéos utilisent «&#x202f;Tous les rebonds, pour la vidéo&#x202f;», quels que soient les groupes. Les groupes disent quels endroits s’éclairent entre eux et se comparent dans l’aperçu.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Voir quelles parties de la surface s’éclairent entre elles et les diviser en groupes qui se résolvent seuls.</translation>
     </message>
 </context>
 <context>
@@ -4709,10 +4724,6 @@ projecteur %2</translation>
         <translation>La photo n’est plus à jour</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>Ce qui est montré a changé depuis. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>La diffusion d’un autre lieu démarre à l’ouverture de session. Installer celle-ci la remplace.</translation>
     </message>
@@ -4767,6 +4778,70 @@ projecteur %2</translation>
     <message>
         <source>taken %1, out of date</source>
         <translation>prise à %1, obsolète</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>Aucun écran choisi</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, débranché</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>Pas encore à contrôler</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>Le projecteur montre encore l’ancienne correction. Montrez la nouvelle, puis prenez la photo.</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>Ce qu’elle montre a été mesuré ou choisi à nouveau depuis. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>Comme prévu, mais les écarts se voient nettement</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>Rien n’a bougé&#x202f;: la prévision elle-même est grossière. Mesurer plus finement ou un contenu plus sombre aide.</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>Ancienne correction</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>En attente du retour de l’écran du projecteur.</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>Ce qui passe n’est pas ce qui a été mesuré ou choisi en dernier. Montrez-le d’abord.</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>Montrer la nouvelle correction</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>La voir d’abord</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>La diffusion utilise encore l’ancienne correction</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>Ce qui a été mesuré ou choisi depuis n’est pas encore sur le projecteur.</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>Ce qui a été mesuré ou choisi depuis n’est pas encore sur le projecteur. Les étapes plus à jour valent telles que choisies avant.</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>L’écran %1 est débranché. Rien n’est projeté.</translation>
     </message>
 </context>
 <context>
@@ -5013,20 +5088,12 @@ projecteur %2</translation>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>Temps par image</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>Remarques</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>ignore les rebonds</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>recommandée</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5151,6 +5218,42 @@ projecteur %2</translation>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>Hachuré : %1 hors d’atteinte</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>Une nouvelle mesure a été faite depuis le placement du contenu</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>Le seuil a changé depuis le placement du contenu</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>Ce que vous voyez ici est prévu à nouveau. Passer à la sortie le garde.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>Prévu d’après la mesure. La sortie continue de diffuser.</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>Image fixe</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>Le temps de calcul d’une image fixe, une seule fois. Les vidéos utilisent toujours «&#x202f;Tous les rebonds, pour la vidéo&#x202f;» dans le moteur plus rapide de la diffusion&#x202f;: la vitesse se lit à Groupes.</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>Pour ce contenu, là où il est atteignable. Ce que la mesure prévoit est une moyenne d’autres images&#x202f;: les deux peuvent différer de quelques dB.</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>aveugle entre groupes</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>recommandée</translation>
     </message>
 </context>
 <context>

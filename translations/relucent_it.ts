@@ -1447,6 +1447,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>la fotocamera non torna alla parte del sensore che aveva</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3386,10 +3393,6 @@
         <translation>Cluster</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>Dividere il luogo in piccoli gruppi di pixel risolvibili da soli, abbastanza veloci per il video.</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>Mappa cluster</translation>
     </message>
@@ -3567,6 +3570,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>La superficie è sfocata tra pixel vicini, quindi i gruppi si uniscono. Il limite li tiene separati.</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>I cluster conservati si riferiscono a una misura precedente</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>I video usano «Tutti i rimbalzi, per i video», quali che siano i cluster. I cluster dicono quali punti si illuminano a vicenda e si confrontano nell’anteprima.</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>Vedere quali parti della superficie si illuminano a vicenda e dividerle in gruppi risolvibili da soli.</translation>
     </message>
 </context>
 <context>
@@ -4709,10 +4724,6 @@ proiettore %2</translation>
         <translation>La foto non è aggiornata</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>Ciò che si mostra è cambiato da allora. Scattarla di nuovo per verificare ciò che si mostra ora.</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>Lo show di un altro luogo parte all’accesso. Installare questo lo sostituisce.</translation>
     </message>
@@ -4767,6 +4778,70 @@ proiettore %2</translation>
     <message>
         <source>taken %1, out of date</source>
         <translation>scattata alle %1, da aggiornare</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>Nessuno schermo scelto</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1, scollegato</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>Ancora da non verificare</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>Il proiettore mostra ancora la correzione precedente. Mostrare la nuova, poi scattare la foto.</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>Ciò che mostra è stato nel frattempo misurato o scelto di nuovo. Scattarla ancora per verificare ciò che si vede ora.</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>Come previsto, ma gli errori si vedono chiaramente</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>Nulla si è spostato: la previsione stessa è grossolana. Aiutano una misura più fine o contenuti più scuri.</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>Correzione precedente</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>In attesa che torni lo schermo del proiettore.</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>Ciò che si vede non è quanto misurato o scelto per ultimo. Mostrarlo prima.</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>Mostra la nuova correzione</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>Guardarla prima</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>Lo show usa ancora la correzione precedente</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>Ciò che è stato misurato o scelto dopo non è ancora sul proiettore.</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>Ciò che è stato misurato o scelto dopo non è ancora sul proiettore. I passi non aggiornati valgono come scelti prima.</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>Lo schermo %1 è scollegato. Nulla viene proiettato.</translation>
     </message>
 </context>
 <context>
@@ -5013,20 +5088,12 @@ proiettore %2</translation>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>Tempo per immagine</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>Note</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>ignora i rimbalzi</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>consigliato</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5151,6 +5218,42 @@ proiettore %2</translation>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>Tratteggiato: %1 irraggiungibile</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>È stato misurato di nuovo da quando il contenuto è stato posizionato</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>La soglia è cambiata da quando il contenuto è stato posizionato</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>Ciò che si vede qui è previsto di nuovo. Andando all’uscita viene conservato.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>Previsto dalla misura. L’uscita continua a riprodurre.</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>Imm. fissa</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>Quanto richiede il calcolo di un’immagine fissa, una volta sola. I video usano sempre «Tutti i rimbalzi, per i video» nel motore più rapido dello show: la velocità è indicata in Cluster.</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>Di questo contenuto, dove è raggiungibile. Ciò che la misura prevede è una media di altre immagini: i due possono differire di alcuni dB.</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>cieco tra i cluster</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>consigliato</translation>
     </message>
 </context>
 <context>

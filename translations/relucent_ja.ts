@@ -1443,6 +1443,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>カメラがセンサーの元の範囲に戻りません</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3368,10 +3375,6 @@
         <translation>クラスター</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>会場を、個別に解ける小さな画素グループに分け、動画に十分な速度にします。</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>クラスターマップ</translation>
     </message>
@@ -3544,6 +3547,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>面のぼけが隣の画素に広がるため、グループがつながります。上限がそれを分けます。</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>保持しているクラスターは以前の測定によるものです</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>動画は、クラスターにかかわらず「相互反射すべて、動画用」で表示されます。クラスターは互いに照らし合う場所を示し、プレビューで比較できます。</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>投影面のどの部分が互いに照らし合うかを調べ、個別に解けるグループに分けます。</translation>
     </message>
 </context>
 <context>
@@ -4682,10 +4697,6 @@ projector %2</source>
         <translation>写真は古くなっています</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>撮影後に表示内容が変更されました。今の表示を検証するには撮り直してください。</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>別の会場のショーがログイン時に始まります。こちらを登録すると置き換わります。</translation>
     </message>
@@ -4740,6 +4751,70 @@ projector %2</source>
     <message>
         <source>taken %1, out of date</source>
         <translation>%1 に撮影、要更新</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>画面が選ばれていません</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1、未接続</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>まだ検証できません</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>プロジェクターはまだ以前の補正を表示しています。新しい補正を表示してから撮影してください。</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>撮影後に、測定または設定が変わりました。今の表示を検証するには撮影し直してください。</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>予測どおりですが、誤差がはっきり見えます</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>何も動いていません。予測そのものが粗いのです。より細かい測定や、暗めのコンテンツで改善します。</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>以前の補正</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>プロジェクターの画面が戻るのを待っています。</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>再生中の補正は、最後の測定や設定のものではありません。まずそれを表示してください。</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>新しい補正を表示</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>先に確認</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>ショーはまだ以前の補正で再生しています</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>その後の測定や設定は、まだ投影されていません。</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>その後の測定や設定は、まだ投影されていません。古くなった手順は、以前の設定のまま使われます。</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>画面 %1 が外れています。何も投影していません。</translation>
     </message>
 </context>
 <context>
@@ -4986,20 +5061,12 @@ projector %2</source>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>1 枚の時間</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>備考</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>相互反射を無視</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>推奨</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5124,6 +5191,42 @@ projector %2</source>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>斜線：%1 は届きません</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>コンテンツの配置後に、測定し直されています</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>コンテンツの配置後に、しきい値が変更されています</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>ここに表示しているのは新しい予測です。出力へ進むと保存されます。</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>測定からの予測です。出力は再生を続けています。</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>静止画</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>静止画を 1 回計算するのにかかる時間です。動画は常に、より速いショー用エンジンで「相互反射すべて、動画用」により再生されます。速さは「クラスター」に表示されます。</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>このコンテンツの、再現できる範囲での値です。測定時の予想は別の画像の平均なので、数 dB 違うことがあります。</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>クラスター間の光を無視</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>推奨</translation>
     </message>
 </context>
 <context>

@@ -1443,6 +1443,13 @@
     </message>
 </context>
 <context>
+    <name>device.part-of-sensor-lost</name>
+    <message>
+        <source>the camera does not go back to the part of the sensor that it had</source>
+        <translation>相机没有回到原来的传感器区域</translation>
+    </message>
+</context>
+<context>
     <name>device.parts-lost-on-the-way</name>
     <message>
         <source>parts of the photograph were lost on the way</source>
@@ -3368,10 +3375,6 @@
         <translation>聚类</translation>
     </message>
     <message>
-        <source>Split the venue into small groups of pixels that can be solved on their own, fast enough for video.</source>
-        <translation>将场地划分为可独立求解的小像素组，快得足以用于视频。</translation>
-    </message>
-    <message>
         <source>Cluster map</source>
         <translation>簇图</translation>
     </message>
@@ -3544,6 +3547,18 @@
     <message>
         <source>The surface is blurred across neighbouring pixels, so groups join up. The limit keeps them apart.</source>
         <translation>表面在相邻像素间模糊，各组因而相连。上限使它们分开。</translation>
+    </message>
+    <message>
+        <source>The clusters that are kept belong to an earlier measurement</source>
+        <translation>已保存的簇属于以前的测量</translation>
+    </message>
+    <message>
+        <source>Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell which places light each other, and can be compared at Preview.</source>
+        <translation>视频始终用“全部反射，用于视频”显示，与簇无关。簇说明哪些位置互相照亮，可在预览中比较。</translation>
+    </message>
+    <message>
+        <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
+        <translation>查看表面哪些部分互相照亮，并分成可各自求解的组。</translation>
     </message>
 </context>
 <context>
@@ -4682,10 +4697,6 @@ projector %2</source>
         <translation>照片已过期</translation>
     </message>
     <message>
-        <source>What is shown has been changed since. Take it again to prove what is shown now.</source>
-        <translation>此后显示内容已更改。请重新拍摄，以验证现在显示的内容。</translation>
-    </message>
-    <message>
         <source>Another venue&apos;s show starts at log-in. Installing this one replaces it.</source>
         <translation>登录时会启动另一个场地的节目。安装本节目会将其替换。</translation>
     </message>
@@ -4740,6 +4751,70 @@ projector %2</source>
     <message>
         <source>taken %1, out of date</source>
         <translation>拍摄于 %1，已过期</translation>
+    </message>
+    <message>
+        <source>No screen chosen</source>
+        <translation>未选择屏幕</translation>
+    </message>
+    <message>
+        <source>%1, unplugged</source>
+        <translation>%1，已断开</translation>
+    </message>
+    <message>
+        <source>Not to be proved yet</source>
+        <translation>尚不能验证</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
+        <translation>投影机仍在显示以前的补偿。请先显示新的补偿，再拍照。</translation>
+    </message>
+    <message>
+        <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
+        <translation>拍摄之后又重新测量或更改过。请重新拍摄，以验证现在显示的内容。</translation>
+    </message>
+    <message>
+        <source>As predicted, but errors are plain to see</source>
+        <translation>与预测相符，但误差明显可见</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.</source>
+        <translation>没有东西移动：预测本身较粗糙。更细的测量或较暗的内容会有帮助。</translation>
+    </message>
+    <message>
+        <source>Earlier correction</source>
+        <translation>以前的补偿</translation>
+    </message>
+    <message>
+        <source>Waiting for the projector&apos;s screen to come back.</source>
+        <translation>正在等待投影机的屏幕恢复。</translation>
+    </message>
+    <message>
+        <source>What plays is not what was measured or chosen last. Show that first.</source>
+        <translation>正在播放的不是最近测量或选择的结果。请先显示它。</translation>
+    </message>
+    <message>
+        <source>Show the new correction</source>
+        <translation>显示新的补偿</translation>
+    </message>
+    <message>
+        <source>Look at it first</source>
+        <translation>先查看</translation>
+    </message>
+    <message>
+        <source>The show still plays the earlier correction</source>
+        <translation>节目仍在使用以前的补偿</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet.</source>
+        <translation>之后测量或选择的内容尚未投影。</translation>
+    </message>
+    <message>
+        <source>What was measured or chosen since is not on the projector yet. Steps that are out of date count with what was chosen there before.</source>
+        <translation>之后测量或选择的内容尚未投影。已过期的步骤沿用以前的选择。</translation>
+    </message>
+    <message>
+        <source>The screen %1 is unplugged. Nothing is projected.</source>
+        <translation>屏幕 %1 已断开。当前没有投影。</translation>
     </message>
 </context>
 <context>
@@ -4986,20 +5061,12 @@ projector %2</source>
         <translation>SSIM</translation>
     </message>
     <message>
-        <source>Time a picture</source>
-        <translation>每张耗时</translation>
-    </message>
-    <message>
         <source>Notes</source>
         <translation>备注</translation>
     </message>
     <message>
         <source>blind to bounces</source>
         <translation>不计间接反射</translation>
-    </message>
-    <message>
-        <source>recommended</source>
-        <translation>推荐</translation>
     </message>
     <message>
         <source>limit of this venue</source>
@@ -5124,6 +5191,42 @@ projector %2</source>
     <message>
         <source>Hatched: %1 cannot be reached</source>
         <translation>斜线：%1 无法达到</translation>
+    </message>
+    <message>
+        <source>It has been measured again since the content was placed</source>
+        <translation>放置内容之后又测量过</translation>
+    </message>
+    <message>
+        <source>The threshold has been changed since the content was placed</source>
+        <translation>放置内容之后更改过阈值</translation>
+    </message>
+    <message>
+        <source>What you see here is predicted anew. Going to the output keeps it.</source>
+        <translation>这里显示的是重新预测的结果。前往输出即保存。</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output goes on playing.</source>
+        <translation>根据测量预测。输出继续播放。</translation>
+    </message>
+    <message>
+        <source>Still picture</source>
+        <translation>静态图片</translation>
+    </message>
+    <message>
+        <source>How long a still picture takes to be solved, once. Films always play by “All bounces, for films” in the quicker show engine: how fast is said at Cluster.</source>
+        <translation>静态图片计算一次所需的时间。视频始终在更快的播放引擎中用“全部反射，用于视频”播放：速度见“聚类”。</translation>
+    </message>
+    <message>
+        <source>Of this content, where it can be reached. What Acquire expects is a mean of other pictures: the two may differ by some dB.</source>
+        <translation>此内容在可达范围内的数值。测量时的预期是其他图片的平均值：两者可能相差几 dB。</translation>
+    </message>
+    <message>
+        <source>blind to light between clusters</source>
+        <translation>不计簇间的光</translation>
+    </message>
+    <message>
+        <source>recommended</source>
+        <translation>推荐</translation>
     </message>
 </context>
 <context>

@@ -5,8 +5,9 @@
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
 #include "relucent/calibration/enum_json.h"
-#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/settings_json.h"
+#include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -55,12 +56,26 @@ ContentSettings contentFrom(const calibration::Json& json) {
 
 }  // namespace
 
+std::string fingerprintOfCorrection(const calibration::CalibrationFolder& folder) {
+  using calibration::Stage;
+  calibration::Json read = calibration::Json::array();
+  for (Stage measured : {Stage::linearization, Stage::acquisition})
+    if (const std::optional<calibration::StageResult> result = calibration::resultOf(folder, measured))
+      read.push_back({result->stored, result->folder.filename().string()});
+  const calibration::Json& settings = folder.settings();
+  for (Stage chosen : {Stage::threshold, Stage::inverse, Stage::clustering}) {
+    const calibration::StageDescription& stage = calibration::descriptionOf(chosen);
+    read.push_back({stage.name, stage.version});
+    for (std::string_view section : stage.sections)
+      if (const std::string name(section); settings.contains(name)) read.push_back({name, settings.at(name)});
+  }
+  return Fingerprint().add(read.dump()).hex();
+}
+
 std::string fingerprintOfShown(const calibration::CalibrationFolder& folder) {
-  Fingerprint fingerprint;
-  for (calibration::Stage stage :
-       {calibration::Stage::inverse, calibration::Stage::clustering, calibration::Stage::content})
-    fingerprint.add(calibration::fingerprintOf(folder, stage));
-  return fingerprint.hex();
+  ContentSettings content = settingsOf(folder).content;
+  content.picture.clear();
+  return Fingerprint().add(fingerprintOfCorrection(folder)).add(toJson(content).dump()).hex();
 }
 
 bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& folder) {

@@ -20,9 +20,14 @@ struct ProofRecord {
   ProveResult figures;  // method, before, after, reachable, moved
 };
 
-/// A fingerprint of all that a picture on the projectors follows from: the measurement, the threshold,
-/// windows and clusters, and how content is shown. With another one a photograph says nothing of what is
-/// shown now.
+/// A fingerprint of all that a picture is corrected with if the calibration is read now: the measurement that
+/// is used, also while another one has begun, threshold, windows and clusters. What was read when it was
+/// another one corrects as of then.
+std::string fingerprintOfCorrection(const calibration::CalibrationFolder& folder);
+
+/// The same with how content is shown, whichever it is: all that a picture on the projectors follows from.
+/// With another one a photograph says nothing of what is shown now, and a show that was opened before does
+/// not show it.
 std::string fingerprintOfShown(const calibration::CalibrationFolder& folder);
 
 /// Whether the photograph was taken of what is shown now; records of earlier versions are taken at their

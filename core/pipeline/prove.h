@@ -57,6 +57,13 @@ struct ProveResult {
 /// (Delta E 00 of 1): nothing has moved.
 bool isAsPredicted(const ProveResult& result);
 
+/// The mean CIEDE2000 from which errors are plain to see; one of 1 is just visible side by side.
+inline constexpr double plainDeltaE = 5.0;
+/// Errors that nobody overlooks, however well they were predicted.
+inline bool isPlainToSee(const ProveResult& result) {
+  return result.after.measured.deltaE >= plainDeltaE;
+}
+
 /// The verification shot: projects a picture as it is and compensated, photographs both with the
 /// calibration's devices, and compares the photographs with what was wanted and with what T predicts.
 /// Nothing of the calibration is changed. Writes into `out`: before.exr, after.exr (measured, camera signal

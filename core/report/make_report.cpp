@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "relucent/base/error.h"
+#include "relucent/calibration/results.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/drift_record.h"
@@ -158,11 +159,15 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   ReportData data;
   data.title = fs::weakly_canonical(folder.path()).filename().string();
   data.venue = venueSentence(measured.rig);
+  data.isSimulated = std::holds_alternative<venue::VenueSettings>(measured.rig);
   data.software = folder.software();
   data.measured = folder.created();
   data.projector = transport.projectors().size(0);
   data.camera = transport.cameras().size(0);
   data.result = pipeline::summaryOf(folder, measured);
+  if (const auto linearized = folder.latest(calibration::Stage::linearization))
+    if (const auto cost = calibration::resultFrom<calibration::Stage::linearization>(*linearized).cost)
+      data.linearizationPatterns = cost->patterns;
   data.responses = measured.linearization.projectors;
   data.additivityError = measured.linearization.additivityError;
   data.exposures = measured.linearization.exposures;
@@ -177,6 +182,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.settings = settingsInWords(pipeline::settingsOf(folder));
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
+    data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
     data.verification = verificationIn(folder, *acquired);
     data.drift = driftIn(folder.path(), *acquired);
   }

@@ -12,8 +12,28 @@
 namespace relucent::report {
 
 std::string percent(double share) {
-  const std::string text = fmt::format("{:.1f} %", 100.0 * share);
-  return text == "-0.0 %" ? "0.0 %" : text;
+  const double percents = 100.0 * share;
+  // As the wizard writes them: what is small is not nothing.
+  const int decimals = std::abs(percents) >= 99.95 || percents == 0.0 ? 0
+                       : std::abs(percents) < 0.095                   ? 2
+                                                                      : 1;
+  const std::string text = fmt::format("{:.{}f} %", percents, decimals);
+  return text == "-0.00 %" || text == "0.00 %" ? "0 %" : text;
+}
+
+std::string smallPercent(double share) {
+  const double percents = 100.0 * share;
+  if (percents >= 0.1 || !(percents > 0.0)) return percent(share);
+  return fmt::format("{:.{}f} %", percents, 1 - static_cast<int>(std::floor(std::log10(percents))));
+}
+
+std::string exposureTime(double seconds) {
+  if (seconds >= 0.3 || !(seconds > 0.0)) return fmt::format("{:.3g} s", seconds);
+  return fmt::format("1/{:.0f} s", 1.0 / seconds);
+}
+
+std::string stageDuration(double seconds) {
+  return seconds < 10.0 ? "under 10 s" : duration(std::round(seconds));
 }
 
 std::string grouped(std::uint64_t number) {

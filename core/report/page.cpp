@@ -42,22 +42,38 @@ std::string sizeText(Size size) {
   return fmt::format("{} × {}", size.width, size.height);
 }
 
+std::uint64_t atLeastNone(int count) {
+  return static_cast<std::uint64_t>(std::max(0, count));
+}
+
 Data cards(const ReportData& data) {
   const pipeline::CalibrateResult& result = data.result;
   double seconds = result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse;
   Data list(Data::type::list);
-  list << named("Photographs", grouped(static_cast<std::uint64_t>(std::max(0, result.exposures))))
-       << named("Time", duration(seconds)) << named("Connections of light", grouped(result.connections))
+  list << named("Photographs, all steps", grouped(atLeastNone(result.exposures)))
+       << named("Time, all steps", stageDuration(seconds))
+       << named("Connections of light", grouped(result.connections))
        << named("Unreliable pixels", percent(result.flaggedShare));
   if (data.evaluation) list << named("Can be reached", percent(data.evaluation->reachable));
   return list;
+}
+
+/// Advice for whoever measures; a client reads what it means.
+bool isAboutStopping(const Message& finding) {
+  return finding.id().starts_with("acquisition.stopped-");
 }
 
 /// What stands out, and what was proved.
 void setFindings(Data& page, const ReportData& data) {
   Data warnings(Data::type::list), assurances(Data::type::list);
   addVerdicts(data, warnings, assurances);
-  for (const Message& finding : data.result.findings) warnings << Data(englishSentence(finding));
+  for (const Message& finding : data.result.findings)
+    if (!isAboutStopping(finding)) warnings << Data(englishSentence(finding));
+  if (const int blocks = data.stoppedAt; blocks > 0)
+    warnings << Data(fmt::format(
+        "Measured coarsely: down to blocks of {0} × {0} pixels of the projector. Finer detail of the "
+        "surface is not corrected.",
+        blocks));
   for (const ReportComparison& shown : data.comparisons)
     if (shown.reachable < leastReachable)
       warnings << Data(fmt::format("{} of “{}” cannot be reached and stays darker than it should.",
@@ -185,8 +201,7 @@ Data response(const ReportData& data) {
     projectors << item;
   }
   std::string times;
-  for (double exposure : data.exposures)
-    times += (times.empty() ? "" : ", ") + fmt::format("{:.4g} s", exposure);
+  for (double exposure : data.exposures) times += (times.empty() ? "" : ", ") + exposureTime(exposure);
   Data section;
   section.set("projectors", projectors);
   if (!times.empty()) section.set("exposures", times);
@@ -210,7 +225,7 @@ Data ridge(const ReportData& data) {
                     fmt::format("{:.2f} dB", trial.psnr), trial.ridge == data.ridge});
   Data section;
   section.set("used", fmt::format("{:.3g}", data.ridge));
-  section.set("chart", charts::svgOf(bars, "PSNR by damping of the inverse"));
+  section.set("chart", charts::svgOf(bars, "PSNR by how strongly the correction is damped"));
   return section;
 }
 
@@ -230,16 +245,27 @@ void setTransport(Data& page, const ReportData& data) {
   }
   if (!data.leavesPerLevel.empty()) page.set("levels", levelBars(data.leavesPerLevel));
   if (!data.ridgeCurve.empty()) page.set("ridge", ridge(data));
+  page.set("hasDetails", !data.leavesPerLevel.empty() || !data.ridgeCurve.empty());
 }
 
 void setSettingsAndTimes(Data& page, const ReportData& data) {
   const pipeline::CalibrateResult& result = data.result;
   Data costs(Data::type::list);
-  costs << named("Linearization", duration(result.seconds.linearization))
-        << named("Acquisition", duration(result.seconds.acquisition))
-        << named("Inverse", duration(result.seconds.inverse))
-        << named("Patterns", std::to_string(result.patterns))
-        << named("Photographs", std::to_string(result.exposures));
+  // By the steps that measured them, each as its page in the program counts it.
+  const auto step = [](double seconds, int patterns, int photographs) {
+    return fmt::format("{}, {} patterns, {} photographs", stageDuration(seconds),
+                       grouped(atLeastNone(patterns)), grouped(atLeastNone(photographs)));
+  };
+  costs << named(
+               "Colours and brightness (Linearize)",
+               step(result.seconds.linearization, data.linearizationPatterns, result.linearizationExposures))
+        << named("Light transport (Acquire), with its checks and test patterns",
+                 step(result.seconds.acquisition, result.patterns - data.linearizationPatterns,
+                      result.exposures - result.linearizationExposures))
+        << named("Computing the correction", stageDuration(result.seconds.inverse))
+        << named("Together",
+                 step(result.seconds.linearization + result.seconds.acquisition + result.seconds.inverse,
+                      result.patterns, result.exposures));
   // The wizard does not record it.
   if (result.peakMemoryBytes > 0)
     costs << named("Most memory used",
@@ -277,7 +303,7 @@ Data pageOf(const ReportData& data) {
   page.set("software", data.software);
   page.set("cards", cards(data));
   setFindings(page, data);
-  if (data.verification) page.set("verification", verificationSection(*data.verification));
+  if (data.verification) page.set("verification", verificationSection(data));
   Data comparisons(Data::type::list);
   for (const ReportComparison& shown : data.comparisons) comparisons << comparison(shown);
   page.set("comparisons", comparisons);

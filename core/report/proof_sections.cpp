@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "relucent/pipeline/prove.h"
 #include "relucent/report/number_text.h"
 
 namespace relucent::report {
@@ -14,19 +15,24 @@ std::string errorText(double measured, const std::optional<double>& predicted) {
   return text + ".";
 }
 
-void addVerification(const ReportVerification& shown, PageData& warnings, PageData& assurances) {
+void addVerification(const ReportData& data, PageData& warnings, PageData& assurances) {
+  const ReportVerification& shown = *data.verification;
   if (!shown.isAsPredicted) return;
-  const std::string when = localTime(shown.taken);
-  if (*shown.isAsPredicted)
-    assurances << PageData(fmt::format(
-        "Photographed on {}: the surface looks as predicted. The correction brings the mean colour error ΔE "
-        "from {:.1f} to {:.1f}.",
-        when, shown.deltaEBefore, shown.deltaEAfter));
+  const std::string when = fmt::format("Photographed {}on {}", data.isSimulated ? "in the simulation " : "",
+                                       localTime(shown.taken));
+  const std::string change =
+      fmt::format("The correction brings the mean colour error ΔE from {:.1f} to {:.1f}", shown.deltaEBefore,
+                  shown.deltaEAfter);
+  if (!*shown.isAsPredicted)
+    warnings << PageData(
+        fmt::format("{}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector "
+                    "may have moved.",
+                    when, shown.deltaEAfter));
+  else if (shown.deltaEAfter >= pipeline::plainDeltaE)
+    warnings << PageData(
+        fmt::format("{}: the surface looks as predicted, but errors are plain to see. {}.", when, change));
   else
-    warnings << PageData(fmt::format(
-        "Photographed on {}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector "
-        "may have moved.",
-        when, shown.deltaEAfter));
+    assurances << PageData(fmt::format("{}: the surface looks as predicted. {}.", when, change));
 }
 
 void addDrift(const ReportDrift& drift, PageData& warnings, PageData& assurances) {
@@ -56,20 +62,23 @@ void addDrift(const ReportDrift& drift, PageData& warnings, PageData& assurances
 
 }  // namespace
 
-PageData verificationSection(const ReportVerification& shown) {
+PageData verificationSection(const ReportData& data) {
+  const ReportVerification& shown = *data.verification;
   PageData figures(PageData::type::list);
   figures << figure(shown.wanted, "Wanted", "the picture as it should appear.")
           << figure(shown.before, "Photograph, uncompensated", errorText(shown.deltaEBefore, std::nullopt))
           << figure(shown.after, "Photograph, compensated",
                     errorText(shown.deltaEAfter, shown.deltaEPredicted));
   PageData section;
+  section.set("how", data.isSimulated ? "A simulation: projected and photographed by simulated devices"
+                                      : "Projected in the venue and photographed");
   section.set("taken", localTime(shown.taken));
   section.set("figures", figures);
   return section;
 }
 
 void addVerdicts(const ReportData& data, PageData& warnings, PageData& assurances) {
-  if (data.verification) addVerification(*data.verification, warnings, assurances);
+  if (data.verification) addVerification(data, warnings, assurances);
   if (data.drift) addDrift(*data.drift, warnings, assurances);
 }
 

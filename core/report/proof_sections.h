@@ -7,7 +7,7 @@
 namespace relucent::report {
 
 /// What was photographed to prove the venue, and what that says.
-PageData verificationSection(const ReportVerification& shown);
+PageData verificationSection(const ReportData& data);
 
 /// Sentences that everybody reads first: what is not as it should be, in warnings; what is proved, in
 /// assurances. `warnings` and `assurances` are lists.

@@ -51,13 +51,17 @@ struct ReportDrift {
 
 /// Everything that a report shows. What is empty is left out.
 struct ReportData {
-  std::string title;     // the calibration's name
-  std::string venue;     // "Simulated venue corner: a glossy V-shaped corner before wallpaper"
+  std::string title;  // the calibration's name
+  std::string venue;  // "Simulated venue corner: a glossy V-shaped corner before wallpaper"
+  bool isSimulated = false;
   std::string software;  // that measured
   std::string measured;  // when, ISO 8601
   Size projector;
   Size camera;
-  pipeline::CalibrateResult result;                         // its findings too
+  pipeline::CalibrateResult result;  // its findings too
+  int linearizationPatterns = 0;     // of all in result
+  int stoppedAt =
+      0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: it was not
   std::vector<linearization::ProjectorResponse> responses;  // per projector
   std::vector<double> additivityError;                      // per projector
   std::vector<double> exposures;                            // seconds

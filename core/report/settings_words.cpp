@@ -83,21 +83,43 @@ void addMeasurement(std::vector<NamedText>& list, const pipeline::CalibrateSetti
 }
 
 std::string cutWords(const transport::ThresholdSettings& cut) {
-  if (cut.absolute > 0.0f) return fmt::format("brighter than {:.3g} of the camera's signal", cut.absolute);
+  if (cut.absolute > 0.0f)
+    return "brighter than " + smallPercent(static_cast<double>(cut.absolute)) +
+           " of the camera's full signal a second";
   if (cut.shareOfRowMax > 0.0f)
     return percent(static_cast<double>(cut.shareOfRowMax)) + " of the brightest at its place and more";
   return "all that was measured";
 }
 
+/// As the wizard calls them.
 std::string methodWords(compensation::Method method) {
-  return std::string(descriptionOf(method));
+  using compensation::Method;
+  switch (method) {
+    case Method::none:
+      return "none";
+    case Method::scalar:
+      return "each pixel's brightness";
+    case Method::mix:
+      return "each pixel on its own";
+    case Method::sharpen:
+      return "each pixel, sharpened";
+    case Method::clusters:
+      return "clusters";
+    case Method::windows:
+      return "windows";
+    case Method::refined:
+      return "all bounces, for films";
+    case Method::optimum:
+      break;
+  }
+  return "the best possible for still pictures";
 }
 
 void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings& settings) {
   const pipeline::ContentSettings& content = settings.content;
   list.push_back({"Light that is used", cutWords(settings.threshold)});
   list.push_back({"Content", content.picture.empty()
-                                 ? "Relucent's own picture"
+                                 ? "Demonstration picture"
                                  : std::filesystem::path(content.picture).filename().string()});
   list.push_back({"Correction", methodWords(content.method)});
   list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});

@@ -89,7 +89,8 @@ QVariant HelpText::loadResource(int type, const QUrl& name) {
   if (picture.isNull() || most <= 0) return picture;
   auto pixels = static_cast<int>(most * devicePixelRatioF());
   if (picture.width() > pixels) picture = picture.scaledToWidth(pixels, Qt::SmoothTransformation);
-  if (picture.width() == pixels) picture.setDevicePixelRatio(devicePixelRatioF());
+  // One that has fewer pixels than the screen has there is no wider for that.
+  if (picture.width() > most) picture.setDevicePixelRatio(static_cast<double>(picture.width()) / most);
   return picture;
 }
 

@@ -262,9 +262,14 @@ void ClusterPage::updateCommands() {
 }
 
 std::optional<Banner> ClusterPage::banner() const {
-  if (session_.progress(calibration::Stage::clustering) != calibration::StageProgress::stale)
+  using calibration::Stage;
+  if (session_.progress(Stage::clustering) != calibration::StageProgress::stale)
     return stoppedEarly(session_, goOnMeasuring_);
-  return Banner{Banner::Kind::amber, tr("The clusters that are kept belong to an earlier threshold"),
+  const auto& measured = session_.result(Stage::acquisition);
+  const bool isMeasuredSince = measured && measured->stored > session_.result(Stage::clustering)->stored;
+  return Banner{Banner::Kind::amber,
+                isMeasuredSince ? tr("The clusters that are kept belong to an earlier measurement")
+                                : tr("The clusters that are kept belong to an earlier threshold"),
                 tr("What you see here has been grouped again. Going on keeps it.")};
 }
 

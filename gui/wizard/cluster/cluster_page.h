@@ -37,8 +37,8 @@ class ClusterPage : public DevicePage {
 
   QString subtitle() const override {
     return tr(
-        "Split the venue into small groups of pixels that can be solved on their own, fast enough for "
-        "video.");
+        "See which parts of the surface light each other, and split them into groups that can be solved on "
+        "their own.");
   }
   StepStatus status() const override;
   QString hint() const override;

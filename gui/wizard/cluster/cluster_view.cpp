@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "theme/controls.h"
+#include "theme/folding_rows.h"
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
 #include "views/map_view.h"
@@ -29,14 +30,13 @@ std::vector<CutHistogram::Bar> barsOf(const std::vector<clustering::ClusterSize>
   return bars;
 }
 
+constexpr int foldedHeight = 260;  // of cards below each other: a map that can be read
+
 class ClusterStage : public QWidget {
  public:
   explicit ClusterStage(ClusterPage& model) : model_(model) {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(space::gap);
-    auto* row = new QHBoxLayout;
-    row->setSpacing(space::gap);
+    auto* rows = new FoldingRows(this);
+    rows->setFoldedHeight(foldedHeight);
     auto* mapCard = new Card(ClusterPage::tr("Cluster map"));
     mapCard->setSubtitle(ClusterPage::tr("click a pixel"));
     errorCard_ = new Card(ClusterPage::tr("Error map"));
@@ -67,9 +67,7 @@ class ClusterStage : public QWidget {
                    fail);
     mapCard->body()->addWidget(map_, 1);
     errorCard_->body()->addWidget(error_, 1);
-    row->addWidget(mapCard, 1);
-    row->addWidget(errorCard_, 1);
-    column->addLayout(row, 5);
+    rows->addRow({mapCard, errorCard_}, 5);
     sizeCard_ = new Card(ClusterPage::tr("Cluster sizes"));
     sizes_ = new CutHistogram(
         {1.0, 1024.0, true, ClusterPage::tr("Projector pixels in the cluster").toStdString()},
@@ -77,7 +75,7 @@ class ClusterStage : public QWidget {
     sizes_->setMovable(false);
     sizes_->setFocusPolicy(Qt::NoFocus);
     sizeCard_->body()->addWidget(sizes_, 1);
-    column->addWidget(sizeCard_, 3);
+    rows->addRow({sizeCard_}, 3);
     connect(&model_.session(), &Session::opened, &link_, &ViewLink::reset);
     refreshOn(
         model_, this, [this] { refresh(); }, &ClusterPage::settingsChanged, &ClusterPage::resultChanged);
@@ -228,6 +226,10 @@ QWidget* inspectorOf(ClusterPage& model) {
       "What this computer manages in Full HD with the light that Threshold keeps. The groups make no "
       "difference to it: films are solved in overlapping windows."));
   for (ValueRow* row : {clusters, cut, kept, error, most, films}) column->addWidget(row);
+  column->addWidget(labelOf(
+      ClusterPage::tr("Films are shown by “All bounces, for films”, whatever the clusters are. Clusters tell "
+                      "which places light each other, and can be compared at Preview."),
+      "note"));
   auto* normal = new Note(Note::Kind::information);
   normal->setText(
       ClusterPage::tr("An error of 70 to 80 % is normal here."),

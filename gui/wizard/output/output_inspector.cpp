@@ -41,6 +41,10 @@ QComboBox* screenBox(OutputPage& page) {
       box->clear();
       box->addItems(now);
     }
+    const QString missing = page.missingScreen();
+    box->setPlaceholderText(missing.isEmpty() ? OutputPage::tr("No screen chosen")
+                                              : OutputPage::tr("%1, unplugged").arg(missing));
+    box->setAccessibleDescription(page.chosen() ? QString() : box->placeholderText());
     box->setCurrentIndex(page.chosen() ? static_cast<int>(*page.chosen()) : -1);
   };
   refreshOn(page, box, refresh, &OutputPage::settingsChanged);
@@ -53,11 +57,17 @@ QString errorLine(const QString& what, const pipeline::ProvedProjection& project
       .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
 }
 
-void showProof(Remark& remark, const Proof* proof, bool isOutOfDate) {
-  if (isOutOfDate)
+void showProof(Remark& remark, const OutputPage& page) {
+  const Proof* proof = page.proof().proof().get();
+  if (page.playsEarlier())
+    return remark.show(
+        Remark::Kind::watch, OutputPage::tr("Not to be proved yet"),
+        OutputPage::tr("The projector still shows the earlier correction. Show the new one, then take "
+                       "the photograph."));
+  if (page.proof().isOutOfDate())
     return remark.show(Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),
-                       OutputPage::tr("What is shown has been changed since. Take it again to prove what is "
-                                      "shown now."));
+                       OutputPage::tr("What it was taken of has been measured or chosen anew since. Take it "
+                                      "again to prove what is shown now."));
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
@@ -65,7 +75,12 @@ void showProof(Remark& remark, const Proof* proof, bool isOutOfDate) {
   QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
                     errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
                     OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
-  if (proof->isAsPredicted())
+  if (proof->isAsPredicted() && pipeline::isPlainToSee(figures))
+    remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
+                meaning + '\n' +
+                    OutputPage::tr("Nothing has moved: the prediction itself is coarse. Measuring finer or "
+                                   "darker content helps."));
+  else if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
   else if (figures.moved.explains)
     remark.show(
@@ -130,16 +145,16 @@ QWidget* proofPart(OutputPage& page) {
               [&page](bool isAtItsPlace) { page.pushedBack(isAtItsPlace); });
   });
   auto refresh = [=, &page] {
-    showProof(*found, page.proof().proof().get(), page.proof().isOutOfDate());
+    showProof(*found, page);
     showDrift(*changed, page.proof().drift());
-    take->setEnabled(page.proof().isPossible());
+    take->setEnabled(page.mayProve());
     drift->setEnabled(page.proof().isPossible() && page.proof().mayFlash());
     push->setEnabled(page.proof().isPossible());
     push->setIcon(iconOf(Icon::camera, push->isEnabled() ? colours().text : colours().disabled));
     take->setIcon(iconOf(Icon::camera, take->isEnabled() ? colours().text : colours().disabled));
     drift->setIcon(iconOf(Icon::drift, drift->isEnabled() ? colours().text : colours().disabled));
   };
-  refreshOn(page, part, refresh, &OutputPage::resultChanged);
+  refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
   QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
   return part;
 }

@@ -42,10 +42,12 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  renew_ = addCommand(Icon::play, [this] { renew(); });
+  review_ = addCommand(Icon::next, [this] { Q_EMIT stepWanted(stepToReview()); });
   connect(&session_, &Session::opened, this, [this] {
     close();
     projection_.mirrorProjector(projector());
-    chosen_.clear();
+    wished_.clear();
     reportFile_.clear();
     listScreens();
     detectInstalledShow();
@@ -78,7 +80,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&projection_, &OutputProjection::changed, this, [this] {
     session_.setShowing(isOpen() || reopen_);
     tellProgress();
-    tellStatus();
+    tellResult();
   });
   connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
@@ -103,6 +105,7 @@ void OutputPage::enter() {
 
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
+  if (playsEarlier()) return {StepState::busy, tr("Earlier correction"), false, true};
   if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
@@ -115,7 +118,9 @@ QString OutputPage::hint() const {
   if (!isOpen() && !session_.areDevicesFree())
     return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
+  if (isScreenLost()) return tr("Waiting for the projector's screen to come back.");
   if (auto missing = projectorWithoutScreen()) return screenHint(*missing);
+  if (playsEarlier()) return tr("What plays is not what was measured or chosen last. Show that first.");
   if (isOpen()) {
     switch (proof_.next()) {
       case OutputProof::Next::photograph:
@@ -163,7 +168,9 @@ void OutputPage::updateCommands() {
                  : isJudged    ? tr("Install anyway")
                                : tr("Install without proof"),
                  isInstallable() && !playlist_.isEmpty());
-  prove_->show(tr("Take verification photograph"), proof_.isPossible());
+  renew_->show(tr("Show the new correction"), session_.areDevicesFree() && !projectorWithoutScreen());
+  review_->show(tr("Look at it first"));
+  prove_->show(tr("Take verification photograph"), mayProve());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
   pushBack_->show(tr("Put the camera back"), proof_.isPossible());
   measureAgain_->show(tr("Measure again"));
@@ -177,6 +184,7 @@ void OutputPage::updateCommands() {
 
 PageCommand* OutputPage::primary() const {
   if (!isOpen()) return open_;
+  if (playsEarlier()) return renew_;
   switch (proof_.next()) {
     case OutputProof::Next::photograph:
       return prove_;
@@ -197,8 +205,10 @@ PageCommand* OutputPage::primary() const {
 std::vector<PageCommand*> OutputPage::secondary() const {
   if (!isOpen()) return {};
   std::vector<PageCommand*> commands;
-  if (isInstallable() && primary() != install_) commands.push_back(install_);
-  commands.push_back(proof_.next() == OutputProof::Next::aimAgain ? aimAgain_ : freeze_);
+  // What nobody has seen on the projectors is not installed from here.
+  if (isInstallable() && !playsEarlier() && primary() != install_) commands.push_back(install_);
+  const bool isAimedAgain = proof_.next() == OutputProof::Next::aimAgain && !playsEarlier();
+  commands.push_back(isAimedAgain ? aimAgain_ : freeze_);
   commands.insert(commands.end(), {black_, close_});
   return commands;
 }
@@ -211,10 +221,29 @@ std::optional<Banner> OutputPage::banner() const {
   if (isScreenLost())
     return Banner{Banner::Kind::amber, tr("The projector's screen is unplugged"),
                   tr("Nothing is lost. Plug it in again: the show comes back by itself.")};
+  if (playsEarlier()) {
+    const bool isReviewed = stepToReview().isEmpty();
+    return Banner{Banner::Kind::amber, tr("The show still plays the earlier correction"),
+                  isReviewed ? tr("What was measured or chosen since is not on the projector yet.")
+                             : tr("What was measured or chosen since is not on the projector yet. Steps that "
+                                  "are out of date count with what was chosen there before."),
+                  isReviewed ? nullptr : review_};
+  }
   if (const auto stopped = stoppedEarly(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The verification photograph is out of date"),
-                tr("What is shown has been changed since. Take it again to prove what is shown now.")};
+                tr("What it was taken of has been measured or chosen anew since. Take it again to prove what "
+                   "is shown now.")};
+}
+
+/// The first one whose decision was made on something else; empty: none.
+QString OutputPage::stepToReview() const {
+  using calibration::Stage;
+  for (const auto& [stage, step] : {std::pair(Stage::threshold, "threshold"),
+                                    {Stage::clustering, "cluster"},
+                                    {Stage::content, "preview"}})
+    if (session_.progress(stage) == calibration::StageProgress::stale) return step;
+  return {};
 }
 
 std::optional<double> OutputPage::progress() const {
@@ -286,11 +315,20 @@ void OutputPage::open() {
     return tell(failureOf(std::current_exception()));
   }
   if (earlier_) results = earlier_->path();
+  playsFrom_ = session_.shownFrom();
   projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens});
 }
 
 void OutputPage::close() {
   projection_.close();
+}
+
+void OutputPage::renew() {
+  if (!renew_->isEnabled()) return;
+  reopen_ = true;  // the show goes on
+  close();
+  reopen_ = false;
+  open();
 }
 
 void OutputPage::whileClosed(const std::function<void()>& work) {
@@ -304,7 +342,7 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 }
 
 void OutputPage::verify() {
-  whileClosed([this] { proof_.photograph(pictureToProve()); });
+  if (mayProve()) whileClosed([this] { proof_.photograph(pictureToProve()); });
 }
 
 void OutputPage::proofEnded() {

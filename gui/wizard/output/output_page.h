@@ -52,6 +52,8 @@ class OutputPage : public DevicePage {
   std::optional<std::size_t> screenOf(std::size_t projector) const {
     return projector < chosen_.size() ? chosen_[projector] : std::nullopt;
   }
+  /// The one that was chosen for the shown projector and is not there now; empty: it is, or none was chosen.
+  QString missingScreen() const;
   /// What it means for what is measured that the projector is another screen now; empty: nothing.
   QString meaningOfScreen() const;
 
@@ -63,6 +65,8 @@ class OutputPage : public DevicePage {
   void setFade(double seconds);
 
   bool isOpen() const { return projection_.isOpen(); }
+  /// It is open, and a projector's screen is unplugged.
+  bool isScreenLost() const { return isOpen() && projectorWithoutScreen().has_value(); }
   bool isBlack() const { return projection_.isBlack(); }
   bool isFrozen() const { return projection_.isFrozen(); }
   bool isCompensated() const { return projection_.isCompensated(); }
@@ -79,8 +83,14 @@ class OutputPage : public DevicePage {
 
   void open();
   void close();
+  /// What is measured or chosen has become newer than what the output was opened with and goes on playing.
+  bool playsEarlier() const { return isOpen() && playsFrom_ != session_.shownFrom(); }
+  /// Opens the output again, with what is newest.
+  void renew();
 
   const OutputProof& proof() const { return proof_; }
+  /// Only what is on the projectors is proved.
+  bool mayProve() const { return proof_.isPossible() && !playsEarlier() && !isScreenLost(); }
   /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
   void verify();
   void checkDrift() {
@@ -116,7 +126,6 @@ class OutputPage : public DevicePage {
 
  private:
   bool needsConsent() const;
-  bool isScreenLost() const { return isOpen() && projectorWithoutScreen().has_value(); }
   void listScreens();
   void detectInstalledShow();
   std::optional<std::size_t> projectorWithoutScreen() const;
@@ -124,6 +133,8 @@ class OutputPage : public DevicePage {
   bool isOnPageOnly() const;
   QString playingHint() const;
   QString screenHint(std::size_t projector) const;
+  QString missingScreenOf(std::size_t projector) const;
+  QString stepToReview() const;
   std::optional<std::size_t> usualScreen() const;
   void keepScreen();
   void followScreen();
@@ -138,13 +149,17 @@ class OutputPage : public DevicePage {
 
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
   PageCommand *prove_, *checkDrift_, *pushBack_, *measureAgain_, *aimAgain_;  // what comes before installing
-  PageCommand* goOnMeasuring_;                                                // of the banner
+  PageCommand* renew_;
+  PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;
   std::unique_ptr<ResultsBeside> earlier_;  // what plays while it is measured again
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;
-  std::vector<std::optional<std::size_t>> chosen_;  // a projector's
+  // A projector's. What was chosen stays chosen while it is unplugged.
+  std::vector<std::optional<OutputScreen>> wished_;
+  std::vector<std::optional<std::size_t>> chosen_;  // where that is among screens_
+  std::string playsFrom_;                           // what the output was opened with
   ScreenIdentity screenBefore_;                     // the calibration's
   bool reopen_ = false;                             // when the photographs are taken
   QString preferred_;                               // Preview's picture

@@ -11,25 +11,50 @@
 
 namespace relucent::gui {
 
+namespace {
+
+/// Where it is plugged in now; none: nowhere.
+std::optional<std::size_t> placeOf(const OutputScreen& wish, const std::vector<OutputScreen>& screens) {
+  if (wish.isPageOnly) {
+    const auto page = std::ranges::find_if(screens, &OutputScreen::isPageOnly);
+    if (page == screens.end()) return std::nullopt;
+    return static_cast<std::size_t>(page - screens.begin());
+  }
+  QList<ScreenIdentity> present;
+  for (const OutputScreen& screen : screens) present << screen.identity;
+  return findScreen(wish.identity, present);
+}
+
+}  // namespace
+
 void OutputPage::listScreens() {
-  std::vector<std::optional<ScreenIdentity>> before;
-  for (const auto& screen : chosen_)
-    before.push_back(screen ? std::optional(screens_[*screen].identity) : std::nullopt);
   screens_.clear();
   if (session_.isSimulated()) screens_.push_back({.isPageOnly = true});
   for (QScreen* screen : QGuiApplication::screens())
     screens_.push_back({identityOf(*screen), nativeSize(*screen), screen == QGuiApplication::primaryScreen(),
                         screen->refreshRate(), false});
-  before.resize(session_.projectors());
-  chosen_.assign(before.size(), std::nullopt);
-  for (std::size_t projector = 0; projector < before.size(); ++projector)
-    for (std::size_t i = 0; i < screens_.size(); ++i)
-      if (before[projector] && screens_[i].identity == *before[projector]) chosen_[projector] = i;
+  wished_.resize(session_.projectors());
+  chosen_.assign(wished_.size(), std::nullopt);
   // What was chosen and went away may come back: no other shines in its place.
-  for (std::size_t projector = 0; projector < before.size(); ++projector)
-    if (!chosen_[projector] && (!before[projector] || session_.screenRig() != nullptr))
-      chosen_[projector] = usualScreen();
+  for (std::size_t projector = 0; projector < wished_.size(); ++projector)
+    if (wished_[projector]) chosen_[projector] = placeOf(*wished_[projector], screens_);
+  for (std::size_t projector = 0; projector < wished_.size(); ++projector) {
+    if (wished_[projector]) continue;
+    chosen_[projector] = usualScreen();
+    if (chosen_[projector]) wished_[projector] = screens_[*chosen_[projector]];
+  }
   tellSettings();
+}
+
+QString OutputPage::missingScreen() const {
+  return missingScreenOf(projector());
+}
+
+QString OutputPage::missingScreenOf(std::size_t projector) const {
+  if (projector >= wished_.size() || chosen_[projector]) return {};
+  if (wished_[projector]) return wished_[projector]->identity.connector;
+  const pipeline::ScreenRigSettings* measured = session_.screenRig();
+  return measured != nullptr ? QString::fromStdString(measured->display.connector) : QString();
 }
 
 /// The one that was measured, and no other in its place; where none was, one that nobody works at and no
@@ -51,10 +76,14 @@ std::optional<std::size_t> OutputPage::usualScreen() const {
 
 void OutputPage::choose(std::size_t index) {
   if (isOpen()) close();
-  std::optional<std::size_t>& mine = chosen_[projector()];
-  auto other = std::find(chosen_.begin(), chosen_.end(), std::optional(index));
-  if (other != chosen_.end() && !screens_[index].isPageOnly) *other = mine;
-  mine = index;
+  const std::optional<OutputScreen> mine = wished_[projector()];
+  for (std::size_t other = 0; other < chosen_.size(); ++other)
+    if (chosen_[other] == index && !screens_[index].isPageOnly) {
+      wished_[other] = mine;
+      chosen_[other] = chosen_[projector()];
+    }
+  wished_[projector()] = screens_[index];
+  chosen_[projector()] = index;
   keepScreen();
   tellSettings();
 }
@@ -82,7 +111,7 @@ void OutputPage::followScreen() {
   if (std::exchange(screenBefore_, now) == now || screen == nullptr) return;
   if (chosen() && screens_[*chosen()].identity == now) return;
   close();
-  chosen_.clear();
+  wished_.clear();
   listScreens();
 }
 
@@ -107,14 +136,12 @@ QString OutputPage::meaningOfScreen() const {
 }
 
 QString OutputPage::screenHint(std::size_t projector) const {
-  if (const pipeline::ScreenRigSettings* measured = session_.screenRig(); measured != nullptr)
-    return tr("The projector's screen %1 is not there. Plug it in, or choose another.")
-        .arg(QString::fromStdString(measured->display.connector));
-  if (projectors() > 1) {
-    if (screens_.size() >= projectors()) return tr("Choose a screen for projector %1.").arg(projector + 1);
+  if (projectors() > 1 && session_.screenRig() == nullptr && screens_.size() < projectors())
     return tr("Each of the %n projector(s) needs a screen of its own. Plug in another one.", nullptr,
               static_cast<int>(projectors()));
-  }
+  if (const QString missing = missingScreenOf(projector); !missing.isEmpty())
+    return tr("The projector's screen %1 is not there. Plug it in, or choose another.").arg(missing);
+  if (projectors() > 1) return tr("Choose a screen for projector %1.").arg(projector + 1);
   if (screens_.size() > 1) return tr("Choose the projector's screen.");
   return tr(
       "There is one screen only. Plug the projector in and extend the desktop to it, or choose this screen.");

@@ -23,7 +23,7 @@ fs::path fileOf(const QString& picture, const fs::path& folder) {
   QFile resource(picture);
   require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
   createFolder(folder);
-  fs::path file = folder / "Test picture.png";
+  fs::path file = folder / "Demonstration picture.png";
   writeFileAtomically(file, resource.readAll().toStdString());
   return file;
 }

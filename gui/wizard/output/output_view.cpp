@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "theme/controls.h"
+#include "theme/folding_rows.h"
 #include "theme/readout.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
@@ -26,6 +27,7 @@ namespace relucent::gui {
 namespace {
 
 constexpr double worstDeltaE = 12.0;  // of the map
+constexpr int foldedHeight = 260;     // of cards below each other: a picture that can be judged
 constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
 
 /// Three figures, and the time of every frame in the last minute.
@@ -112,11 +114,19 @@ class PlaybackCard : public Card {
   LineChart* chart_;
 };
 
-/// What the projector shows, small.
+/// What the projector shows, small; while its screen is unplugged it shows nothing.
 class MirrorView : public ImageView {
  public:
-  explicit MirrorView(OutputProjection& projection) : projection_(projection) {
-    connect(&projection_, &OutputProjection::mirrored, this, [this] { setPicture(projection_.mirror()); });
+  explicit MirrorView(OutputPage& page) : page_(page), projection_(page.projection()) {
+    connect(&projection_, &OutputProjection::mirrored, this, &MirrorView::reflect);
+    reflect();
+  }
+  void reflect() {
+    const QString missing = page_.isOpen() ? page_.missingScreen() : QString();
+    setEmptyText(missing.isEmpty()
+                     ? OutputPage::tr("The output is closed. Nothing is projected.")
+                     : OutputPage::tr("The screen %1 is unplugged. Nothing is projected.").arg(missing));
+    setPicture(missing.isEmpty() ? projection_.mirror() : QImage());
   }
 
  protected:
@@ -135,6 +145,7 @@ class MirrorView : public ImageView {
   }
 
  private:
+  OutputPage& page_;
   OutputProjection& projection_;
 };
 
@@ -153,21 +164,17 @@ class OutputStage : public QWidget {
   explicit OutputStage(OutputPage& page) : page_(page) {
     setObjectName("output-stage");
     setAcceptDrops(true);
-    auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setSpacing(space::gap);
-    grid->addWidget(projectorCard(), 0, 0);
-    grid->addWidget(photographCard(), 0, 1);
-    grid->addWidget(differenceCard(), 1, 0);
-    grid->addWidget(new PlaybackCard(page_), 1, 1);
-    for (int i : {0, 1}) {
-      grid->setColumnStretch(i, 1);
-      grid->setRowStretch(i, 1);
-    }
+    auto* rows = new FoldingRows(this);
+    rows->setFoldedHeight(foldedHeight);
+    // Made in their order, in which Tab goes.
+    Card *projector = projectorCard(), *photograph = photographCard(), *difference = differenceCard();
+    rows->addRow({projector, photograph});
+    rows->addRow({difference, new PlaybackCard(page_)});
     connect(new QShortcut(QKeySequence("Ctrl+Shift+V"), this), &QShortcut::activated, &page_,
             &OutputPage::verify);
     refreshOn(
-        page_, this, [this] { refresh(); }, &OutputPage::resultChanged, &OutputPage::progressChanged);
+        page_, this, [this] { refresh(); }, &OutputPage::settingsChanged, &OutputPage::resultChanged,
+        &OutputPage::progressChanged);
     qApp->installEventFilter(this);
   }
 
@@ -211,14 +218,13 @@ class OutputStage : public QWidget {
     compare_->setObjectName("compare");
     projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
     projector_->addAction(compare_);
-    output_ = new MirrorView(page_.projection());
+    output_ = new MirrorView(page_);
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
     output_->setAccessibleDescription(
         OutputPage::tr("Hold A for the original, space freezes, B makes it black, T shows test charts, O "
                        "figures."));
     output_->setToolTip(output_->accessibleDescription());
-    output_->setEmptyText(OutputPage::tr("The output is closed. Nothing is projected."));
     projector_->body()->addWidget(output_, 1);
     connect(compare_, &Segmented::chosen, &page_, [this](int index) { page_.setCompensated(index == 0); });
     return projector_;
@@ -251,6 +257,7 @@ class OutputStage : public QWidget {
   void refresh() {
     compare_->setEnabled(page_.isOpen());
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
+    output_->reflect();
     output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
     if (proof != shown_) {
@@ -268,7 +275,8 @@ class OutputStage : public QWidget {
   /// Over the projector's picture: how it goes.
   QString figures() const {
     PlayerStatistics s = page_.projection().statistics();
-    if (!page_.isOpen() || s.frames == 0) return {};
+    if (!page_.isOpen() || !page_.missingScreen().isEmpty() || s.frames == 0) return {};
+    if (page_.playsEarlier()) return OutputPage::tr("Earlier correction");
     QString clipped = percentText(s.clipped);
     if (!(s.framesPerSecond > 0.0))
       return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);
@@ -297,7 +305,8 @@ class OutputStage : public QWidget {
   ViewLink link_;
   Card *projector_, *photograph_;
   Segmented* compare_;
-  ImageView *output_, *photo_, *difference_;
+  MirrorView* output_;
+  ImageView *photo_, *difference_;
   std::shared_ptr<const Proof> shown_;
 };
 

@@ -55,7 +55,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             problem_.clear();
             surface_.present(sent());
             adoptContent(preview_->picture, preview_->content);
-            if (table_.empty()) compareNext();
+            compareNext();
             tellAll();
           },
           [this](const Failure& failure) { refuse(failure); }),
@@ -93,7 +93,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     content_ = nullptr;
     problem_.clear();
     preparedFor_.clear();
-    table_.clear();
+    forgetTable();
     looked_ = false;
   });
   connect(&session_, &Session::stepsChanged, this, [this] {
@@ -130,12 +130,10 @@ void PreviewPage::enter() {
 void PreviewPage::prepare() {
   const bool isBeside = ResultsBeside::areNeeded(session_);
   if (!session_.isOpen() || job_.isRunning() || (!isBeside && !session_.areDevicesFree())) return;
-  const transport::ThresholdSettings& cut = session_.settings().threshold;
-  std::string wanted =
-      fmt::format("{} {} {} {}", cut.absolute, cut.shareOfRowMax, cut.energyKept, session_.measurement());
-  if (wanted == preparedFor_) return;
-  preparedFor_ = wanted;
+  if (session_.correction() == preparedFor_) return;
+  preparedFor_ = session_.correction();
   engine_ = nullptr;
+  forgetTable();
   made_ = std::make_shared<PreviewEngine>();
   if (!isBeside) lease_ = session_.leaseDevices(stepName);
   job_.start([made = made_, path = session_.path(), isBeside](Progress& progress) {
@@ -176,7 +174,7 @@ void PreviewPage::choosePicture(const QString& file) {
 }
 
 void PreviewPage::adoptContent(const std::string& picture, std::shared_ptr<const image::Image> content) {
-  if (contentOf_ != picture || !content_) table_.clear();
+  if (contentOf_ != picture || !content_) forgetTable();
   contentOf_ = picture;
   content_ = std::move(content);
 }
@@ -190,7 +188,7 @@ void PreviewPage::adopt(const pipeline::ContentSettings& settings) {
   // The methods are compared with the content in one place under one light.
   pipeline::ContentSettings sameMethod = settings;
   sameMethod.method = settings_.method;
-  if (sameMethod != settings_) table_.clear();
+  if (sameMethod != settings_) forgetTable();
   settings_ = settings;
   problem_.clear();
   compute();
@@ -232,15 +230,22 @@ void PreviewPage::refuse(const Failure& failure) {
 
 void PreviewPage::compute() {
   if (!engine_) return;
-  ++round_;
   computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
                   settings = settings_] { return previewOf(*engine, settings, known); });
   tellStatus();
 }
 
+/// Of another measurement, threshold, content or place, and what is still being computed for it.
+void PreviewPage::forgetTable() {
+  ++round_;
+  table_.clear();
+}
+
 /// The table fills row by row while the pictures are there already.
 void PreviewPage::compareNext() {
-  if (!engine_ || !content_ || comparing_.isBusy() || table_.size() >= comparedMethods.size()) return;
+  if (!engine_ || !content_ || comparing_.isBusy() || computing_.isBusy() ||
+      table_.size() >= comparedMethods.size())
+    return;
   compensation::Method method = comparedMethods[table_.size()];
   comparing_.ask([engine = engine_, content = content_, settings = settings_, method, round = round_] {
     return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
@@ -248,10 +253,18 @@ void PreviewPage::compareNext() {
 }
 
 std::optional<Banner> PreviewPage::banner() const {
-  if (session_.progress(calibration::Stage::acquisition) != calibration::StageProgress::stale)
+  using calibration::Stage;
+  if (session_.progress(Stage::acquisition) == calibration::StageProgress::stale)
+    return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
+                  tr("It still works, and what you see follows from it, until it is measured again.")};
+  if (session_.progress(Stage::content) != calibration::StageProgress::stale)
     return stoppedEarly(session_, goOnMeasuring_);
-  return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
-                tr("It still works, and what you see follows from it, until it is measured again.")};
+  const bool isMeasuredSince =
+      session_.result(Stage::acquisition)->stored > session_.result(Stage::content)->stored;
+  return Banner{Banner::Kind::amber,
+                isMeasuredSince ? tr("It has been measured again since the content was placed")
+                                : tr("The threshold has been changed since the content was placed"),
+                tr("What you see here is predicted anew. Going to the output keeps it.")};
 }
 
 StepStatus PreviewPage::status() const {
@@ -285,6 +298,7 @@ QString PreviewPage::hint() const {
   if (!problem_.isEmpty()) return problem_;
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
+  if (session_.underWay().show) return tr("Predicted from the measurement. The output goes on playing.");
   return tr("Predicted from the measurement. Nothing is projected yet.");
 }
 

@@ -81,6 +81,7 @@ class PreviewPage : public PageModel {
   void refuse(const Failure& failure);
   void compute();
   void compareNext();
+  void forgetTable();
   void accept();
   const std::vector<QImage>& sent() const;
   void surfaceChanged();

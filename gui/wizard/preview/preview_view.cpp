@@ -44,6 +44,34 @@ QImage hatchesOf(const ContentPreview& preview) {
 
 enum Shown { picture, reachable, difference };
 
+/// Nobody has to scroll across: what does not fit is left out, the least important first.
+class MethodsTable : public QTableWidget {
+ public:
+  enum Column { method, note, deltaE, time, psnr, ssim, columns };
+
+  MethodsTable() : QTableWidget(0, columns) {
+    horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    horizontalHeader()->setSectionResizeMode(note, QHeaderView::Stretch);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  }
+  void fit() {
+    int needed = 0;
+    for (int column = 0; column < columns; ++column) {
+      needed += std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
+      if (column >= psnr) setColumnHidden(column, needed > viewport()->width());
+    }
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTableWidget::resizeEvent(event);
+    fit();
+  }
+
+ private:
+  static constexpr int cellMargin = 2;
+};
+
 class PreviewStage : public QWidget {
  public:
   explicit PreviewStage(PreviewPage& page) : page_(page) {
@@ -86,6 +114,14 @@ class PreviewStage : public QWidget {
         page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
+ protected:
+  /// In a small window the stage scrolls, and its picture is one that can be judged.
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    constexpr int narrow = 600, leastHeight = 280;
+    card_->setMinimumHeight(width() < narrow ? leastHeight : 0);
+  }
+
  private:
   /// What is looked at, and its numbers.
   ShownView shownView() const {
@@ -107,17 +143,22 @@ class PreviewStage : public QWidget {
   Card* tableCard() {
     auto* card = new Card(PreviewPage::tr("Methods"));
     card->setSubtitle(PreviewPage::tr("predicted for this content; click one to use it"));
-    table_ = new QTableWidget(0, 6);
+    table_ = new MethodsTable;
     table_->setObjectName("methods");
     table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
-    table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("PSNR"),
-                                       PreviewPage::tr("SSIM"), PreviewPage::tr("Colour error"),
-                                       PreviewPage::tr("Time a picture"), PreviewPage::tr("Notes")});
+    table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("Notes"),
+                                       PreviewPage::tr("Colour error"), PreviewPage::tr("Still picture"),
+                                       PreviewPage::tr("PSNR"), PreviewPage::tr("SSIM")});
+    table_->horizontalHeaderItem(MethodsTable::time)
+        ->setToolTip(
+            PreviewPage::tr("How long a still picture takes to be solved, once. Films always play by “All "
+                            "bounces, for films” in the quicker show engine: how fast is said at Cluster."));
+    table_->horizontalHeaderItem(MethodsTable::psnr)
+        ->setToolTip(
+            PreviewPage::tr("Of this content, where it can be reached. What Acquire expects is a mean of "
+                            "other pictures: the two may differ by some dB."));
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(26);
-    // The notes have what is left.
-    table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    table_->horizontalHeader()->setStretchLastSection(true);
     table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft);
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -141,6 +182,8 @@ class PreviewStage : public QWidget {
     switch (method) {
       case compensation::Method::mix:
         return PreviewPage::tr("blind to bounces");
+      case compensation::Method::clusters:
+        return PreviewPage::tr("blind to light between clusters");
       case compensation::Method::refined:
         return PreviewPage::tr("recommended");
       case compensation::Method::optimum:
@@ -154,24 +197,27 @@ class PreviewStage : public QWidget {
     table_->setRowCount(static_cast<int>(rows.size()));
     for (int row = 0; row < table_->rowCount(); ++row) {
       const MethodPreview& method = rows[static_cast<std::size_t>(row)];
+      const QString time = method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
+                           : method.seconds < 1.0
+                               ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
+                               : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1));
       QStringList cells{methodName(method.method),
-                        PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
-                        decimalText(method.ssim, 3),
+                        noteOf(method.method),
                         isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
-                        method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
-                        : method.seconds < 1.0
-                            ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
-                            : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1)),
-                        noteOf(method.method)};
+                        time,
+                        PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
+                        decimalText(method.ssim, 3)};
       bool chosen = method.method == page_.settings().method;
       for (int cell = 0; cell < cells.size(); ++cell) {
         auto* item = new QTableWidgetItem(cells[cell]);
         item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
+        if (cell == MethodsTable::note) item->setToolTip(cells[cell]);
         if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
         table_->setItem(row, cell, item);
       }
       if (chosen) table_->selectRow(row);
     }
+    table_->fit();
   }
   void refresh() {
     fillTable();
@@ -211,7 +257,7 @@ class PreviewStage : public QWidget {
   Segmented* kind_;
   CornerView* place_;
   std::array<ImageView*, 3> views_{};
-  QTableWidget* table_;
+  MethodsTable* table_;
   std::shared_ptr<const ContentPreview> shown_;
 };
 

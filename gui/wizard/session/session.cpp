@@ -168,6 +168,7 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   keptPhotographs_ = pipeline::keptPhotographs(folder);
   photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
   shownFrom_ = pipeline::fingerprintOfShown(folder);
+  correction_ = pipeline::fingerprintOfCorrection(folder);
   figures_ = calibration::resultsIn(folder);
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),
@@ -319,6 +320,10 @@ void Session::setRoomClear(bool clear) {
 
 void Session::setRoomLight(const RoomLight& light) {
   if (std::exchange(roomLight_, light) != light) Q_EMIT roomLightChanged();
+}
+
+void Session::setShowing(bool showing) {
+  if (std::exchange(isShowing_, showing) != showing) Q_EMIT devicesChanged();
 }
 
 DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {

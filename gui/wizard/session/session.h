@@ -168,6 +168,8 @@ class Session : public QObject {
   int photographsSince(calibration::Stage stage) const;
   /// A fingerprint of all that a picture on the projectors follows from; see pipeline/proof_record.h.
   const std::string& shownFrom() const { return shownFrom_; }
+  /// The same without how content is shown.
+  const std::string& correction() const { return correction_; }
   /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
 
@@ -254,7 +256,7 @@ class Session : public QObject {
   /// Work under way that takes long and is not to be ended by the way.
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
   /// A show plays on the projectors' screens.
-  void setShowing(bool showing) { isShowing_ = showing; }
+  void setShowing(bool showing);
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -268,7 +270,7 @@ class Session : public QObject {
   void stepsChanged();
   /// acquisition(), or why it cannot be read.
   void acquisitionChanged();
-  /// Who uses the devices, whether they may be used, and whether a screen is missed.
+  /// Who uses the devices, whether they may be used, whether a screen is missed, and whether a show plays.
   void devicesChanged();
   void roomLightChanged();
 
@@ -296,7 +298,7 @@ class Session : public QObject {
   pipeline::CalibrateSettings settings_;
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
-  std::string shownFrom_;
+  std::string shownFrom_, correction_;
   pipeline::ScreenRigSettings::Display measuredDisplay_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;

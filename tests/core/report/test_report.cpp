@@ -12,6 +12,7 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/json.h"
+#include "relucent/pipeline/stopped_early.h"
 #include "relucent/report/number_text.h"
 #include "relucent/report/pictures.h"
 #include "relucent/report/report.h"
@@ -127,7 +128,14 @@ class TestReport : public QObject {
 
  private slots:
   void numbersAsTheyAreRead() {
-    QCOMPARE(percent(-0.0001), std::string("0.0 %"));
+    QCOMPARE(percent(-0.00001), std::string("0 %"));
+    QCOMPARE(percent(0.0003), std::string("0.03 %"));
+    QCOMPARE(percent(1.0), std::string("100 %"));
+    QCOMPARE(smallPercent(3.16e-5), std::string("0.0032 %"));
+    QCOMPARE(exposureTime(0.00559), std::string("1/179 s"));
+    QCOMPARE(exposureTime(0.5), std::string("0.5 s"));
+    QCOMPARE(stageDuration(1.38), std::string("under 10 s"));
+    QCOMPARE(stageDuration(16.1), std::string("16 s"));
     QCOMPARE(percent(-0.012), std::string("-1.2 %"));
     qputenv("TZ", "Etc/GMT-1");
     tzset();
@@ -158,6 +166,59 @@ class TestReport : public QObject {
     QVERIFY(html(data).contains("hardly anything fits"));
   }
 
+  /// Law: errors that nobody overlooks are no plain success, however well they were predicted.
+  void aCoarsePredictionIsNoSuccess_data() {
+    QTest::addColumn<double>("deltaE");
+    QTest::addColumn<bool>("isGood");
+    QTest::newRow("fine") << 2.0 << true;
+    QTest::newRow("visible side by side") << 4.9 << true;
+    QTest::newRow("plain to see") << 5.0 << false;
+    QTest::newRow("coarse") << 8.9 << false;
+  }
+  void aCoarsePredictionIsNoSuccess() {
+    QFETCH(double, deltaE);
+    QFETCH(bool, isGood);
+    ReportData data = fullData();
+    data.result.findings.clear();
+    data.verification->isAsPredicted = true;
+    data.verification->deltaEAfter = data.verification->deltaEPredicted.emplace(deltaE);
+    const QString page = html(data);
+    QVERIFY(page.contains("looks as predicted"));
+    QCOMPARE(page.contains("plain to see. The correction"), !isGood);
+    QCOMPARE(page.count("note amber"), isGood ? 0 : 1);
+  }
+
+  /// Law: a simulation is called one.
+  void aSimulationIsCalledOne() {
+    ReportData data = fullData();
+    data.verification->isAsPredicted = true;
+    QVERIFY(html(data).contains("Projected in the venue"));
+    data.isSimulated = true;
+    const QString page = html(data);
+    QVERIFY(!page.contains("Projected in the venue") && page.contains("A simulation: projected"));
+    QVERIFY(page.contains("Photographed in the simulation on"));
+  }
+
+  /// Law: the steps' counts are those of their pages, and add up to the whole.
+  void everyCountSaysWhatItCounts() {
+    ReportData data = fullData();
+    data.linearizationPatterns = 29;
+    data.result.linearizationExposures = 30;
+    const QString page = html(data);
+    for (const char* expected : {"41 s, 29 patterns, 30 photographs", "776 patterns, 1\u202f521 photographs",
+                                 "805 patterns, 1\u202f551 photographs"})
+      QVERIFY2(page.contains(QString::fromUtf8(expected)), expected);
+  }
+
+  /// Law: a client is not told what to do in the program.
+  void whatWasStoppedIsSaidForAClient() {
+    ReportData data = fullData();
+    data.stoppedAt = 4;
+    data.result.findings = {stoppedEarly(4, std::nullopt)};
+    const QString page = html(data);
+    QVERIFY(page.contains("blocks of 4 × 4 pixels") && !page.contains("go on measuring"));
+  }
+
   /// Law: a client reads words and units, no names of variables.
   void settingsAreWords_data() {
     QTest::addColumn<CalibrateSettings>("settings");
@@ -186,6 +247,8 @@ class TestReport : public QObject {
     for (const NamedText& line : list) {
       QVERIFY2(!QString::fromStdString(line.name).contains(key), line.name.c_str());
       QVERIFY2(!line.value.empty() && !QString::fromStdString(line.value).contains(noWord),
+               line.value.c_str());
+      QVERIFY2(!QString::fromStdString(line.value).contains(QRegularExpression("[0-9]e-[0-9]")),
                line.value.c_str());
     }
   }
@@ -247,7 +310,7 @@ class TestReport : public QObject {
   void whatWasMeasuredIsSaid() {
     QString page = html(fullData());
     for (const char* expected :
-         {"28.2 dB", "14.2 dB", "ΔE", "96.1 %", "11 min 41 s", "0.25 s", "Test patterns", "24.75 dB",
+         {"28.2 dB", "14.2 dB", "ΔE", "96.1 %", "11 min 41 s", "1/4 s", "Test patterns", "24.75 dB",
           "Floodlight image", "Reachable light", "3210 MB"})
       QVERIFY2(page.contains(expected), expected);
     // Means over one picture are its own; the best method is marked.

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// What Output says of the show is what is on the projector. On two screens, see
+// tests/support/with-two-screens: DUMMY1 is the projector's.
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "gui/output/two_screens.h"
+#include "gui/wizard/simulated_session.h"
+#include "output/default_picture.h"
+#include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/measured_again.h"
+#include "wizard/output/output_page.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+
+class TestWhatPlays : public QObject {
+  Q_OBJECT
+
+  SimulatedSession own_;
+  std::unique_ptr<OutputPage> page_;
+
+  Session& session() { return own_.session; }
+  std::size_t screen(const QString& connector) const {
+    std::size_t index = 0;
+    while (page_->screens().at(index).identity.connector != connector) ++index;
+    return index;
+  }
+  void openOutput() {
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->projection().onProjector().isNull(), patience);
+  }
+  bool offersProof() const {
+    return page_->mayProve() && page_->primary()->text() == OutputPage::tr("Take verification photograph");
+  }
+  template <typename Change>
+  void change(Change apply) {
+    pipeline::CalibrateSettings settings = session().settings();
+    apply(settings);
+    session().changeSettings(settings);
+  }
+
+ private slots:
+  void initTestCase() {
+    Progress silent;
+    pipeline::calibrate(own_.path("measured"), smallVenue({48, 36}, {40, 30}, 5), own_.path("cache"), silent);
+  }
+  void init() {
+    std::filesystem::remove_all(own_.path("venue"));
+    std::filesystem::copy(own_.path("measured"), own_.path("venue"),
+                          std::filesystem::copy_options::recursive);
+    page_ = std::make_unique<OutputPage>(session());
+    session().open(own_.path("venue"));
+    page_->choose(screen("DUMMY1"));
+    QVERIFY(QFile::exists(defaultPicture()) && !page_->playlist().isEmpty());
+  }
+  void cleanup() {
+    page_.reset();
+    session().close();
+  }
+
+  void aShowBehindItsResultsSaysSo_data() {
+    using Settings = pipeline::CalibrateSettings;
+    QTest::addColumn<std::function<void(Settings&)>>("apply");
+    QTest::addColumn<bool>("isEarlier");
+    const auto row = [](const char* name, bool isEarlier, std::function<void(Settings&)> apply) {
+      QTest::newRow(name) << std::move(apply) << isEarlier;
+    };
+    row("threshold", true, [](Settings& s) { s.threshold.shareOfRowMax = 0.3f; });
+    row("clusters", true, [](Settings& s) { s.clustering.patchRadius += 1.0; });
+    row("method", true, [](Settings& s) { s.content.method = compensation::Method::none; });
+    row("blacks", true, [](Settings& s) { s.content.blackLift += 0.1; });
+    row("nothing", false, [](Settings&) {});
+    // Which pictures play is the playlist's.
+    row("picture", false, [](Settings& s) { s.content.picture = "another.png"; });
+  }
+  /// Law: what has become newer than what plays is said, brought onto the projector by the one primary
+  /// command, and not proved before that.
+  void aShowBehindItsResultsSaysSo() {
+    QFETCH(std::function<void(pipeline::CalibrateSettings&)>, apply);
+    QFETCH(bool, isEarlier);
+    openOutput();
+    QVERIFY(!page_->playsEarlier() && offersProof());
+    change(apply);
+    QCOMPARE(page_->playsEarlier(), isEarlier);
+    QCOMPARE(offersProof(), !isEarlier);
+    if (!isEarlier) return;
+    QCOMPARE(page_->banner()->sentence, OutputPage::tr("The show still plays the earlier correction"));
+    QVERIFY(page_->status().isHeldUp && page_->status().result != OutputPage::tr("Playing"));
+    page_->verify();
+    QVERIFY(page_->isOpen() && page_->proof().work() == OutputProof::Work::none);
+    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the new correction"));
+    QVERIFY(page_->primary()->isEnabled());
+    page_->primary()->trigger();
+    QVERIFY(!page_->isOpen());
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
+    QVERIFY(!page_->playsEarlier() && offersProof() && !page_->status().isHeldUp);
+    QVERIFY(!page_->banner());
+  }
+
+  /// Law: the new measurement's correction is not the earlier one's, and only its own photograph proves it.
+  void aNewMeasurementMakesItEarlier() {
+    openOutput();
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && page_->proof().work() == OutputProof::Work::none,
+                             patience);
+    QVERIFY(!page_->proof().isOutOfDate());
+    {
+      CalibrationFolder folder =
+          CalibrationFolder::open(own_.path("venue"), CalibrationFolder::Access::write);
+      pipeline::measureAgain(folder, Stage::acquisition);
+    }
+    session().reload();
+    // Begun is not done: nothing that is shown has changed.
+    QVERIFY(session().progress(Stage::acquisition) == StageProgress::stale);
+    QVERIFY(!page_->playsEarlier() && !page_->proof().isOutOfDate());
+    Progress silent;
+    pipeline::resume(own_.path("venue"), own_.path("cache"), silent);
+    session().reload();
+    QVERIFY(session().progress(Stage::acquisition) == StageProgress::done);
+    QVERIFY(page_->playsEarlier() && page_->proof().isOutOfDate());
+    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the new correction"));
+    page_->primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
+    QCOMPARE(page_->banner()->sentence, OutputPage::tr("The verification photograph is out of date"));
+    QVERIFY(offersProof());
+  }
+
+  /// Law: which screen is the projector's is decided by a person, not by a cable.
+  void aChosenScreenStaysChosen_data() {
+    QTest::addColumn<bool>("isPlaying");
+    QTest::newRow("while it plays") << true;
+    QTest::newRow("while it is closed") << false;
+  }
+  void aChosenScreenStaysChosen() {
+    QFETCH(bool, isPlaying);
+    if (isPlaying) openOutput();
+    unplug();
+    QTRY_VERIFY(!page_->chosen());
+    QCOMPARE(page_->missingScreen(), QString("DUMMY1"));
+    QCOMPARE(page_->isScreenLost(), isPlaying);
+    QVERIFY(!page_->mayProve() || !isPlaying);
+    // One voice while it is away.
+    if (isPlaying)
+      QVERIFY2(!page_->hint().contains("Choose") && page_->banner()->more.contains("by itself"),
+               qPrintable(page_->hint()));
+    else
+      QVERIFY2(page_->hint().contains("DUMMY1"), qPrintable(page_->hint()));
+    plug();
+    QTRY_VERIFY(page_->chosen());
+    QCOMPARE(page_->screens()[*page_->chosen()].identity.connector, QString("DUMMY1"));
+    QVERIFY(page_->missingScreen().isEmpty());
+    page_->close();
+    openOutput();
+    QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
+  }
+};
+
+QTEST_MAIN(TestWhatPlays)
+#include "test_what_plays.moc"

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The comparison of methods follows all that it is computed from.
+#include <QtTest>
+
+#include "gui/wizard/simulated_session.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/calibrate.h"
+#include "wizard/preview/preview_page.h"
+
+using namespace relucent;
+using namespace relucent::gui;
+
+class TestMethodsTable : public QObject {
+  Q_OBJECT
+
+  SimulatedSession own_;
+  std::unique_ptr<PreviewPage> page_;
+
+  Session& session() { return own_.session; }
+  bool isComplete() const {
+    return page_->isReady() && page_->preview() && !page_->isComputing() && page_->table().size() == 5;
+  }
+  /// The row of the method in use.
+  MethodPreview chosenRow() const {
+    const auto row = std::ranges::find(page_->table(), page_->settings().method, &MethodPreview::method);
+    return row == page_->table().end() ? MethodPreview() : *row;
+  }
+
+ private slots:
+  void initTestCase() {
+    Progress silent;
+    pipeline::calibrate(own_.path("venue"), smallVenue({48, 36}, {40, 30}, 5), own_.path("cache"), silent);
+  }
+  void init() {
+    page_ = std::make_unique<PreviewPage>(session());
+    session().open(own_.path("venue"));
+    page_->enter();
+    QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+  }
+  void cleanup() { page_.reset(); }
+
+  void itFollowsItsInputs_data() {
+    using Settings = pipeline::CalibrateSettings;
+    QTest::addColumn<std::function<void(Settings&)>>("apply");
+    const auto row = [](const char* name, std::function<void(Settings&)> apply) {
+      QTest::newRow(name) << std::move(apply);
+    };
+    row("threshold",
+        [](Settings& s) { s.threshold.shareOfRowMax = s.threshold.shareOfRowMax > 0 ? 0 : 0.5f; });
+    row("clusters", [](Settings& s) { s.clustering.patchCut = 0.8 - 0.5 * s.clustering.patchCut; });
+    row("acquisition", [](Settings& s) { s.acquisition.seed += 7; });
+  }
+  /// Law: no row outlives what it was computed from, and the row of the method in use says what the page
+  /// says beside it.
+  void itFollowsItsInputs() {
+    QFETCH(std::function<void(pipeline::CalibrateSettings&)>, apply);
+    const std::vector<MethodPreview> before = page_->table();
+    pipeline::CalibrateSettings settings = session().settings();
+    apply(settings);
+    const bool isMeasuredAnew = settings.acquisition.seed != session().settings().acquisition.seed;
+    session().changeSettings(settings);
+    if (isMeasuredAnew) {
+      QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+      Progress silent;
+      pipeline::resume(own_.path("venue"), own_.path("cache"), silent);
+      session().reload();
+    }
+    QVERIFY(page_->table().empty());
+    QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+    QCOMPARE(chosenRow().deltaE, page_->preview()->deltaEMean);
+    const auto isSame = [](const MethodPreview& a, const MethodPreview& b) { return a.deltaE == b.deltaE; };
+    QVERIFY(!std::ranges::equal(page_->table(), before, isSame));
+  }
+
+  /// Law: another method is another row, not another table.
+  void aMethodIsChosenFromIt() {
+    pipeline::ContentSettings content = page_->settings();
+    content.method = compensation::Method::mix;
+    page_->setSettings(content);
+    QCOMPARE(page_->table().size(), std::size_t{5});
+    QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+    QCOMPARE(chosenRow().deltaE, page_->preview()->deltaEMean);
+  }
+
+  /// Law: what is out of date is said, with the reason; a show that plays is not denied.
+  void whatIsOutOfDateIsSaid() {
+    page_->primary()->trigger();
+    QVERIFY(!page_->banner() && page_->status().state == StepState::done);
+    pipeline::CalibrateSettings settings = session().settings();
+    settings.threshold.energyKept = 0.9f;
+    session().changeSettings(settings);
+    QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
+    QCOMPARE(page_->status().state, StepState::outOfDate);
+    QVERIFY(page_->banner() && page_->banner()->sentence.contains("threshold"));
+    page_->primary()->trigger();
+    QVERIFY(!page_->banner() && page_->status().state == StepState::done);
+    QVERIFY(page_->hint().contains("Nothing is projected"));
+    session().setShowing(true);
+    QVERIFY2(!page_->hint().contains("Nothing is projected"), qPrintable(page_->hint()));
+    session().setShowing(false);
+  }
+};
+
+QTEST_MAIN(TestMethodsTable)
+#include "test_methods_table.moc"

@@ -107,6 +107,7 @@ enum class DeviceWork {
 struct UnderWay {
   bool measurement = false, show = false;
   bool isNothing() const { return !measurement && !show; }
+  bool operator==(const UnderWay&) const = default;
 };
 
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
@@ -254,7 +255,7 @@ class Session : public QObject {
   /// Work under way that takes long and is not to be ended by the way.
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
   /// A show plays on the projectors' screens.
-  void setShowing(bool showing) { isShowing_ = showing; }
+  void setShowing(bool showing);
   /// What another calibration, or the end of the program, would end: not without a question.
   UnderWay underWay() const { return {isMeasuring(), isShowing_}; }
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
@@ -271,6 +272,8 @@ class Session : public QObject {
   /// Who uses the devices, whether they may be used, and whether a screen is missed.
   void devicesChanged();
   void roomLightChanged();
+  /// A show begins or ends.
+  void showingChanged();
 
  private:
   friend class DeviceLease;

@@ -208,16 +208,17 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
   // What is clicked is in sight and must not move under the pointer.
   if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
     bringIntoSight(now);
-  // A button of the action bar that is done, and goes, would leave its focus to the rail or to Back, which
-  // are next: Enter would then leave the page.
-  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before)) return;
+  // What is done or has gone, a button of the action bar or a picture on the stage, would leave its focus to
+  // the rail or to Back, which are next: Enter would then leave the page.
+  if (before == nullptr || now == nullptr || !isAncestorOf(before)) return;
   if (!rail_->isAncestorOf(now) && !actions_->leadsBack(*now)) return;
   if (before->isVisible() && before->isEnabled()) return;
-  // Once the stage knows what has ended.
+  // Once the stage knows what has ended, unless another page has the focus by then.
   QMetaObject::invokeMethod(
       this,
-      [this] {
-        // Where nothing on the stage takes it, nobody has it: Enter must not leave the page.
+      [this, taken = QPointer<QWidget>(now)] {
+        if (focusWidget() != taken) return;
+        // Where nothing on the stage takes it, nobody has it.
         if (!focusFirst(stages_)) stages_->setFocus();
         focusLent_ = focusWidget();
         returnFocus();

@@ -56,7 +56,9 @@ class AcquirePage : public DevicePage {
   std::optional<Banner> banner() const override;
   PageCommand* insteadOfWaiting() const override { return isMeasuring() ? keep_ : nullptr; }
   QString whyLocked() const override;
-  bool wasInterrupted() const override { return !isMeasuring() && again_ > 0; }
+  bool wasInterrupted() const override {
+    return !isMeasuring() && again_ > 0 && !(isDone() && stoppedAt() == 0);
+  }
   void finish() override;
 
   void enter() override;
@@ -181,6 +183,8 @@ class AcquirePage : public DevicePage {
   Banner stoppedBanner() const;
   std::optional<WorkLeft> expected(const acquisition::AcquisitionSettings& settings) const;
   acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
+  /// Before it was measured about as many pixels as the projector has, where the cameras have more.
+  Rasters camerasUsed() const;
   void change(const QString& what, const acquisition::AcquisitionSettings& settings);
   void keep(const acquisition::AcquisitionSettings& settings);
   void diskChanged();

@@ -57,7 +57,7 @@ int AcquirePage::patternsExpected() const {
   if (isDone()) return cost().value_or(calibration::StageCost()).patterns;
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return 0;
-  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
+  const Rasters cameras = camerasUsed();
   const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
   acquisition::AcquisitionState state{isTraceCurrent() ? trace_.growth().levels : std::vector<int>()};
   if (!state.levels.empty()) {

@@ -35,6 +35,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     });
     look();
   });
+  connect(&session_, &Session::acquisitionChanged, this, &LinearizePage::resultChanged);
   connect(&session_, &Session::stepsChanged, this, [this] {
     look();
     tellAll();
@@ -147,7 +148,14 @@ const linearization::ProjectorResponse* LinearizePage::response() const {
 }
 
 std::optional<double> LinearizePage::blackShare() const {
-  return result_ ? result_->blackShare : std::nullopt;
+  if (!result_ || result_->blackShare) return result_ ? result_->blackShare : std::nullopt;
+  // Results of earlier versions do not say: what was measured on them does, once it is read.
+  const std::shared_ptr<const transport::Acquisition> measured = session_.acquisition();
+  if (!measured) return std::nullopt;
+  double black = 0.0, flood = 0.0;
+  for (float value : measured->black) black += static_cast<double>(value);
+  for (float value : measured->flood) flood += static_cast<double>(value);
+  return flood > 0.0 ? std::optional(std::max(0.0, black / flood)) : std::nullopt;
 }
 
 std::vector<double> LinearizePage::exposures() const {

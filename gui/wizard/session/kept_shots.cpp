@@ -7,6 +7,7 @@
 #include <QDir>
 #include <algorithm>
 
+#include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
 
 namespace relucent::gui {
@@ -36,9 +37,13 @@ int photographsSince(const fs::path& calibration, const std::optional<calibratio
 
 int photographsInterrupted(const calibration::CalibrationFolder& folder) {
   constexpr calibration::Stage stage = calibration::Stage::acquisition;
-  return calibration::progressOf(folder, stage) == calibration::StageProgress::open
-             ? photographsKept(folder.path(), stage)
-             : photographsSince(folder.path(), calibration::resultOf(folder, stage), stage);
+  const calibration::StageProgress progress = calibration::progressOf(folder, stage);
+  if (progress == calibration::StageProgress::open) return photographsKept(folder.path(), stage);
+  const std::optional<calibration::StageResult> stored = calibration::resultOf(folder, stage);
+  // What is complete was not interrupted, whatever the times of copied files say.
+  const bool isComplete = progress == calibration::StageProgress::done && stored &&
+                          calibration::resultFrom<stage>(*stored).stoppedAt == 0;
+  return isComplete ? 0 : photographsSince(folder.path(), stored, stage);
 }
 
 }  // namespace relucent::gui

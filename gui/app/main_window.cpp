@@ -91,6 +91,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
   connect(&wizard_, &Wizard::moved, this, [this] {
     refresh();
     focusLent_ = nullptr;
+    hasWorked_ = false;
     focusFirst(stages_);
   });
   connect(qApp, &QApplication::focusChanged, this, &MainWindow::followFocus);
@@ -226,10 +227,15 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
       Qt::QueuedConnection);
 }
 
-/// What leads on has the focus again once it is possible, as long as nobody has gone elsewhere meanwhile.
+/// After a job what leads on has the focus again once it is possible, as long as nobody has gone elsewhere
+/// meanwhile.
 void MainWindow::returnFocus() {
-  if (focusLent_ == nullptr || focusWidget() != focusLent_) return;
-  if (!wizard_.currentPage().progress() && actions_->focusPrimary()) focusLent_ = nullptr;
+  const bool isAtWork = wizard_.currentPage().progress().has_value();
+  hasWorked_ = hasWorked_ || isAtWork;
+  if (isAtWork || !hasWorked_ || focusLent_ == nullptr || focusWidget() != focusLent_) return;
+  if (!actions_->focusPrimary()) return;
+  focusLent_ = nullptr;
+  hasWorked_ = false;
 }
 
 /// Enter does what the button with the focus says, as it does on tiles.

@@ -67,6 +67,7 @@ class MainWindow : public QMainWindow {
   std::vector<PageView> views_;
   StepRail* rail_;
   BannerBar* banner_;
+  bool hasWorked_ = false;       // the page that is looked at
   QPointer<QWidget> focusLent_;  // until the command that had it can be given again
   ActionBar* actions_;
   QWidget* header_;

@@ -234,9 +234,16 @@
         <source>Measured</source>
         <translation>تم القياس</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>انقطع القياس</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>انقطع القياس: لا لقطات محفوظة</numerusform>
+            <numerusform>انقطع القياس: لقطة واحدة محفوظة</numerusform>
+            <numerusform>انقطع القياس: لقطتان محفوظتان</numerusform>
+            <numerusform>انقطع القياس: %n لقطات محفوظة</numerusform>
+            <numerusform>انقطع القياس: %n لقطة محفوظة</numerusform>
+            <numerusform>انقطع القياس: %n لقطة محفوظة</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -281,8 +288,8 @@
         <translation>كل ما يلي خشن بالقدر نفسه. تابع القياس في أي وقت.</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>متابعة القياس</translation>
+        <source>Go on at Acquire</source>
+        <translation>المتابعة في «القياس»</translation>
     </message>
 </context>
 <context>
@@ -390,6 +397,21 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+            <numerusform>{}: أُعيد تصوير {} نمط بدءًا من رقم {}</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -406,14 +428,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>تحقق من أن الشاشة الصحيحة مختارة وأن لا شيء يحجب الصورة، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>أزل ما يعترض الضوء أو مجال الرؤية، ثم أعد المحاولة</translation>
     </message>
 </context>
@@ -455,14 +477,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>أعد الجهاز إلى موضعه بفارق لا يتجاوز نصف بكسل، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>أعد الإضاءة كما كانت، وأبقِ الأبواب والستائر مغلقة، ثم أعد المحاولة</translation>
     </message>
 </context>
@@ -497,28 +519,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>أطفئ المصابيح المخفّتة ومصابيح الفلورسنت، وأوقف توفير الطاقة في جهاز العرض، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>أوقف السطوع التلقائي والأوضاع الاقتصادية في جهاز العرض، ودعه يسخن، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>أوقف وضع العرض الخلفي أو السقفي في جهاز العرض، أو اسمح بصورة معكوسة، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>اكشف العدسة، وتحقق من أن جهاز العرض يعمل، ثم أعد المحاولة</translation>
     </message>
 </context>
@@ -532,7 +554,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>أيقظ جهاز العرض، وأوقف توفير الطاقة فيه وفي الشاشة، ثم أعد المحاولة</translation>
     </message>
 </context>
@@ -2009,6 +2031,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>أقل من دقيقة</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2860,10 +2889,6 @@
         <translation>متوقف مؤقتًا، بقي نحو ⁨%1⁩</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>اللقطات في الدقيقة</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>⁨%1⁩ من نحو ⁨%2⁩</translation>
     </message>
@@ -2918,12 +2943,109 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>بانتظار إجابتك.</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>بانتظار الجواب، ⁨%1⁩</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>قرر ما العمل</translation>
+        <source>Reading, %1</source>
+        <translation>قراءة، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>بانتظار جوابك. كل اللقطات محفوظة.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>لا لقطات سابقة تُقرأ. يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطة سابقة واحدة، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا لقطتان سابقتان، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا %n لقطات سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا %n لقطة سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
+            <numerusform>تُقرأ أولًا %n لقطة سابقة، ثم يستمر القياس من حيث انتهى.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>متابعة القياس</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>الإجابة</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>إعادة المحاولة</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>عادت الكاميرا إلى موضعها</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>كانت قد تحرّكت أثناء القياس، وهي ترى الآن ما كانت تراه.</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>«⁨%1⁩»: لا يُعاد تصوير أي نمط من رقم ⁨%2⁩، ويستمر القياس.</numerusform>
+            <numerusform>«⁨%1⁩»: يُعاد تصوير نمط واحد بدءًا من رقم ⁨%2⁩، ويستمر القياس من هناك.</numerusform>
+            <numerusform>«⁨%1⁩»: يُعاد تصوير نمطين بدءًا من رقم ⁨%2⁩، ويستمر القياس من هناك.</numerusform>
+            <numerusform>«⁨%1⁩»: يُعاد تصوير %n أنماط بدءًا من رقم ⁨%2⁩، ويستمر القياس من هناك.</numerusform>
+            <numerusform>«⁨%1⁩»: يُعاد تصوير %n نمطًا بدءًا من رقم ⁨%2⁩، ويستمر القياس من هناك.</numerusform>
+            <numerusform>«⁨%1⁩»: يُعاد تصوير %n نمط بدءًا من رقم ⁨%2⁩، ويستمر القياس من هناك.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>«⁨%1⁩»: يُنظر مرة أخرى ثم يستمر القياس.</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>«⁨%1⁩»: يبقى كل شيء كما هو، وما تغيّر سيكون خاطئًا، ويذكره التقرير.</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>القياس بانتظار جوابك.</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>تُقرأ اللقطات المحفوظة أولًا.</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>لا يُعرض شيء الآن.</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>قراءة</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>قراءة، بقي أقل من دقيقة</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>قراءة، بقي نحو ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>متوقف مؤقتًا، بقي أقل من دقيقة</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>بقي أقل من دقيقة</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>لا لقطات محفوظة للقراءة: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطة محفوظة واحدة: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة لقطتين محفوظتين: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة %n لقطات محفوظة: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة %n لقطة محفوظة: ⁨%1⁩.</numerusform>
+            <numerusform>قراءة %n لقطة محفوظة: ⁨%1⁩.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -3063,6 +3185,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>جهاز العرض لا يعرض شيئًا</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>عولج</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>يُنظر إليه ثانية عند الفحص التالي.</translation>
     </message>
 </context>
 <context>
@@ -3424,6 +3554,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>لم يُفحص بعد</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>الناقص: ⁨%1⁩. الكاميرا المحاكاة تبقى في موضعها: تابع، وما لا تراه يبقى كما هو.</translation>
     </message>
 </context>
 <context>
@@ -4151,6 +4285,10 @@
     <message>
         <source>within ±%1</source>
         <translation>في حدود ⁨±%1⁩</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>يعرض نمط الاختبار الواحد درجات كثيرة جنبًا إلى جنب، فتكفي أنماط قليلة.</translation>
     </message>
 </context>
 <context>
@@ -5791,6 +5929,14 @@ projector %2</source>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>أقل من %1 من أقوى ضوء يصل كل بكسل في الكاميرا</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>يبقى دائمًا أقوى اتصال لكل بكسل في الكاميرا مهما ارتفع حد القطع.</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>«⁨%1⁩» ليس حد قطع: اكتب عددًا لا يقل عن 0. ما زال حد القطع ⁨%2⁩.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -6063,10 +6209,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>حدّد الشاشة التي تضيء السطح، ومكان حفظ العمل.</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>ابدأ هنا. لكل موقع قياساته وإعداداته.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6415,18 +6557,6 @@ projector %2</source>
         <translation>إخلاء مساحة…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>سهل. يُقاس في نحو ⁨%1⁩</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>متوسط. يُقاس في نحو ⁨%1⁩</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>صعب. يُقاس في نحو ⁨%1⁩</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>يصطدم أحدهم بالكاميرا</translation>
     </message>
@@ -6445,6 +6575,22 @@ projector %2</source>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>تأتي كل منها مرة واحدة أثناء «القياس»، في لحظة لا يعرفها أحد. تدرّب على ما يقوله المعالج قبل أن يحدث ذلك أمام عميل.</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>يقيس كيف يغيّر السطح ما يُعرض عليه، ويصحّح الصور والأفلام حتى تبدو صحيحة هناك.</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>سهل. مدة القياس: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>متوسط. مدة القياس: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>صعب. مدة القياس: ⁨%1⁩</translation>
     </message>
 </context>
 <context>

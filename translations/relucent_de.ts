@@ -230,9 +230,12 @@
         <source>Measured</source>
         <translation>Gemessen</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>Vermessen wurde unterbrochen</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>Unterbrochen: %n Foto ist sicher</numerusform>
+            <numerusform>Unterbrochen: %n Fotos sind sicher</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -277,8 +280,8 @@
         <translation>Alles Folgende ist ebenso grob. Messen Sie jederzeit weiter.</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Weiter messen</translation>
+        <source>Go on at Acquire</source>
+        <translation>Weiter bei „Erfassen“</translation>
     </message>
 </context>
 <context>
@@ -382,6 +385,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{}: {} Muster ab Nr. {} wurde noch einmal fotografiert</numerusform>
+            <numerusform>{}: {} Muster ab Nr. {} wurden noch einmal fotografiert</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -398,14 +412,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>prüfen Sie, ob der richtige Bildschirm gewählt ist und nichts das Bild verdeckt, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>entfernen Sie, was im Licht oder im Bild steht, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -447,14 +461,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>stellen Sie das Gerät auf ein halbes Pixel genau zurück, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>stellen Sie den alten Zustand wieder her, halten Sie Türen und Vorhänge geschlossen, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -489,28 +503,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>schalten Sie gedimmte Lampen, Leuchtstofflampen und den Energiesparmodus des Projektors aus, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>schalten Sie seine automatische Helligkeit und seine Eco-Modi aus, lassen Sie ihn warm werden, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>schalten Sie Rückprojektion oder Deckenmontage am Projektor aus oder erlauben Sie ein gespiegeltes Bild, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>decken Sie das Objektiv auf, prüfen Sie, ob der Projektor eingeschaltet ist, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -524,7 +538,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>wecken Sie den Projektor, schalten Sie seinen Energiesparmodus und den des Bildschirms aus, dann versuchen Sie es erneut</translation>
     </message>
 </context>
@@ -1993,6 +2007,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>unter einer Minute</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2800,10 +2821,6 @@
         <translation>Pausiert, noch etwa %1</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>Fotos je Minute</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>%1 von etwa %2</translation>
     </message>
@@ -2850,12 +2867,97 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>Wartet auf Ihre Antwort.</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>Wartet auf Antwort, %1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>Entscheiden, was zu tun ist</translation>
+        <source>Reading, %1</source>
+        <translation>Liest, %1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>Wartet auf Ihre Antwort. Jedes Foto ist gespeichert.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Erst wird %n früheres Foto gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
+            <numerusform>Erst werden %n frühere Fotos gelesen. Dann geht die Messung dort weiter, wo sie endete.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Weiter messen</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>Antworten</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Erneut versuchen</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>Die Kamera steht wieder an ihrem Platz</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>Sie hatte sich während der Messung bewegt und sieht wieder dorthin, wohin sie sah.</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>„%1“ fotografiert %n Muster ab Nr. %2 noch einmal und macht von dort weiter.</numerusform>
+            <numerusform>„%1“ fotografiert %n Muster ab Nr. %2 noch einmal und macht von dort weiter.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>„%1“ sieht noch einmal nach und macht weiter.</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>„%1“ lässt alles, wie es ist: Was sich geändert hat, wird falsch, und der Bericht sagt es.</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>Die Messung wartet auf Ihre Antwort.</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>Erst werden die vorhandenen Fotos gelesen.</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>Es wird nichts projiziert.</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>Liest</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>Liest, noch unter einer Minute</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>Liest, noch etwa %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>Pause, noch unter einer Minute</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>Noch unter einer Minute</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>Liest das %n vorhandene Foto: %1.</numerusform>
+            <numerusform>Liest die %n vorhandenen Fotos: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2995,6 +3097,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>Der Projektor zeigt nichts</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>Behoben</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>Wird bei der nächsten Kontrolle wieder angesehen.</translation>
     </message>
 </context>
 <context>
@@ -3352,6 +3462,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Noch nicht geprüft</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>Es fehlt: %1. Eine simulierte Kamera bleibt, wo sie steht: Machen Sie weiter, was sie nicht sieht, bleibt, wie es ist.</translation>
     </message>
 </context>
 <context>
@@ -4047,6 +4161,10 @@
     <message>
         <source>within ±%1</source>
         <translation>innerhalb ±%1</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>Ein Testmuster zeigt viele Stufen nebeneinander, darum genügen wenige Muster.</translation>
     </message>
 </context>
 <context>
@@ -5675,6 +5793,14 @@ Projektor %2</translation>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>Unter %1 des stärksten Lichts, das jedes Kamerapixel bekommt</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>Von jedem Kamerapixel bleibt immer die stärkste Verbindung, wie hoch der Schnitt auch liegt.</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>„%1“ ist kein Schnitt: Geben Sie eine Zahl ab 0 ein. Der Schnitt liegt weiter bei %2.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5943,10 +6069,6 @@ Projektor %2</translation>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>Geben Sie an, welcher Bildschirm auf die Oberfläche strahlt und wo die Arbeit liegt.</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>Beginnen Sie hier. Jeder Spielort hat seine eigenen Messungen und Einstellungen.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6287,18 +6409,6 @@ Projektor %2</translation>
         <translation>Platz schaffen…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>Leicht. In etwa %1 gemessen</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>Mittel. In etwa %1 gemessen</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>Schwer. In etwa %1 gemessen</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>Jemand stößt an die Kamera</translation>
     </message>
@@ -6317,6 +6427,22 @@ Projektor %2</translation>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>Jede kommt einmal, während Erfassen misst, zu einem Zeitpunkt, den niemand kennt. Üben Sie, was der Assistent dann sagt, bevor es vor Kunden geschieht.</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>Misst, wie eine Oberfläche Projiziertes verändert, und korrigiert Bilder und Filme, bis sie dort richtig aussehen.</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>Leicht. Messdauer: %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>Mittel. Messdauer: %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>Schwer. Messdauer: %1</translation>
     </message>
 </context>
 <context>

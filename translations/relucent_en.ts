@@ -12,6 +12,16 @@
     </message>
 </context>
 <context>
+    <name>RecentVenues</name>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>Interrupted: %n photograph is safe</numerusform>
+            <numerusform>Interrupted: %n photographs are safe</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>acquisition.stopped-with-forecast</name>
     <message numerus="yes">
         <source>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</source>
@@ -19,6 +29,17 @@
         <translation>
             <numerusform>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photograph, {}; go on measuring any time as long as nothing has moved</numerusform>
             <numerusform>Stopped at {} px blocks; {} dB expected, about {} dB with {} more photographs, {}; go on measuring any time as long as nothing has moved</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{}: {} pattern from No. {} on was photographed again</numerusform>
+            <numerusform>{}: {} patterns from No. {} on were photographed again</numerusform>
         </translation>
     </message>
 </context>
@@ -135,6 +156,27 @@
         <translation>
             <numerusform>%n pattern with all checks</numerusform>
             <numerusform>%n patterns with all checks</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>%n photograph of before is read first. Then measuring goes on where it ended.</numerusform>
+            <numerusform>%n photographs of before are read first. Then measuring goes on where it ended.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>“%1” photographs %n pattern again, from No. %2 on, and goes on from there.</numerusform>
+            <numerusform>“%1” photographs %n patterns again, from No. %2 on, and goes on from there.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>Reading the %n photograph that is kept: %1.</numerusform>
+            <numerusform>Reading the %n photographs that are kept: %1.</numerusform>
         </translation>
     </message>
 </context>

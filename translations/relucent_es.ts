@@ -230,9 +230,12 @@
         <source>Measured</source>
         <translation>Medido</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>La medición se interrumpió</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>Interrumpida: %n fotografía está a salvo</numerusform>
+            <numerusform>Interrumpida: %n fotografías están a salvo</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -277,8 +280,8 @@
         <translation>Todo lo que sigue es igual de basto. Siga midiendo en cualquier momento.</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Seguir midiendo</translation>
+        <source>Go on at Acquire</source>
+        <translation>Continuar en «Adquisición»</translation>
     </message>
 </context>
 <context>
@@ -382,6 +385,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{}: se volvió a fotografiar {} patrón desde el n.º {}</numerusform>
+            <numerusform>{}: se volvieron a fotografiar {} patrones desde el n.º {}</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -398,14 +412,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>compruebe que se ha elegido la pantalla correcta y que nada tapa la imagen, e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>retire lo que esté en la luz o en la imagen e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -447,14 +461,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>vuelva a colocarlo en su sitio con una precisión de medio píxel e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>déjela como estaba, mantenga cerradas puertas y cortinas, e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -489,28 +503,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>apague las lámparas atenuadas y fluorescentes, desactive el ahorro de energía del proyector e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>desactive su brillo automático y sus modos eco, deje que se caliente e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>desactive en el proyector el modo de retroproyección o de techo, o permita una imagen reflejada, e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>destape el objetivo, compruebe que el proyector está encendido e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -524,7 +538,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>active el proyector, desactive su ahorro de energía y el de la pantalla, e inténtelo de nuevo</translation>
     </message>
 </context>
@@ -1993,6 +2007,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>menos de un minuto</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2800,10 +2821,6 @@
         <translation>En pausa, quedan aprox. %1</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>Fotografías por minuto</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>%1 de unos %2</translation>
     </message>
@@ -2850,12 +2867,97 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>Esperando su respuesta.</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>Espera respuesta, %1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>Decidir qué hacer</translation>
+        <source>Reading, %1</source>
+        <translation>Leyendo, %1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>Espera su respuesta. Todas las fotografías están guardadas.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Primero se lee %n fotografía anterior. Después la medición sigue donde terminó.</numerusform>
+            <numerusform>Primero se leen %n fotografías anteriores. Después la medición sigue donde terminó.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Seguir midiendo</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>Responder</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Reintentar</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La cámara vuelve a estar en su sitio</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>Se había movido durante la medición y vuelve a mirar adonde miraba.</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>«%1» vuelve a fotografiar %n patrón desde el n.º %2 y sigue desde ahí.</numerusform>
+            <numerusform>«%1» vuelve a fotografiar %n patrones desde el n.º %2 y sigue desde ahí.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>«%1» mira otra vez y sigue.</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>«%1» deja todo como está: lo que cambió quedará mal, y el informe lo dice.</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>La medición espera su respuesta.</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>Primero se leen las fotografías guardadas.</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>No se proyecta nada.</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>Leyendo</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>Leyendo, queda menos de un minuto</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>Leyendo, quedan unos %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>En pausa, queda menos de un minuto</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>Queda menos de un minuto</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>Leyendo %n fotografía guardada: %1.</numerusform>
+            <numerusform>Leyendo las %n fotografías guardadas: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2995,6 +3097,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>El proyector no muestra nada</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>Corregido</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>Se vuelve a mirar en la próxima comprobación.</translation>
     </message>
 </context>
 <context>
@@ -3352,6 +3462,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Aún sin comprobar</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>Falta: %1. Una cámara simulada se queda donde está: siga, lo que no ve queda como está.</translation>
     </message>
 </context>
 <context>
@@ -4047,6 +4161,10 @@
     <message>
         <source>within ±%1</source>
         <translation>dentro de ±%1</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>Un patrón de prueba muestra muchos niveles a la vez; por eso bastan pocos.</translation>
     </message>
 </context>
 <context>
@@ -5675,6 +5793,14 @@ proyector %2</translation>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>Por debajo del %1 de la luz más fuerte que recibe cada píxel de la cámara</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>De cada píxel de la cámara queda siempre la conexión más fuerte, por alto que sea el corte.</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>«%1» no es un corte: escriba un número, 0 o más. El corte sigue en %2.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5943,10 +6069,6 @@ proyector %2</translation>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>Indique qué pantalla ilumina la superficie y dónde se guarda el trabajo.</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>Empiece aquí. Cada lugar conserva sus propias mediciones y ajustes.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6287,18 +6409,6 @@ proyector %2</translation>
         <translation>Liberar espacio…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>Fácil. Se mide en unos %1</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>Medio. Se mide en unos %1</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>Difícil. Se mide en unos %1</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>Alguien golpea la cámara</translation>
     </message>
@@ -6317,6 +6427,22 @@ proyector %2</translation>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>Cada una llega una vez mientras Adquisición mide, en un momento que nadie conoce. Practique lo que dice el asistente antes de que ocurra ante un cliente.</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>Mide cómo una superficie cambia lo que se proyecta en ella y corrige imágenes y películas hasta que se ven bien.</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>Fácil. Medir lleva %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>Medio. Medir lleva %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>Difícil. Medir lleva %1</translation>
     </message>
 </context>
 <context>

@@ -230,9 +230,12 @@
         <source>Measured</source>
         <translation>Mesuré</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>La mesure a été interrompue</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>Interrompue : %n photo est en sûreté</numerusform>
+            <numerusform>Interrompue : %n photos sont en sûreté</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -277,8 +280,8 @@
         <translation>Tout ce qui suit est aussi grossier. Continuez la mesure à tout moment.</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Continuer la mesure</translation>
+        <source>Go on at Acquire</source>
+        <translation>Continuer à « Acquisition »</translation>
     </message>
 </context>
 <context>
@@ -382,6 +385,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{} : {} motif a été rephotographié à partir du n° {}</numerusform>
+            <numerusform>{} : {} motifs ont été rephotographiés à partir du n° {}</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -398,14 +412,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>vérifiez que le bon écran est choisi et que rien ne cache l’image, puis réessayez</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>retirez ce qui se trouve dans la lumière ou dans le champ, puis réessayez</translation>
     </message>
 </context>
@@ -447,14 +461,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>remettez l’appareil en place à un demi-pixel près, puis réessayez</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>remettez-la comme avant, gardez portes et rideaux fermés, puis réessayez</translation>
     </message>
 </context>
@@ -489,28 +503,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>éteignez les lampes à variateur et les tubes fluorescents, désactivez le mode économie d’énergie du projecteur, puis réessayez</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>désactivez sa luminosité automatique et ses modes éco, laissez-le chauffer, puis réessayez</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>désactivez la rétroprojection ou le montage au plafond du projecteur, ou autorisez une image en miroir, puis réessayez</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>découvrez l’objectif, vérifiez que le projecteur est allumé, puis réessayez</translation>
     </message>
 </context>
@@ -524,7 +538,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>réveillez le projecteur, désactivez sa mise en veille et celle de l’écran, puis réessayez</translation>
     </message>
 </context>
@@ -1993,6 +2007,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>moins d’une minute</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2800,10 +2821,6 @@
         <translation>En pause, encore %1 environ</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>Photos par minute</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>%1 sur environ %2</translation>
     </message>
@@ -2850,12 +2867,97 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>En attente de votre réponse.</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>Attend une réponse, %1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>Décider que faire</translation>
+        <source>Reading, %1</source>
+        <translation>Lecture, %1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>Attend votre réponse. Chaque photo est enregistrée.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>%n photo d’avant est d’abord lue. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
+            <numerusform>%n photos d’avant sont d’abord lues. La mesure reprend ensuite où elle s’est arrêtée.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Continuer la mesure</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>Répondre</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Réessayer</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La caméra est revenue à sa place</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>Elle avait bougé pendant la mesure et regarde de nouveau où elle regardait.</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>« %1 » rephotographie %n motif à partir du n° %2 et continue de là.</numerusform>
+            <numerusform>« %1 » rephotographie %n motifs à partir du n° %2 et continue de là.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>« %1 » regarde encore une fois et continue.</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>« %1 » laisse tout tel quel : ce qui a changé sera faux, et le rapport le dit.</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>La mesure attend votre réponse.</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>Les photos gardées sont d’abord lues.</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>Rien n’est projeté.</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>Lecture</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>Lecture, moins d’une minute</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>Lecture, encore environ %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>En pause, moins d’une minute</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>Moins d’une minute</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>Lecture de %n photo gardée : %1.</numerusform>
+            <numerusform>Lecture des %n photos gardées : %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2995,6 +3097,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>Le projecteur ne montre rien</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>Corrigé</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>Revu à la prochaine vérification.</translation>
     </message>
 </context>
 <context>
@@ -3352,6 +3462,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Pas encore contrôlé</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>Manque : %1. Une caméra simulée reste où elle est : continuez, ce qu’elle ne voit pas reste tel quel.</translation>
     </message>
 </context>
 <context>
@@ -4047,6 +4161,10 @@
     <message>
         <source>within ±%1</source>
         <translation>à ±%1 près</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>Un motif de test montre de nombreux niveaux côte à côte : peu de motifs suffisent.</translation>
     </message>
 </context>
 <context>
@@ -5675,6 +5793,14 @@ projecteur %2</translation>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>Sous %1 de la lumière la plus forte que reçoit chaque pixel de la caméra</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>De chaque pixel de la caméra, la liaison la plus forte reste toujours, si haut que soit le seuil.</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>« %1 » n’est pas un seuil : tapez un nombre, 0 ou plus. Le seuil reste %2.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5943,10 +6069,6 @@ projecteur %2</translation>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>Indiquez l’écran qui éclaire la surface, et où garder le travail.</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>Commencez ici. Chaque lieu garde ses propres mesures et réglages.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6287,18 +6409,6 @@ projecteur %2</translation>
         <translation>Libérer de l’espace…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>Facile. Mesuré en %1 environ</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>Moyen. Mesuré en %1 environ</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>Difficile. Mesuré en %1 environ</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>Quelqu’un heurte la caméra</translation>
     </message>
@@ -6317,6 +6427,22 @@ projecteur %2</translation>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>Chacune survient une fois pendant la mesure d’Acquisition, à un moment que personne ne connaît. Exercez-vous à ce que dit l’assistant avant que cela n’arrive devant un client.</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>Mesure comment une surface change ce qu’on y projette et corrige images et films jusqu’à ce qu’ils y paraissent justes.</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>Facile. Durée de la mesure : %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>Moyen. Durée de la mesure : %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>Difficile. Durée de la mesure : %1</translation>
     </message>
 </context>
 <context>

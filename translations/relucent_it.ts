@@ -230,9 +230,12 @@
         <source>Measured</source>
         <translation>Misurato</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>La misurazione è stata interrotta</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>Interrotta: %n foto è al sicuro</numerusform>
+            <numerusform>Interrotta: %n foto sono al sicuro</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -277,8 +280,8 @@
         <translation>Tutto ciò che segue è altrettanto grossolano. Si può continuare la misura in ogni momento.</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>Prosegui la misura</translation>
+        <source>Go on at Acquire</source>
+        <translation>Continua in «Acquisizione»</translation>
     </message>
 </context>
 <context>
@@ -382,6 +385,17 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{}: {} pattern è stato rifotografato dal n. {} in poi</numerusform>
+            <numerusform>{}: {} pattern sono stati rifotografati dal n. {} in poi</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -398,14 +412,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>controllare che sia scelto lo schermo giusto e che nulla copra l’immagine, poi riprovare</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>togliere ciò che si trova nella luce o nell’inquadratura, poi riprovare</translation>
     </message>
 </context>
@@ -447,14 +461,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>riportarlo in posizione entro mezzo pixel, poi riprovare</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>riportarla com’era, tenere chiuse porte e tende, poi riprovare</translation>
     </message>
 </context>
@@ -489,28 +503,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>spegnere le lampade con dimmer e fluorescenti, disattivare il risparmio energetico del proiettore, poi riprovare</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>disattivarne la luminosità automatica e le modalità eco, lasciarlo scaldare, poi riprovare</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>disattivare la modalità retroproiezione o soffitto del proiettore, o consentire un’immagine specchiata, poi riprovare</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>scoprire l’obiettivo, controllare che il proiettore sia acceso, poi riprovare</translation>
     </message>
 </context>
@@ -524,7 +538,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>riattivare il proiettore, disattivarne il risparmio energetico e quello dello schermo, poi riprovare</translation>
     </message>
 </context>
@@ -1993,6 +2007,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>meno di un minuto</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2800,10 +2821,6 @@
         <translation>In pausa, ancora circa %1</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>Foto al minuto</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>%1 di circa %2</translation>
     </message>
@@ -2850,12 +2867,97 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>In attesa di una risposta.</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>Attende risposta, %1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>Decidi cosa fare</translation>
+        <source>Reading, %1</source>
+        <translation>Lettura, %1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>In attesa di una risposta. Ogni foto è salvata.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>Prima si legge %n foto precedente. Poi la misura riprende da dove era finita.</numerusform>
+            <numerusform>Prima si leggono %n foto precedenti. Poi la misura riprende da dove era finita.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Prosegui la misura</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>Rispondi</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>Riprova</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La fotocamera è di nuovo al suo posto</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>Si era spostata durante la misura e inquadra di nuovo ciò che inquadrava.</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>«%1» rifotografa %n pattern dal n. %2 e prosegue da lì.</numerusform>
+            <numerusform>«%1» rifotografa %n pattern dal n. %2 e prosegue da lì.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>«%1» guarda ancora una volta e prosegue.</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>«%1» lascia tutto com’è: ciò che è cambiato sarà sbagliato, e il rapporto lo dice.</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>La misura attende una risposta.</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>Prima si leggono le foto conservate.</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>Non si proietta nulla.</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>Lettura</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>Lettura, meno di un minuto</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>Lettura, ancora circa %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>In pausa, meno di un minuto</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>Ancora meno di un minuto</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>Lettura di %n foto conservata: %1.</numerusform>
+            <numerusform>Lettura delle %n foto conservate: %1.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2995,6 +3097,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>Il proiettore non mostra nulla</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>Risolto</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>Si riguarda al prossimo controllo.</translation>
     </message>
 </context>
 <context>
@@ -3352,6 +3462,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>Non ancora controllato</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>Manca: %1. Una fotocamera simulata resta dov’è: proseguire, ciò che non vede resta com’è.</translation>
     </message>
 </context>
 <context>
@@ -4047,6 +4161,10 @@
     <message>
         <source>within ±%1</source>
         <translation>entro ±%1</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>Un pattern di prova mostra molti livelli affiancati: bastano pochi pattern.</translation>
     </message>
 </context>
 <context>
@@ -5675,6 +5793,14 @@ proiettore %2</translation>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>Sotto %1 della luce più forte che riceve ogni pixel della fotocamera</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>Di ogni pixel della fotocamera resta sempre il collegamento più forte, per quanto alto sia il taglio.</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>«%1» non è un taglio: scrivere un numero da 0 in su. Il taglio è ancora %2.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5943,10 +6069,6 @@ proiettore %2</translation>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>Indicare quale schermo illumina la superficie e dove conservare il lavoro.</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>Iniziare qui. Ogni luogo conserva le proprie misure e impostazioni.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6287,18 +6409,6 @@ proiettore %2</translation>
         <translation>Libera spazio…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>Facile. Misurato in circa %1</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>Medio. Misurato in circa %1</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>Difficile. Misurato in circa %1</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>Qualcuno urta la fotocamera</translation>
     </message>
@@ -6317,6 +6427,22 @@ proiettore %2</translation>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>Ognuna arriva una volta mentre Acquisizione misura, in un momento che nessuno conosce. Esercitarsi su ciò che dice la procedura guidata, prima che accada davanti a un cliente.</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>Misura come una superficie cambia ciò che vi si proietta e corregge immagini e filmati finché appaiono giusti.</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>Facile. Durata della misura: %1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>Medio. Durata della misura: %1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>Difficile. Durata della misura: %1</translation>
     </message>
 </context>
 <context>

@@ -229,9 +229,11 @@
         <source>Measured</source>
         <translation>測定済み</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>測定は中断されました</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>中断：写真 %n 枚は保存済み</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -276,8 +278,8 @@
         <translation>以降の結果も同じだけ粗くなります。測定はいつでも続けられます。</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>測定を続ける</translation>
+        <source>Go on at Acquire</source>
+        <translation>「光輸送測定」で続ける</translation>
     </message>
 </context>
 <context>
@@ -380,6 +382,16 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{0}：No. {2} からパターン {1} 枚を撮り直しました</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -396,14 +408,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>正しい画面が選ばれ、画像を隠すものがないことを確認してから、再試行してください</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>光路や視野にあるものを取り除いてから、再試行してください</translation>
     </message>
 </context>
@@ -445,14 +457,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>ずれが半画素以内になるように元の位置に戻してから、再試行してください</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>照明を元に戻し、ドアとカーテンを閉めたままにして、再試行してください</translation>
     </message>
 </context>
@@ -487,28 +499,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>調光した照明と蛍光灯、プロジェクターの省電力機能をオフにしてから、再試行してください</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>プロジェクターの自動輝度調整とエコモードをオフにし、暖機してから、再試行してください</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>プロジェクターの背面投写や天吊りのモードをオフにするか、反転した画像を許可してから、再試行してください</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>レンズの覆いを外し、プロジェクターの電源が入っていることを確認してから、再試行してください</translation>
     </message>
 </context>
@@ -522,7 +534,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>プロジェクターをスリープから復帰させ、プロジェクターと画面の省電力機能をオフにしてから、再試行してください</translation>
     </message>
 </context>
@@ -1989,6 +2001,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>1 分未満</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2785,10 +2804,6 @@
         <translation>一時停止中、残り約 %1</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>毎分の撮影枚数</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>約 %2 中 %1</translation>
     </message>
@@ -2833,12 +2848,94 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>回答を待っています。</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>回答待ち、%1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>対処方法を選ぶ</translation>
+        <source>Reading, %1</source>
+        <translation>読み込み中、%1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>回答を待っています。写真はすべて保存済みです。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>先に以前の写真 %n 枚を読み込み、続きから測定します。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>測定を続ける</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>回答する</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>再試行</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>カメラは元の位置に戻りました</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>測定中に動きましたが、元と同じ場所を写しています。</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>「%1」は No. %2 からパターン %n 枚を撮り直し、そこから続けます。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>「%1」はもう一度確かめて続けます。</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>「%1」は現状のまま続けます。変わった箇所は正しくならず、レポートに記されます。</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>測定は回答を待っています。</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>先に保存済みの写真を読み込みます。</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>何も投影していません。</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>読み込み中</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>読み込み中、残り 1 分未満</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>読み込み中、残り約 %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>一時停止、残り 1 分未満</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>残り 1 分未満</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>保存済みの写真 %n 枚を読み込み中：%1</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2978,6 +3075,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>プロジェクターに何も映っていません</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>対処済み</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>次の確認でもう一度調べます。</translation>
     </message>
 </context>
 <context>
@@ -3334,6 +3439,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>まだ確認していません</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>見えていない部分：%1。シミュレーションのカメラは動かせません。このまま進んでください。見えない部分はそのまま残ります。</translation>
     </message>
 </context>
 <context>
@@ -4021,6 +4130,10 @@
     <message>
         <source>within ±%1</source>
         <translation>±%1 以内</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>1 枚のテストパターンに多くの段階が並ぶため、少ない枚数で足ります。</translation>
     </message>
 </context>
 <context>
@@ -5646,6 +5759,14 @@ projector %2</source>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>各カメラ画素が受ける最も強い光の %1 未満</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>カット位置がどれほど高くても、カメラの各画素で最も強い接続は必ず残ります。</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>「%1」はカット位置になりません。0 以上の数を入力してください。カット位置は %2 のままです。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5913,10 +6034,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>投影面に映している画面と、作業の保存先を指定します。</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>ここから始めます。測定結果と設定は会場ごとに保存されます。</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6255,18 +6372,6 @@ projector %2</source>
         <translation>空きを増やす…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>やさしい。測定は約%1</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>ふつう。測定は約%1</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>難しい。測定は約%1</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>誰かがカメラにぶつかる</translation>
     </message>
@@ -6285,6 +6390,22 @@ projector %2</source>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>それぞれ、光輸送測定の途中で、誰も知らない瞬間に一度だけ起こります。お客様の前で起こる前に、ウィザードの案内に慣れておきましょう。</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>投影面が映像をどう変えるかを測定し、そこで正しく見えるように静止画と動画を補正します。</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>やさしい。測定時間：%1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>ふつう。測定時間：%1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>難しい。測定時間：%1</translation>
     </message>
 </context>
 <context>

@@ -229,9 +229,11 @@
         <source>Measured</source>
         <translation>已测量</translation>
     </message>
-    <message>
-        <source>Acquire was interrupted</source>
-        <translation>测量被中断</translation>
+    <message numerus="yes">
+        <source>Interrupted: %n photograph(s) are safe</source>
+        <translation>
+            <numerusform>已中断：%n 张照片已安全保存</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -276,8 +278,8 @@
         <translation>后续结果同样粗略。可随时继续测量。</translation>
     </message>
     <message>
-        <source>Go on measuring</source>
-        <translation>继续测量</translation>
+        <source>Go on at Acquire</source>
+        <translation>到“采集”继续</translation>
     </message>
 </context>
 <context>
@@ -380,6 +382,16 @@
     </message>
 </context>
 <context>
+    <name>acquisition.taken-again</name>
+    <message numerus="yes">
+        <source>{}: {} patterns from No. {} on were photographed again</source>
+        <comment>{}: {} pattern from No. {} on was photographed again</comment>
+        <translation>
+            <numerusform>{0}：从第 {2} 个起重拍了 {1} 个图案</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>alarm.by-resuming</name>
     <message>
         <source>{} by resuming the calibration; {}</source>
@@ -396,14 +408,14 @@
 <context>
     <name>alarm.check-screen</name>
     <message>
-        <source>check that the right screen is chosen and nothing covers the picture, then retry</source>
+        <source>check that the right screen is chosen and nothing covers the picture, then try again</source>
         <translation>请确认所选屏幕正确、图像没有被遮挡，然后重试</translation>
     </message>
 </context>
 <context>
     <name>alarm.clear-the-view</name>
     <message>
-        <source>take away what is in the light or in the view, then retry</source>
+        <source>take away what is in the light or in the view, then try again</source>
         <translation>请移开光路或画面中的遮挡物，然后重试</translation>
     </message>
 </context>
@@ -445,14 +457,14 @@
 <context>
     <name>alarm.put-it-back</name>
     <message>
-        <source>put it back to within half a pixel, then retry</source>
+        <source>put it back to within half a pixel, then try again</source>
         <translation>请将其复位到相差不超过半个像素，然后重试</translation>
     </message>
 </context>
 <context>
     <name>alarm.restore-room-light</name>
     <message>
-        <source>restore the light of the room, keep doors and curtains closed, then retry</source>
+        <source>restore the light of the room, keep doors and curtains closed, then try again</source>
         <translation>请将灯光恢复原状，保持门和窗帘关闭，然后重试</translation>
     </message>
 </context>
@@ -487,28 +499,28 @@
 <context>
     <name>alarm.switch-off-dimmed-lamps</name>
     <message>
-        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then retry</source>
+        <source>switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
         <translation>请关闭调光灯和荧光灯以及投影机的节能功能，然后重试</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-eco-modes</name>
     <message>
-        <source>switch off its automatic brightness and eco modes, let it warm up, then retry</source>
+        <source>switch off its automatic brightness and eco modes, let it warm up, then try again</source>
         <translation>请关闭投影机的自动亮度和节能模式，待其预热后重试</translation>
     </message>
 </context>
 <context>
     <name>alarm.switch-off-rear-projection</name>
     <message>
-        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then retry</source>
+        <source>switch off the projector&apos;s rear or ceiling mode, or allow a mirrored picture, then try again</source>
         <translation>请关闭投影机的背投或吊装模式，或允许镜像图像，然后重试</translation>
     </message>
 </context>
 <context>
     <name>alarm.uncover-lens</name>
     <message>
-        <source>uncover the lens, check that the projector is on, then retry</source>
+        <source>uncover the lens, check that the projector is on, then try again</source>
         <translation>请移开镜头上的遮挡，确认投影机已打开，然后重试</translation>
     </message>
 </context>
@@ -522,7 +534,7 @@
 <context>
     <name>alarm.wake-projector</name>
     <message>
-        <source>wake the projector, switch off its and the screen&apos;s power saving, then retry</source>
+        <source>wake the projector, switch off its and the screen&apos;s power saving, then try again</source>
         <translation>请唤醒投影机，关闭投影机和屏幕的节能功能，然后重试</translation>
     </message>
 </context>
@@ -1989,6 +2001,13 @@
     </message>
 </context>
 <context>
+    <name>duration.under-a-minute</name>
+    <message>
+        <source>under a minute</source>
+        <translation>不到一分钟</translation>
+    </message>
+</context>
+<context>
     <name>engine.compute-on-processor</name>
     <message>
         <source>compute on the processor instead</source>
@@ -2785,10 +2804,6 @@
         <translation>已暂停，剩余约 %1</translation>
     </message>
     <message>
-        <source>Photographs a minute</source>
-        <translation>每分钟照片数</translation>
-    </message>
-    <message>
         <source>%1 of about %2</source>
         <translation>%1 / 约 %2</translation>
     </message>
@@ -2833,12 +2848,94 @@
         </translation>
     </message>
     <message>
-        <source>Waiting for your answer.</source>
-        <translation>正在等待您的回答。</translation>
+        <source>Waits for an answer, %1</source>
+        <translation>等待回答，%1</translation>
     </message>
     <message>
-        <source>Decide what to do</source>
-        <translation>决定怎么办</translation>
+        <source>Reading, %1</source>
+        <translation>读取中，%1</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer. Every photograph is saved.</source>
+        <translation>正在等待您的回答。每张照片都已保存。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
+        <translation>
+            <numerusform>先读取之前的 %n 张照片，然后从中断处继续测量。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>继续测量</translation>
+    </message>
+    <message>
+        <source>Answer</source>
+        <translation>回答</translation>
+    </message>
+    <message>
+        <source>Try again</source>
+        <translation>重试</translation>
+    </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>相机已回到原位</translation>
+    </message>
+    <message>
+        <source>It had moved while it measured, and looks again where it looked.</source>
+        <translation>它在测量时移动过，现在又对准原来的位置。</translation>
+    </message>
+    <message numerus="yes">
+        <source>“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.</source>
+        <translation>
+            <numerusform>“%1”从第 %2 个起重拍 %n 个图案，并从那里继续。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>“%1” looks once more, and goes on.</source>
+        <translation>“%1”再检查一次并继续。</translation>
+    </message>
+    <message>
+        <source>“%1” keeps all as it is: what changed will be wrong, and the report says so.</source>
+        <translation>“%1”保持现状：有变化的地方会不正确，报告中会注明。</translation>
+    </message>
+    <message>
+        <source>Measuring waits for your answer.</source>
+        <translation>测量正在等待您的回答。</translation>
+    </message>
+    <message>
+        <source>Kept photographs are read first.</source>
+        <translation>先读取已保留的照片。</translation>
+    </message>
+    <message>
+        <source>Nothing is being projected.</source>
+        <translation>当前没有投影。</translation>
+    </message>
+    <message>
+        <source>Reading</source>
+        <translation>正在读取</translation>
+    </message>
+    <message>
+        <source>Reading, under a minute left</source>
+        <translation>正在读取，剩余不到一分钟</translation>
+    </message>
+    <message>
+        <source>Reading, about %1 left</source>
+        <translation>正在读取，剩余约 %1</translation>
+    </message>
+    <message>
+        <source>Paused, under a minute left</source>
+        <translation>已暂停，剩余不到一分钟</translation>
+    </message>
+    <message>
+        <source>Under a minute left</source>
+        <translation>剩余不到一分钟</translation>
+    </message>
+    <message numerus="yes">
+        <source>Reading the %n photograph(s) that are kept: %1.</source>
+        <translation>
+            <numerusform>正在读取已保留的 %n 张照片：%1。</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2978,6 +3075,14 @@
     <message>
         <source>The projector shows nothing</source>
         <translation>投影机没有画面</translation>
+    </message>
+    <message>
+        <source>Put right</source>
+        <translation>已处理</translation>
+    </message>
+    <message>
+        <source>Looked at again at the next check.</source>
+        <translation>下次检查时再看。</translation>
     </message>
 </context>
 <context>
@@ -3334,6 +3439,10 @@
     <message>
         <source>Not checked yet</source>
         <translation>尚未检查</translation>
+    </message>
+    <message>
+        <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
+        <translation>缺少：%1。模拟相机的位置不变：请继续，它看不到的部分保持原样。</translation>
     </message>
 </context>
 <context>
@@ -4021,6 +4130,10 @@
     <message>
         <source>within ±%1</source>
         <translation>在 ±%1 以内</translation>
+    </message>
+    <message>
+        <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
+        <translation>一个测试图案并排显示许多级，因此只需少量图案。</translation>
     </message>
 </context>
 <context>
@@ -5646,6 +5759,14 @@ projector %2</source>
         <source>Below %1 of the strongest light that each camera pixel gets</source>
         <translation>低于每个相机像素所受最强光的 %1</translation>
     </message>
+    <message>
+        <source>Of each camera pixel the strongest connection always stays, however high the cut.</source>
+        <translation>无论阈值多高，每个相机像素最强的连接始终保留。</translation>
+    </message>
+    <message>
+        <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
+        <translation>“%1”不是阈值：请输入 0 或更大的数。阈值仍为 %2。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::TidyDialog</name>
@@ -5913,10 +6034,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines on the surface, and where the work is kept.</source>
         <translation>指定照射表面的屏幕，以及数据的保存位置。</translation>
-    </message>
-    <message>
-        <source>Start here. Every venue keeps its own measurements and settings.</source>
-        <translation>从这里开始。每个场地有各自的测量和设置。</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6255,18 +6372,6 @@ projector %2</source>
         <translation>释放空间…</translation>
     </message>
     <message>
-        <source>Easy. Measured in about %1</source>
-        <translation>容易。测量约需%1</translation>
-    </message>
-    <message>
-        <source>Medium. Measured in about %1</source>
-        <translation>中等。测量约需%1</translation>
-    </message>
-    <message>
-        <source>Hard. Measured in about %1</source>
-        <translation>困难。测量约需%1</translation>
-    </message>
-    <message>
         <source>Somebody bumps the camera</source>
         <translation>有人碰到相机</translation>
     </message>
@@ -6285,6 +6390,22 @@ projector %2</source>
     <message>
         <source>Each comes once while Acquire measures, at a moment that nobody knows. Practise what the wizard says, before it happens in front of a client.</source>
         <translation>每种情况在“采集”测量期间出现一次，时间无人知晓。在客户面前发生之前，先练习应对向导的提示。</translation>
+    </message>
+    <message>
+        <source>Measures how a surface changes what is projected on it, and corrects pictures and films until they look right there.</source>
+        <translation>测量表面如何改变投在上面的画面，并校正图片和影片，使其在那里看起来正确。</translation>
+    </message>
+    <message>
+        <source>Easy. Measuring takes %1</source>
+        <translation>容易。测量需要%1</translation>
+    </message>
+    <message>
+        <source>Medium. Measuring takes %1</source>
+        <translation>中等。测量需要%1</translation>
+    </message>
+    <message>
+        <source>Hard. Measuring takes %1</source>
+        <translation>困难。测量需要%1</translation>
     </message>
 </context>
 <context>

@@ -63,6 +63,11 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
             "{} % of the camera pixels do not see what was predicted for the test patterns: check that "
             "nothing moved or flickered; these pixels are left out of the compensation")
             .with(as::share(flagged, as::decimals(1))));
+  for (const auto& [what, first, patterns] : supervision.again)
+    findings.push_back(RELUCENT_PLURAL_MESSAGE("acquisition.taken-again",
+                                               "{}: {} patterns from No. {} on were photographed again",
+                                               "{}: {} pattern from No. {} on was photographed again")
+                           .with(what, as::count(patterns), as::label(first + 1)));
   for (const auto& [shot, what] : supervision.accepted)
     findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "accepted before pattern {}: {}")
                            .with(as::label(shot + 1), what));

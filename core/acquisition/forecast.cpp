@@ -34,6 +34,9 @@ constexpr double leavesPerPixel = 120.0;
 constexpr double bytesPerLeaf = 22.0;
 // The level under way: some 40 active pairs a camera pixel, each with 4 children of 36 bytes.
 constexpr double childrenBytes = 40.0 * 4.0 * 36.0;
+// Between dense patterns rows are solved for: of a measurement in all, on two processors of an older laptop.
+constexpr double denseComputing = 1.2e-3;  // seconds a camera pixel
+
 // Of dense patterns: T and rows of a camera pixel, the patterns' means of a projector pixel. Both have a
 // camera pixel's colours of near and far light of each projector. What else there is of a row: its
 // references, and a mark for each leaf while the level's are divided.
@@ -179,10 +182,18 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   auto photographs = perShot * static_cast<double>(cameras.devices()) * work.shots;
   work.exposures = static_cast<int>(std::round(perShot * work.shots));
   work.seconds = work.shots * times.shotSeconds() + photographs * times.exposureSeconds(seconds);
+  // Little of it lies between the first patterns, and nothing between the benchmark's.
+  if (settings.scheme == AcquisitionScheme::multiplexed && work.shots > 0) {
+    const double computing = denseComputing * static_cast<double>(cameras.count()) * work.shots /
+                             std::max(1.0, total(&PatternRange::likely));
+    const double known = times.shots > 0 ? times.between / times.shots * work.shots : 0.0;
+    work.seconds += std::max(0.0, computing - known);
+  }
 
   double pixels = static_cast<double>(cameras.count());
-  double bytes = times.exposures > 0 ? static_cast<double>(times.bytes) / times.exposures
-                                     : compressedBytes * pixels / static_cast<double>(cameras.devices());
+  double bytes = times.exposures > 0 && times.bytes > 0
+                     ? static_cast<double>(times.bytes) / times.exposures
+                     : compressedBytes * pixels / static_cast<double>(cameras.devices());
   const bool dense = settings.scheme == AcquisitionScheme::multiplexed;
   double leaves = (dense ? denseLeaves * denseBytesPerLeaf + coloursBytes * projectorCount
                          : leavesPerPixel * bytesPerLeaf) *

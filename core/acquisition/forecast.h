@@ -55,7 +55,10 @@ ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& 
 /// after an alarm or for flagged pixels comes on top. Before it begins: with a state of nothing.
 ///   seconds = shots * (show + keep + compute) + exposures * (overhead + slope * exposure time),
 /// all five measured from this acquisition's shots once there are enough, before that from `benchmark`: the
-/// shots of the linearization, which are real photographs by the same devices.
+/// shots of the linearization, which are real photographs by the same devices. Of dense patterns, computing
+/// is taken for no less than
+///   compute = camera pixels * 1.2 ms / patterns,
+/// since most of it is done between the last of them.
 ///   disk   = exposures * bytes of one + T;      memory = T twice, the level under way, what the program has
 /// T is taken to hold 120 leaves of 22 bytes a camera pixel; simulated venues have 65 to 180. Dense patterns
 /// need it once, with 75, and their rows.

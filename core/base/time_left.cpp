@@ -47,16 +47,36 @@ std::optional<double> TimeLeft::seconds(Moment now) const {
   return expectedEnd_ ? std::optional(0.0) : std::nullopt;
 }
 
-Message roundedDuration(double seconds) {
-  constexpr double minute = 60.0, hour = 3600.0;
-  const auto whole = [](double value) { return as::count(static_cast<std::int64_t>(value)); };
-  if (seconds <= minute - 10.0)
-    return RELUCENT_MESSAGE("duration.seconds", "{} s")
-        .with(whole(std::max(10.0, 10.0 * std::ceil(seconds / 10.0))));
-  const double minutes = std::ceil(seconds / minute);
-  if (seconds <= hour) return RELUCENT_MESSAGE("duration.minutes", "{} min").with(whole(minutes));
+namespace {
+
+constexpr double minute = 60.0, hour = 3600.0;
+
+auto whole(double value) {
+  return as::count(static_cast<std::int64_t>(value));
+}
+
+Message inMinutes(double minutes) {
+  if (minutes <= hour / minute) return RELUCENT_MESSAGE("duration.minutes", "{} min").with(whole(minutes));
   return RELUCENT_MESSAGE("duration.hours-minutes", "{} h {} min")
       .with(whole(std::floor(minutes / 60.0)), whole(std::fmod(minutes, 60.0)));
+}
+
+}  // namespace
+
+Message expectedDuration(double seconds) {
+  if (isUnderAMinute(seconds)) return RELUCENT_MESSAGE("duration.under-a-minute", "under a minute");
+  return inMinutes(std::ceil(seconds / minute));
+}
+
+bool isUnderAMinute(double seconds) {
+  return seconds < minute;
+}
+
+Message spentDuration(double seconds) {
+  constexpr double secondsUpTo = 100.0;
+  const double rounded = std::max(1.0, std::round(seconds));
+  if (rounded < secondsUpTo) return RELUCENT_MESSAGE("duration.seconds", "{} s").with(whole(rounded));
+  return inMinutes(std::round(seconds / minute));
 }
 
 }  // namespace relucent

@@ -35,7 +35,13 @@ class TimeLeft {
   std::optional<Moment> expectedEnd_, paused_;
 };
 
-/// "40 s", "11 min", "2 h 5 min": rounded up, to 10 s below a minute and to a minute above.
-Message roundedDuration(double seconds);
+/// Of what is still to come, rounded up: "under a minute", "11 min", "2 h 5 min". No forecast of a
+/// measurement knows seconds.
+Message expectedDuration(double seconds);
+/// So little that expectedDuration() does not say how much.
+bool isUnderAMinute(double seconds);
+
+/// Of what was taken, to the nearest: "2 s", "75 s", "11 min", "2 h 5 min".
+Message spentDuration(double seconds);
 
 }  // namespace relucent

@@ -16,8 +16,9 @@ std::optional<rig::Shot> EarlierShots::find(const rig::ShotId& id, const std::st
 
 double EarlierShots::seconds() const {
   auto kept = kept_;
+  std::erase_if(kept, [this](Moment moment) { return moment <= recordedUntil_; });
   std::ranges::sort(kept);
-  std::chrono::duration<double> sum{};
+  std::chrono::duration<double> sum(kept_.empty() ? 0.0 : recorded_);
   for (std::size_t i = 1; i < kept.size(); ++i)
     if (const auto between = kept[i] - kept[i - 1]; between < longestBetween) sum += between;
   return sum.count();

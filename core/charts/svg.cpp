@@ -142,14 +142,20 @@ class Drawn {
   std::string legend() const {
     std::string svg;
     const PlotArea area = legendArea();
-    const double x = area.left;
-    double y = area.top + 12.0;
+    const double width = rowWidth();
+    // Where each corner has something in it, above the plot, behind the title.
+    const bool isAbove = pointsIn(area) > 0 && width > 0.0 && widthOf(chart_.y.title) + width <= right();
+    Point at{isAbove ? right() - width : area.left, isAbove ? 7.0 : area.top + 12.0};
     for (const Curve& curve : chart_.curves) {
       if (curve.name.empty()) continue;
-      svg += curve.filled ? rectangle(curve.style, {x + 6.0, y - 6.0}, {14.0, 12.0})
-                          : line(curve.style, {x, y}, {x + 26.0, y}) + markerSvg(curve, {x + 13.0, y});
-      svg += text("legend", {x + 36.0, y + 4.0}, "start", curve.name);
-      y += 22.0;
+      svg += curve.filled
+                 ? rectangle(curve.style, {at.x + 6.0, at.y - 6.0}, {14.0, 12.0})
+                 : line(curve.style, at, {at.x + 26.0, at.y}) + markerSvg(curve, {at.x + 13.0, at.y});
+      svg += text("legend", {at.x + beforeName, at.y + 4.0}, "start", curve.name);
+      if (isAbove)
+        at.x += entryWidth(curve);
+      else
+        at.y += 22.0;
     }
     return svg;
   }
@@ -158,9 +164,24 @@ class Drawn {
   double right() const { return plot_.left + plot_.width; }
   double bottom() const { return plot_.top + plot_.height; }
 
+  static constexpr double beforeName = 36.0;
+
+  static double entryWidth(const Curve& curve) {
+    constexpr double apart = 18.0;
+    return beforeName + widthOf(curve.name) + apart;
+  }
+  /// Of all entries side by side; 0: there is no row for them.
+  double rowWidth() const {
+    if (chart_.y.title.empty()) return 0.0;
+    double width = 0.0;
+    for (const Curve& curve : chart_.curves)
+      if (!curve.name.empty()) width += entryWidth(curve);
+    return width;
+  }
+
   /// In the corner where least of the curves is in its way: upper left, if none is better.
   PlotArea legendArea() const {
-    constexpr double row = 22.0, beforeName = 36.0, margin = 20.0;
+    constexpr double row = 22.0, margin = 20.0;
     PlotArea least{0.0, 0.0, 0.0, 0.0};
     for (const Curve& curve : chart_.curves) {
       if (curve.name.empty()) continue;
@@ -181,14 +202,15 @@ class Drawn {
     return least;
   }
 
-  /// Of the curves, between their values too.
+  /// Of the curves, between their values too, and of the mark.
   std::size_t pointsIn(const PlotArea& area) const {
-    constexpr int between = 16;
+    constexpr int between = 64;
     auto isIn = [&](Point at) {
       return at.x > area.left - 8.0 && at.x < area.left + area.width + 8.0 && at.y > area.top - 8.0 &&
              at.y < area.top + area.height + 8.0;
     };
     std::size_t count = 0;
+    if (!std::isnan(chart_.mark) && isIn({placeOf({chart_.mark, chart_.y.low}).x, area.top})) ++count;
     for (const Curve& curve : chart_.curves) {
       for (const Point& value : curve.points) count += isIn(placeOf(value)) ? 1 : 0;
       for (std::size_t i = 1; i < curve.line.size(); ++i) {

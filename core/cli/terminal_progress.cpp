@@ -31,11 +31,11 @@ std::string bytesText(std::uint64_t bytes) {
 
 std::string workSentence(const WorkLeft& work) {
   return fmt::format(
-      "About {:.0f} patterns to photograph ({:.0f} to {:.0f}), {:.0f} photographs: about {}, {} on disk, {} "
-      "of "
-      "memory",
+      "About {:.0f} patterns to photograph ({:.0f} to {:.0f}), {:.0f} photographs: {}{}, {} on disk, {} "
+      "of memory",
       rounded(work.shots), rounded(work.leastShots), rounded(work.mostShots), rounded(work.exposures),
-      english(roundedDuration(work.seconds)), bytesText(work.diskBytes), bytesText(work.memoryBytes));
+      isUnderAMinute(work.seconds) ? "" : "about ", english(expectedDuration(work.seconds)),
+      bytesText(work.diskBytes), bytesText(work.memoryBytes));
 }
 
 std::string barLine(std::string_view stage, double fraction, std::string_view timeLeft, int width) {
@@ -102,7 +102,9 @@ void TerminalProgress::say(const std::string& sentence) {
 
 std::string TerminalProgress::timeLeftSentence() const {
   const std::optional<double> seconds = timeLeft_.seconds(terminal_.now());
-  return seconds ? fmt::format("about {} left", english(roundedDuration(*seconds))) : std::string();
+  if (!seconds) return {};
+  return fmt::format("{}{} left", isUnderAMinute(*seconds) ? "" : "about ",
+                     english(expectedDuration(*seconds)));
 }
 
 void TerminalProgress::drawBar(int width) {

@@ -50,6 +50,12 @@ class StageShots {
         begun_(workingTime()) {}
 
   rig::ShotTaker& taker() { return taker_; }
+  /// It goes on where a result ended early that tells what it took.
+  void goOnFrom(const calibration::StageResult& ended, double seconds) {
+    std::error_code code;
+    const auto when = fs::last_write_time(ended.folder, code);
+    if (!code) earlier_.remember(when, seconds);
+  }
   /// What this session took, pauses left out, and earlier ones for the photographs that this one has read.
   double seconds() const { return (workingTime() - begun_).count() + earlier_.seconds(); }
   /// Time of this session in which somebody was waited for.
@@ -106,6 +112,10 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   rig::Rig used = reducedRig(folder, rig);
   StageShots stage(folder, calibration::Stage::acquisition, used, room, progress);
   rig::ShotTaker& shots = stage.taker();
+  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
+  if (const auto ended = folder.find(calibration::Stage::acquisition, inputs))
+    if (const auto cost = calibration::resultFrom<calibration::Stage::acquisition>(*ended).cost)
+      stage.goOnFrom(*ended, cost->seconds);
   ensureMemory(used, settingsOf(folder), platform::memoryLeft());
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
   OutlookObserver looking(observer, outlook);
@@ -124,7 +134,6 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   if (acquisition.stoppedAt > 0)
     acquisition.findings.insert(acquisition.findings.begin(),
                                 stoppedEarly(acquisition.stoppedAt, acquisition.expected));
-  const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   stage.waitForResult(bytesOf(acquisition));
   calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
   return acquisition;

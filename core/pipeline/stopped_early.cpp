@@ -20,7 +20,7 @@ Message stoppedEarly(int blocks, const std::optional<transport::ExpectedQuality>
              "measuring any time as long as nothing has moved")
       .with(as::label(blocks), as::decibels(expected->now, as::decimals(0)),
             as::decibels(expected->whole, as::decimals(0)), as::count(expected->photographs),
-            roundedDuration(expected->seconds));
+            expectedDuration(expected->seconds));
 }
 
 }  // namespace relucent::pipeline

@@ -29,9 +29,10 @@ constexpr bool isAcceptable(AlarmKind kind) {
 /// A finding that pauses the measurement.
 struct Alarm {
   AlarmKind kind = AlarmKind::flicker;
-  Message what;    // what happened
-  Message safe;    // which photographs are safe
-  Message advice;  // what to do
+  Message what;                 // what happened
+  Message safe;                 // which photographs are safe
+  Message advice;               // what to do
+  int first = 0, patterns = 0;  // what is not safe: it is photographed again on retry
 };
 
 /// - retry: what is not safe is photographed again, from devices that have been put right;

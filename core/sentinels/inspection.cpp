@@ -56,10 +56,11 @@ std::optional<Alarm> inspectDarkness(const Check& now, const Baseline& baseline,
         RELUCENT_MESSAGE("alarm.projector-shows-nothing",
                          "the projector shows nothing, though the room's own light is still seen"),
         RELUCENT_MESSAGE("alarm.wake-projector",
-                         "wake the projector, switch off its and the screen's power saving, then retry"));
-  return alarm(
-      AlarmKind::coveredLens, RELUCENT_MESSAGE("alarm.camera-sees-nothing", "the camera sees nothing at all"),
-      RELUCENT_MESSAGE("alarm.uncover-lens", "uncover the lens, check that the projector is on, then retry"));
+                         "wake the projector, switch off its and the screen's power saving, then try again"));
+  return alarm(AlarmKind::coveredLens,
+               RELUCENT_MESSAGE("alarm.camera-sees-nothing", "the camera sees nothing at all"),
+               RELUCENT_MESSAGE("alarm.uncover-lens",
+                                "uncover the lens, check that the projector is on, then try again"));
 }
 
 /// In units of the typical flood.
@@ -80,12 +81,12 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
   double limit = reading_limit::roomLight * static_cast<double>(references.typical) *
                  static_cast<double>(now.black.radiance.size());
   if (std::abs(change.value) < limit || !change.isSignificant()) return std::nullopt;
-  return alarm(AlarmKind::ambientChanged,
-               change.value > 0.0
-                   ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
-                   : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
-               RELUCENT_MESSAGE("alarm.restore-room-light",
-                                "restore the light of the room, keep doors and curtains closed, then retry"));
+  return alarm(
+      AlarmKind::ambientChanged,
+      change.value > 0.0 ? RELUCENT_MESSAGE("alarm.room-brighter", "the light of the room became brighter")
+                         : RELUCENT_MESSAGE("alarm.room-darker", "the light of the room became darker"),
+      RELUCENT_MESSAGE("alarm.restore-room-light",
+                       "restore the light of the room, keep doors and curtains closed, then try again"));
 }
 
 /// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
@@ -140,7 +141,7 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
                            "pixels and turned by {} degrees")
               .with(as::label(camera + 1), as::pixels(movement.x, as::decimals(1)),
                     as::pixels(movement.y, as::decimals(1)), as::degrees(movement.degrees, as::decimals(1))),
-          RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then retry"));
+          RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
     if (local)
       return alarm(
           AlarmKind::localChange,
@@ -149,7 +150,7 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
                               as::decimals(1)),
                     as::label(camera + 1)),
           RELUCENT_MESSAGE("alarm.clear-the-view",
-                           "take away what is in the light or in the view, then retry"));
+                           "take away what is in the light or in the view, then try again"));
   }
   return std::nullopt;
 }
@@ -231,13 +232,13 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
   if (auto ambient = inspectAmbient(now, baseline)) return ambient;
   if (auto view = inspectView(now, baseline, power)) return view;
   if (std::abs(power / baseline.power - 1.0) > reading_limit::lamp)
-    return alarm(
-        AlarmKind::lampChanged,
-        RELUCENT_MESSAGE("alarm.lamp-changed",
-                         "the projector's light changed by {} % within a few photographs")
-            .with(as::share((power / baseline.power - 1.0), as::decimals(0))),
-        RELUCENT_MESSAGE("alarm.switch-off-eco-modes",
-                         "switch off its automatic brightness and eco modes, let it warm up, then retry"));
+    return alarm(AlarmKind::lampChanged,
+                 RELUCENT_MESSAGE("alarm.lamp-changed",
+                                  "the projector's light changed by {} % within a few photographs")
+                     .with(as::share((power / baseline.power - 1.0), as::decimals(0))),
+                 RELUCENT_MESSAGE(
+                     "alarm.switch-off-eco-modes",
+                     "switch off its automatic brightness and eco modes, let it warm up, then try again"));
   return std::nullopt;
 }
 
@@ -271,8 +272,9 @@ std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::s
         AlarmKind::wrongScreen,
         RELUCENT_MESSAGE("alarm.wrong-picture", "projector {} does not show the picture that it is given")
             .with(as::label(projector + 1)),
-        RELUCENT_MESSAGE("alarm.check-screen",
-                         "check that the right screen is chosen and nothing covers the picture, then retry"));
+        RELUCENT_MESSAGE(
+            "alarm.check-screen",
+            "check that the right screen is chosen and nothing covers the picture, then try again"));
   if (turned < -0.3 * span && !mayBeMirrored)
     return alarm(
         AlarmKind::mirroredScreen,
@@ -280,7 +282,7 @@ std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::s
             .with(as::label(projector + 1)),
         RELUCENT_MESSAGE(
             "alarm.switch-off-rear-projection",
-            "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then retry"));
+            "switch off the projector's rear or ceiling mode, or allow a mirrored picture, then try again"));
   return std::nullopt;
 }
 

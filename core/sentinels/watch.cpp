@@ -41,7 +41,7 @@ Alarm flickerAlarm(double apart, const Message& safe) {
           safe,
           RELUCENT_MESSAGE(
               "alarm.switch-off-dimmed-lamps",
-              "switch off dimmed and fluorescent lamps and the projector's power saving, then retry")};
+              "switch off dimmed and fluorescent lamps and the projector's power saving, then try again")};
 }
 
 constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-transport",
@@ -61,6 +61,16 @@ void join(hdr::BlackLevel& into, const hdr::BlackLevel& other) {
 }
 
 }  // namespace
+
+void Supervision::remember(const Alarm& alarm) {
+  if (alarm.patterns == 0) return;
+  for (Again& known : again)
+    if (known.first == alarm.first && english(known.what) == english(alarm.what)) {
+      known.patterns += alarm.patterns;
+      return;
+    }
+  again.push_back({alarm.what, alarm.first, alarm.patterns});
+}
 
 Watch::Watch(photography::Photographer& photographer, const photography::References& references,
              const WatchSettings& settings, Supervision& supervision)
@@ -152,8 +162,11 @@ void Watch::contradicted(int shot, int patterns) {
   if (isNew()) supervision_.observer.takenAgain({shot, patterns, RetakeReason::contradiction});
 }
 
-std::optional<Interruption> Watch::handle(const Alarm& alarm, int doubtful) {
+std::optional<Interruption> Watch::handle(const Alarm& raised, int doubtful) {
   int shot = shots_.shots();
+  Alarm alarm = raised;
+  alarm.first = doubtful;
+  alarm.patterns = shot - doubtful;
   std::map<int, Message>& accepted = supervision_.accepted;
   if (accepted.contains(shot)) return std::nullopt;
   Answer answer = supervision_.handler ? supervision_.handler(alarm) : Answer::retry;
@@ -169,6 +182,7 @@ std::optional<Interruption> Watch::handle(const Alarm& alarm, int doubtful) {
                 RELUCENT_MESSAGE("alarm.by-resuming", "{} by resuming the calibration; {}")
                     .with(alarm.advice, alarm.safe),
                 "light transport");
+  supervision_.remember(alarm);
   supervision_.observer.takenAgain({doubtful, shot - doubtful, RetakeReason::alarm, alarm.kind});
   return Interruption::beginAgain;
 }

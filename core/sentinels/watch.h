@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "relucent/base/message.h"
 #include "relucent/photography/photographer.h"
@@ -20,6 +21,14 @@ struct Supervision {
   AlarmHandler handler;
   AcquisitionObserver& observer;
   std::map<int, Message> accepted{};  // what accepted alarms said, by the shot that they came before
+  /// What was photographed again after an alarm.
+  struct Again {
+    Message what;
+    int first = 0, patterns = 0;
+  };
+  std::vector<Again> again{};
+  /// Several times from the same pattern on for the same reason are one.
+  void remember(const Alarm& alarm);
 };
 
 struct WatchSettings {

@@ -21,6 +21,16 @@ QLocale withLatinDigits(const QLocale& locale) {
   return same.isEmpty() ? QLocale(QLocale::English) : same.first();
 }
 
+/// A computer that speaks the language says how it writes times and numbers; else English is British here, as
+/// its words are, with the clock of 24 hours.
+QLocale localeOf(const QString& code) {
+  if (code.isEmpty()) return QLocale::system();
+  const QLocale wanted(code), here = QLocale::system();
+  if (wanted.language() == here.language() && wanted.script() == here.script()) return here;
+  if (wanted.language() == QLocale::English) return QLocale(QLocale::English, QLocale::UnitedKingdom);
+  return wanted;
+}
+
 }  // namespace
 
 Language::Language(const QString& code, QString folder) : folder_(std::move(folder)) {
@@ -55,7 +65,7 @@ void Language::load(const QString& name, const QStringList& folders, const QLoca
 
 void Language::choose(const QString& code) {
   unload();
-  QLocale locale = code.isEmpty() ? QLocale::system() : QLocale(code);
+  const QLocale locale = localeOf(code);
   load("relucent", {folder_}, locale);
   // English too has a file: its plurals.
   if (translators_.empty()) load("relucent", {folder_}, QLocale(QLocale::English));

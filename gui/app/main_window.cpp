@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "app/main_window.h"
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QMimeData>
 #include <QShortcut>
 
@@ -85,8 +87,11 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
             [this, page](const FailureReport& report) { tell(*page, report); });
   }
   connect(&wizard_, &Wizard::statusChanged, this, &MainWindow::refresh);
+  connect(&wizard_, &Wizard::statusChanged, this, &MainWindow::returnFocus, Qt::QueuedConnection);
   connect(&wizard_, &Wizard::moved, this, [this] {
     refresh();
+    focusLent_ = nullptr;
+    hasWorked_ = false;
     focusFirst(stages_);
   });
   connect(qApp, &QApplication::focusChanged, this, &MainWindow::followFocus);
@@ -128,6 +133,8 @@ void MainWindow::buildRailFooter() {
   for (QPushButton* button : {settings, help}) {
     button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     button->setAccessibleName(button->text());
+    // Clicked, they leave the focus on the page: there Enter does what the page says.
+    button->setFocusPolicy(Qt::TabFocus);
     rail_->footer()->addWidget(button);
     footer_.push_back(button);
   }
@@ -147,12 +154,15 @@ void MainWindow::fitRailFooter() {
   for (QPushButton* button : footer_) {
     button->ensurePolished();
     button->setText(button->accessibleName());
-    needed = std::max(needed, button->sizeHint().width());
+    needed += button->sizeHint().width();
   }
+  // Each as wide as its words want.
+  for (std::size_t i = 0; i < footer_.size(); ++i)
+    rail_->footer()->setStretch(static_cast<int>(i), footer_[i]->sizeHint().width());
   QMargins margins = rail_->layout()->contentsMargins();
   int spaces = static_cast<int>(footer_.size()) - 1;
   int room = rail_->width() - margins.left() - margins.right() - spaces * rail_->footer()->spacing();
-  if (rail_->width() > narrowRail && needed * static_cast<int>(footer_.size()) <= room) return;
+  if (rail_->width() > narrowRail && needed <= room) return;
   for (QPushButton* button : footer_) button->setText({});
 }
 
@@ -199,14 +209,42 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
   // What is clicked is in sight and must not move under the pointer.
   if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
     bringIntoSight(now);
-  // A button of the action bar that is done, and goes, would leave its focus to the rail or to Back, which
-  // are next: Enter would then leave the page.
-  if (before == nullptr || now == nullptr || !actions_->isAncestorOf(before)) return;
+  // What is done or has gone, a button of the action bar or a picture on the stage, would leave its focus to
+  // the rail or to Back, which are next: Enter would then leave the page.
+  if (before == nullptr || now == nullptr || !isAncestorOf(before)) return;
   if (!rail_->isAncestorOf(now) && !actions_->leadsBack(*now)) return;
   if (before->isVisible() && before->isEnabled()) return;
-  // Once the stage knows what has ended.
+  // Once the stage knows what has ended, unless another page has the focus by then.
   QMetaObject::invokeMethod(
-      this, [this] { focusFirst(stages_); }, Qt::QueuedConnection);
+      this,
+      [this, taken = QPointer<QWidget>(now)] {
+        if (focusWidget() != taken) return;
+        // Where nothing on the stage takes it, nobody has it.
+        if (!focusFirst(stages_)) stages_->setFocus();
+        focusLent_ = focusWidget();
+        returnFocus();
+      },
+      Qt::QueuedConnection);
+}
+
+/// After a job what leads on has the focus again once it is possible, as long as nobody has gone elsewhere
+/// meanwhile.
+void MainWindow::returnFocus() {
+  const bool isAtWork = wizard_.currentPage().progress().has_value();
+  hasWorked_ = hasWorked_ || isAtWork;
+  if (isAtWork || !hasWorked_ || focusLent_ == nullptr || focusWidget() != focusLent_) return;
+  if (!actions_->focusPrimary()) return;
+  focusLent_ = nullptr;
+  hasWorked_ = false;
+}
+
+/// Enter does what the button with the focus says, as it does on tiles.
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  auto* button = qobject_cast<QAbstractButton*>(focusWidget());
+  const bool isEnter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+  if (isEnter && !event->isAutoRepeat() && button != nullptr && !button->isCheckable())
+    return button->click();
+  QMainWindow::keyPressEvent(event);
 }
 
 void MainWindow::moveToNextRegion() {

@@ -3,6 +3,7 @@
 
 #include <QLabel>
 #include <QMainWindow>
+#include <QPointer>
 #include <QStackedWidget>
 #include <vector>
 
@@ -37,6 +38,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -53,6 +55,7 @@ class MainWindow : public QMainWindow {
   void bindKeys();
   void refresh();
   void moveToNextRegion();
+  void returnFocus();
   void followFocus(QWidget* before, QWidget* now);
   void tell(const PageModel& page, const FailureReport& report);
   void closeOnceDevicesAreFree();
@@ -64,6 +67,8 @@ class MainWindow : public QMainWindow {
   std::vector<PageView> views_;
   StepRail* rail_;
   BannerBar* banner_;
+  bool hasWorked_ = false;       // the page that is looked at
+  QPointer<QWidget> focusLent_;  // until the command that had it can be given again
   ActionBar* actions_;
   QWidget* header_;
   EndQuestion endQuestion_;

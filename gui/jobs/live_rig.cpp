@@ -104,9 +104,10 @@ LiveRig::Clock::duration LiveRig::usualArrival() const {
   return sorted[sorted.size() > 1 ? 1 : 0];
 }
 
-rig::ShotId LiveRig::lastShot() const {
+LiveRig::Taken LiveRig::taken(const std::string& stage) const {
   QMutexLocker lock(&guard_);
-  return lastShot_;
+  const auto found = taken_.find(stage);
+  return found == taken_.end() ? Taken() : found->second;
 }
 
 int LiveRig::photographs() const {
@@ -119,7 +120,8 @@ void LiveRig::photographed(std::size_t index, const rig::CaptureRequest& request
   {
     QMutexLocker lock(&guard_);
     ++photographs_;
-    lastShot_ = request.shot;
+    Taken& taken = taken_[request.shot.stage];
+    taken = {taken.photographs + 1, request.shot.number};
     arrivals_.push_back(arrived_);
     if (arrivals_.size() > rememberedArrivals) arrivals_.pop_front();
     Photographed& photographed = at(cameras_, index);

@@ -8,8 +8,10 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "relucent/linearization/ramp_preview.h"
@@ -49,8 +51,12 @@ class LiveRig : public QObject, public rig::RigWatcher {
   bool isCameraSilent(Clock::time_point now) const;
   /// By all cameras, since the start.
   int photographs() const;
-  /// Whose photograph came last; of no stage before there is one.
-  rig::ShotId lastShot() const;
+  /// Photographs of one stage, and the number of the last one's shot: others may look through the cameras
+  /// while it waits.
+  struct Taken {
+    int photographs = 0, lastShot = -1;
+  };
+  Taken taken(const std::string& stage) const;
 
   /// Least time between two patterns, milliseconds, while people may be looking. 0: none.
   void setLeastInterval(int milliseconds);
@@ -110,7 +116,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
   std::vector<std::optional<Asked>> asked_;  // of the cameras, for a photograph that is on its way
   Clock::duration arrived_{};                // the last one, beyond its exposure
   std::deque<Clock::duration> arrivals_;     // of the last photographs
-  rig::ShotId lastShot_;
+  std::map<std::string, Taken> taken_;       // by stage
   linearization::RampPreview ramps_;
   int photographs_ = 0;
   QElapsedTimer since_;

@@ -2,6 +2,7 @@
 #include "theme/controls.h"
 
 #include <QEvent>
+#include <QGuiApplication>
 #include <QPainter>
 #include <QStyle>
 #include <algorithm>
@@ -50,8 +51,25 @@ void IconLabel::paintEvent(QPaintEvent*) {
   drawIcon(painter, icon_, rect(), colour_());
 }
 
+QString plainToolTip(const QString& text) {
+  return Qt::mightBeRichText(text) ? text.toHtmlEscaped().prepend("<span>").append("</span>") : text;
+}
+
+namespace {
+
+/// Where reading begins, in whatever letters: a name in another script would stand at the other side.
+void alignAsRead(QLabel* label) {
+  const Qt::AlignmentFlag side = QGuiApplication::isRightToLeft() ? Qt::AlignRight : Qt::AlignLeft;
+  label->setAlignment(side | Qt::AlignAbsolute | Qt::AlignVCenter);
+}
+
+}  // namespace
+
 QLabel* labelOf(const QString& text, const char* role, QWidget* parent) {
-  auto* label = new QLabel(text, parent);
+  auto* label = new QLabel(parent);
+  label->setTextFormat(Qt::PlainText);
+  alignAsRead(label);
+  label->setText(text);
   label->setWordWrap(true);
   setRole(label, role);
   return label;
@@ -63,9 +81,14 @@ QFrame* lineOf() {
   return line;
 }
 
+ElidedLabel::ElidedLabel(QWidget* parent) : QLabel(parent) {
+  setTextFormat(Qt::PlainText);
+  alignAsRead(this);
+}
+
 void ElidedLabel::setWhole(const QString& text) {
   whole_ = text;
-  setToolTip(text);
+  setToolTip(plainToolTip(text));
   setAccessibleName(text);
   elide();
 }

@@ -37,14 +37,17 @@ const QColor& errorColour();
 const QColor& informationColour();
 const QColor& accentColour();
 
-/// A label with a role of the style sheet; wraps.
+/// Of a text with whatever in it that somebody typed: shown as it is.
+QString plainToolTip(const QString& text);
+
+/// A label with a role of the style sheet; wraps. Shows its text as it is: users' words are no rich text.
 QLabel* labelOf(const QString& text, const char* role = "", QWidget* parent = nullptr);
 /// A single line; text that does not fit ends in an ellipsis and is shown in full as a tooltip.
 class ElidedLabel : public QLabel {
   Q_OBJECT
 
  public:
-  using QLabel::QLabel;
+  explicit ElidedLabel(QWidget* parent = nullptr);
   void setWhole(const QString& text);
 
  protected:

@@ -78,9 +78,11 @@ QCheckBox { spacing: 10px; }
 QCheckBox::indicator { width: 16px; height: 16px; border: 1px solid {border}; border-radius: 4px; background: {input}; }
 QCheckBox::indicator:checked { background: {accent}; border-color: {accent}; image: url("{tick}"); }
 QCheckBox:focus { text-decoration: underline; }
+QCheckBox::indicator:focus { width: 14px; height: 14px; border: 2px solid {text}; }
 QRadioButton::indicator { width: 14px; height: 14px; border: 1px solid {border}; border-radius: 8px; background: {input}; }
 QRadioButton::indicator:checked { border: 5px solid {accent}; width: 6px; height: 6px; background: {onAccent}; }
 QRadioButton:focus { text-decoration: underline; }
+QRadioButton::indicator:focus { border-color: {text}; }
 QSlider::groove:horizontal { height: 4px; background: {border}; border-radius: 2px; }
 QSlider::{filled}:horizontal { background: {accent}; border-radius: 2px; }
 QSlider::handle:horizontal { background: {accent}; border: 2px solid {card}; width: 14px; height: 14px; margin: -7px 0;

@@ -29,10 +29,17 @@ QSize CutHistogram::minimumSizeHint() const {
 
 void CutHistogram::setBars(const std::vector<Bar>& bars) {
   chart_.columns.clear();
+  followsCut_ = std::ranges::none_of(bars, [](const Bar& bar) { return bar.kept.has_value(); });
   double most = 1.0;
   for (const Bar& bar : bars) {
     most = std::max(most, bar.count);
-    if (bar.count >= 1.0) chart_.columns.push_back({bar.from, bar.to, bar.count, {}});
+    if (bar.count < 1.0) continue;
+    if (!bar.kept) {
+      chart_.columns.push_back({bar.from, bar.to, bar.count, {}});
+      continue;
+    }
+    if (*bar.kept < bar.count) chart_.columns.push_back({bar.from, bar.to, bar.count, "dropped"});
+    if (*bar.kept >= 1.0) chart_.columns.push_back({bar.from, bar.to, *bar.kept, "kept"});
   }
   chart_.y.high = std::pow(10.0, std::ceil(std::log10(most * 1.5)));
   update();
@@ -83,8 +90,9 @@ void CutHistogram::keyPressEvent(QKeyEvent* event) {
 void CutHistogram::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  for (charts::Column& column : chart_.columns)
-    column.style = std::isnan(cut_) || !movable_ || column.to > cut_ ? "kept" : "dropped";
+  if (followsCut_)
+    for (charts::Column& column : chart_.columns)
+      column.style = std::isnan(cut_) || !movable_ || column.to > cut_ ? "kept" : "dropped";
   plot_ = drawChart(painter, rect(), chart_);
   if (!std::isnan(cut_)) paintCut(painter);
   if (hasFocus()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 #include "relucent/charts/chart.h"
@@ -18,10 +19,13 @@ class CutHistogram : public QWidget {
   struct Bar {
     double from = 0.0, to = 0.0;
     double count = 0.0;
+    std::optional<double> kept{};  // of them; none: all above the cut, nothing below it
   };
 
   explicit CutHistogram(charts::Axis x, const QString& countTitle, QWidget* parent = nullptr);
   void setBars(const std::vector<Bar>& bars);
+  /// What is drawn: of what is kept, and of what is left out behind it.
+  const std::vector<charts::Column>& columns() const { return chart_.columns; }
   void setAxis(const charts::Axis& x);
   void setMovable(bool movable) { movable_ = movable; }
   void setCutText(const QString& text);
@@ -50,6 +54,7 @@ class CutHistogram : public QWidget {
   double cut_;
   QString cutText_;
   bool movable_ = true;
+  bool followsCut_ = true;  // nobody has said what is kept
 };
 
 }  // namespace relucent::gui

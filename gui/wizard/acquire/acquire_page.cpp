@@ -82,10 +82,10 @@ void AcquirePage::makeCommands() {
   return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
   goOnWithDisk_ = addCommand(Icon::play, [this] { room_.goOn(); });
-  decide_ = addCommand(Icon::warning, [this] { askAgain(); });
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
+  answer_ = addCommand(Icon::warning, [this] { askAgain(isPutRight_); });
   pushBack_ = addCommand(Icon::camera, [this] { Q_EMIT nudgeWanted(); });
   retry_ = addCommand(Icon::play, begins);
 }
@@ -95,8 +95,8 @@ PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
 }
 
 void AcquirePage::answer(sentinels::Answer answer) {
+  asking_.reset();
   if (answer == sentinels::Answer::retry) session_.putRight();
-  asked_ = false;
   question_->give(answer);
   tellProgress();
   tellStatus();
@@ -109,8 +109,10 @@ AcquirePage::~AcquirePage() {
 StepStatus AcquirePage::status() const {
   const bool hasResult = session_.result(calibration::Stage::acquisition).has_value();
   const QString share = percentText(progress().value_or(0.0));
-  if (isPaused() || isDiskFull() || isAsked())
-    return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull() || isAsked()};
+  if (isPaused() || isDiskFull())
+    return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull()};
+  if (isAsking()) return {StepState::busy, tr("Waits for an answer, %1").arg(share), hasResult, true};
+  if (isReading()) return {StepState::busy, tr("Reading, %1").arg(share), hasResult};
   if (isCountingDown())
     return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(share), hasResult};
@@ -121,7 +123,7 @@ StepStatus AcquirePage::status() const {
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
-                    .arg(text(roundedDuration(spent->seconds)))};
+                    .arg(text(spentDuration(spent->seconds)))};
       return {StepState::done, tr("Measured")};
     case calibration::StageProgress::stale:
       return {StepState::outOfDate, tr("Out of date")};
@@ -136,10 +138,13 @@ StepStatus AcquirePage::status() const {
 QString AcquirePage::hint() const {
   if (isMeasuring() && session_.isScreenMissing()) return tr("Waiting for the projector's screen.");
   if (isMeasuring() && session_.isCameraSilent()) return tr("Waiting for the camera.");
-  if (isAsked()) return tr("Waiting for your answer.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
+  if (isAsking()) return tr("Waiting for your answer. Every photograph is saved.");
+  if (isReading())
+    return tr("%n photograph(s) of before are read first. Then measuring goes on where it ended.", nullptr,
+              kept_);
   if (isMeasuring())
     return status().hasResult
                ? tr("Every photograph is saved. The earlier measurement is used until the new one is ready.")
@@ -151,13 +156,13 @@ QString AcquirePage::hint() const {
   if (isDone() && stoppedAt() > 0 && !session_.mayMeasure())
     return tr("To go on measuring, confirm that the room is clear.");
   if (isDone())
-    return tr("Measured in %1").arg(text(roundedDuration(cost().value_or(calibration::StageCost()).seconds)));
+    return tr("Measured in %1").arg(text(spentDuration(cost().value_or(calibration::StageCost()).seconds)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   if (auto work = kept_ == 0 ? expected() : std::nullopt) {
     const int patterns = patternsExpected();
     return groupedText(tr("About %n pattern(s), %1. Leave the room dark and still.", nullptr, patterns),
                        patterns)
-        .arg(text(roundedDuration(work->seconds)));
+        .arg(text(expectedDuration(work->seconds)));
   }
   return tr("Leave the room dark and still, then start.");
 }
@@ -179,10 +184,10 @@ void AcquirePage::updateCommands() {
   return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));
   return_->setToolTip(tr("The earlier measurement is used again, with all that followed from it."));
   goOnWithDisk_->show(tr("Go on now"));
-  goOnMeasuring_->show(goOnMeasuringText(), mayStart);
+  goOnMeasuring_->show(tr("Go on measuring"), mayStart);
   goOnMeasuring_->setToolTip(mayStart ? QString() : hint());
-  decide_->show(tr("Decide what to do"));
-  retryAlarm_->show(tr("Measure again"));
+  answer_->show(tr("Answer"));
+  retryAlarm_->show(tr("Try again"));
   keepAtAlarm_->show(tr("Stop and keep"));
   skipAlarm_->show(tr("Continue anyway"));
   pushBack_->show(tr("Put the camera back"));
@@ -206,7 +211,7 @@ std::vector<PageCommand*> AcquirePage::secondary() const {
 
 std::optional<Banner> AcquirePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOnWithDisk_);
-  if (isAsked()) return askingBanner();
+  if (isAsking()) return alarmBanner();
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
@@ -225,12 +230,6 @@ Banner AcquirePage::staleBanner() const {
   return {Banner::Kind::amber, tr("Measuring again has not ended"),
           tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
              nullptr, again_)};
-}
-
-/// Whoever has closed the question finds it here again.
-Banner AcquirePage::askingBanner() const {
-  return {Banner::Kind::amber, AcquisitionTrace::headingOf(alarm_->kind), fullSentence(alarm_->what),
-          decide_};
 }
 
 bool AcquirePage::isStale() const {
@@ -258,13 +257,14 @@ Banner AcquirePage::stoppedBanner() const {
     return {Banner::Kind::amber, title, tr("Finer light is missing. Go on any time, if nothing has moved."),
             goOnMeasuring_};
   const auto decibels = [](double value) { return decimalText(value, 0); };
-  return {Banner::Kind::amber, title,
-          groupedText(tr("%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if "
-                         "nothing has moved.",
-                         nullptr, quality->photographs),
-                      quality->photographs)
-              .arg(decibels(quality->now), decibels(quality->whole), text(roundedDuration(quality->seconds))),
-          goOnMeasuring_};
+  return {
+      Banner::Kind::amber, title,
+      groupedText(tr("%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if "
+                     "nothing has moved.",
+                     nullptr, quality->photographs),
+                  quality->photographs)
+          .arg(decibels(quality->now), decibels(quality->whole), text(expectedDuration(quality->seconds))),
+      goOnMeasuring_};
 }
 
 QString AcquirePage::watching() const {
@@ -332,10 +332,11 @@ void AcquirePage::begin() {
   leaving_.stop();
   question_->setClosed(false);
   alarm_.reset();
-  asked_ = false;
   viewBefore_ = {};
-  begunAt_ = lastCount_ = session_.live().photographs();
-  rate_ = secondsAPattern_ = 0.0;
+  asking_.reset();
+  begunAt_ = session_.live().taken(std::string(nameOf(calibration::Stage::acquisition))).photographs;
+  secondsAPattern_ = 0.0;
+  readingTime_ = {};
   trace_.begin();
   second_.start();
   auto retrying = std::make_shared<RetryingObserver>(trace_, question_, beforeRetry);
@@ -373,33 +374,68 @@ void AcquirePage::diskChanged() {
 void AcquirePage::finish() {
   stay();
   job_.cancel();
+  asking_.reset();
   question_->setClosed(true);
   session_.live().resume();
 }
 
-void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm) {
-  Failure failure{ErrorKind::device, fullSentence(alarm.what), fullSentence(alarm.advice),
+void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) {
+  PageCommand* goOn = sentinels::isAcceptable(alarm.kind) && !isPutRight ? skipAlarm_ : nullptr;
+  QStringList advice;
+  if (!isPutRight) advice << fullSentence(alarm.advice);
+  advice << whatAnswersDo(alarm, goOn != nullptr);
+  Failure failure{ErrorKind::device, fullSentence(alarm.what), advice.join('\n'),
                   QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
                   AcquisitionTrace::headingOf(alarm.kind)};
-  PageCommand* goOn = sentinels::isAcceptable(alarm.kind) ? skipAlarm_ : nullptr;
+  if (isPutRight) {
+    failure.heading = tr("The camera is back at its place");
+    failure.what = tr("It had moved while it measured, and looks again where it looked.");
+  }
   FailureReport report{failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn};
   if (viewBefore_.empty()) viewBefore_ = session_.live().floodlight().signal;
-  if (alarm.kind == sentinels::AlarmKind::moved && !viewBefore_.empty()) report.repair = pushBack_;
+  if (alarm.kind == sentinels::AlarmKind::moved && !viewBefore_.empty() && !isPutRight)
+    report.repair = pushBack_;
+  report.isPutRight = isPutRight_ = isPutRight;
   alarm_ = alarm;
-  asked_ = true;
+  asking_ = std::make_unique<QObject>();
+  report.reason = asking_.get();
   tellProgress();
   tellStatus();
   Q_EMIT failed(report);
   Q_EMIT asks();
 }
 
-void AcquirePage::askAgain() {
-  if (alarm_ && isMeasuring()) askAboutAlarm(*alarm_);
+/// In the words of the buttons.
+QString AcquirePage::whatAnswersDo(const sentinels::Alarm& alarm, bool mayGoOn) const {
+  QStringList answers;
+  if (alarm.patterns > 0)
+    answers << groupedText(tr("“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.",
+                              nullptr, alarm.patterns),
+                           alarm.patterns)
+                   .arg(retryAlarm_->text())
+                   .arg(alarm.first + 1);
+  else
+    answers << tr("“%1” looks once more, and goes on.").arg(retryAlarm_->text());
+  if (mayGoOn)
+    answers << tr("“%1” keeps all as it is: what changed will be wrong, and the report says so.")
+                   .arg(skipAlarm_->text());
+  return answers.join('\n');
+}
+
+/// Whoever has closed the question finds it here again.
+Banner AcquirePage::alarmBanner() const {
+  return {Banner::Kind::amber,
+          isPutRight_ ? tr("The camera is back at its place") : AcquisitionTrace::headingOf(alarm_->kind),
+          isPutRight_ ? tr("Measuring waits for your answer.") : fullSentence(alarm_->what), answer_};
+}
+
+void AcquirePage::askAgain(bool isPutRight) {
+  if (alarm_ && isAsking()) askAboutAlarm(*alarm_, isPutRight);
 }
 
 void AcquirePage::ended() {
   second_.stop();
-  asked_ = false;
+  asking_.reset();
   trace_.end();
   if (session_.isOpen()) {
     session_.reload();

@@ -7,6 +7,7 @@
 #include "jobs/job.h"
 #include "jobs/room_question.h"
 #include "relucent/acquisition/forecast.h"
+#include "relucent/base/time_left.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
@@ -55,6 +56,9 @@ class AcquirePage : public DevicePage {
   std::optional<Banner> banner() const override;
   PageCommand* insteadOfWaiting() const override { return isMeasuring() ? keep_ : nullptr; }
   QString whyLocked() const override;
+  bool wasInterrupted() const override {
+    return !isMeasuring() && again_ > 0 && !(isDone() && stoppedAt() == 0);
+  }
   void finish() override;
 
   void enter() override;
@@ -65,12 +69,16 @@ class AcquirePage : public DevicePage {
   bool isPaused() const { return isMeasuring() && session_.live().isPaused(); }
   /// The measurement waits for room on the disk.
   bool isDiskFull() const { return isMeasuring() && room_.waiting().has_value(); }
-  /// The measurement waits for an answer to an alarm.
-  bool isAsked() const { return isMeasuring() && asked_; }
   /// By somebody, or by something that is missing.
   bool isHeldUp() const {
-    return isPaused() || isDiskFull() || isAsked() || (isMeasuring() && session_.isDeviceLost());
+    return isPaused() || isDiskFull() || isAsking() || (isMeasuring() && session_.isDeviceLost());
   }
+  /// It waits for an answer to an alarm.
+  bool isAsking() const { return asking_ != nullptr; }
+  /// Photographs that are kept are read, and computed with again, before the first new one is taken.
+  bool isReading() const;
+  /// Of those.
+  PatternCount reading() const;
   bool isStopping() const { return isMeasuring() && job_.isStopping(); }
   QString stage() const { return job_.stage(); }
   /// Of the shown projector and camera.
@@ -84,11 +92,9 @@ class AcquirePage : public DevicePage {
   /// expected, whoever shows it. Done, as many as there were.
   int patternsExpected() const;
   /// Seconds that it still takes, by those patterns: it stands still while none is photographed. None before
-  /// enough is known, and while the last are computed with.
+  /// enough is known, and while the last are computed with. While kept ones are read: of that alone.
   std::optional<double> secondsLeft() const;
   const std::optional<WorkLeft>& forecast() const { return forecast_; }
-  /// Photographs a minute, over the last ones.
-  double photographsAMinute() const { return 60.0 * rate_; }
 
   Fineness fineness() const;
   void setFineness(Fineness fineness);
@@ -149,8 +155,8 @@ class AcquirePage : public DevicePage {
 
   /// The surface in full light before the camera moved, with which an alarm waits; empty: nobody knows.
   const image::Image& viewBefore() const { return viewBefore_; }
-  /// The alarm's question once more, after something was tried against it.
-  void askAgain();
+  /// The alarm's question once more, after something was tried against it, with success or without.
+  void askAgain(bool isPutRight = false);
 
  Q_SIGNALS:
   /// The camera is to be pushed back by viewBefore(); askAgain() is called when that is done.
@@ -177,12 +183,15 @@ class AcquirePage : public DevicePage {
   Banner stoppedBanner() const;
   std::optional<WorkLeft> expected(const acquisition::AcquisitionSettings& settings) const;
   acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
+  /// Before it was measured about as many pixels as the projector has, where the cameras have more.
+  Rasters camerasUsed() const;
   void change(const QString& what, const acquisition::AcquisitionSettings& settings);
   void keep(const acquisition::AcquisitionSettings& settings);
   void diskChanged();
-  void askAboutAlarm(const sentinels::Alarm& alarm);
+  void askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight = false);
+  QString whatAnswersDo(const sentinels::Alarm& alarm, bool mayGoOn) const;
+  Banner alarmBanner() const;
   void answer(sentinels::Answer answer);
-  Banner askingBanner() const;
   PageCommand* answering(Icon icon, sentinels::Answer answer);
   void ended();
   void tick();
@@ -192,7 +201,7 @@ class AcquirePage : public DevicePage {
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
   PageCommand* goOnWithDisk_;                                                 // of the banner too
   PageCommand* goOnMeasuring_;                                                // of the banner
-  PageCommand* decide_;                                                       // of the banner
+  PageCommand* answer_;                                                       // of the banner
   PageCommand *retryAlarm_, *keepAtAlarm_, *skipAlarm_, *pushBack_, *retry_;  // of reports
   DeviceLease lease_;
   std::shared_ptr<AlarmQuestion> question_;
@@ -209,6 +218,7 @@ class AcquirePage : public DevicePage {
   Traced traced_;
   std::optional<WorkLeft> forecast_;
   double secondsAPattern_ = 0.0;
+  TimeLeft readingTime_;
   int begunAt_ = 0;  // photographs of this session by then
   std::optional<linearization::Linearization> response_;
   std::string responseStored_;  // when that was
@@ -216,13 +226,12 @@ class AcquirePage : public DevicePage {
   bool anew_ = false;           // nothing of the last measurement is used again
   bool returns_ = false;        // when it has ended
   QTimer second_;
-  double rate_ = 0.0;
-  int lastCount_ = 0;
   QTimer leaving_;  // a second each
   int secondsToLeave_ = 0, secondsLeftToLeave_ = 0;
   bool sound_ = true;
   std::optional<sentinels::Alarm> alarm_;  // the last
-  bool asked_ = false;                     // about it, and nobody has answered yet
+  std::unique_ptr<QObject> asking_;        // about it
+  bool isPutRight_ = false;
   image::Image viewBefore_;
   RoomQuestion room_;
   bool diskWasFull_ = false;

@@ -13,6 +13,13 @@ namespace {
 constexpr double fastThreshold = 0.03, fineThreshold = 0.006;
 constexpr int fastVerification = 4;
 
+struct CameraSize {
+  Size operator()(const venue::VenueSettings& rig) const { return rig.camera; }
+  Size operator()(const pipeline::ImportedRigSettings& rig) const { return rig.camera; }
+  Size operator()(const pipeline::ReplayRigSettings&) const { return {}; }
+  Size operator()(const auto& rig) const { return rig.camera.value_or(rig.projector); }
+};
+
 }  // namespace
 
 Fineness AcquirePage::fineness() const {
@@ -62,9 +69,16 @@ std::optional<WorkLeft> AcquirePage::expected(const acquisition::AcquisitionSett
       std::accumulate(exposures.begin(), exposures.end(), 0.0) / static_cast<double>(exposures.size());
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return std::nullopt;
-  // Photographs are counted, not their pixels.
-  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
-  return acquisition::forecast({cameras, projectors, exposures.size(), mean}, settings, response_->times, {});
+  return acquisition::forecast({camerasUsed(), projectors, exposures.size(), mean}, settings,
+                               response_->times, {});
+}
+
+Rasters AcquirePage::camerasUsed() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  if (measured && !measured->cameras.empty()) return Rasters(measured->cameras);
+  const Size size = std::visit(CameraSize{}, session_.settings().rig), projector = session_.projectorSize();
+  const bool isUnknown = size.empty() || size.count() > projector.count();
+  return Rasters(std::vector<Size>(session_.cameras(), isUnknown ? projector : size));
 }
 
 std::vector<BlockLevel> AcquirePage::levels() const {

@@ -257,7 +257,7 @@ QWidget* planOf(AcquirePage& model) {
               .arg(sentences[static_cast<int>(fineness)], percentText(model.expectedDeviation(fineness))));
       choices[at]->setRemark(
           work ? groupedText(AcquirePage::tr("%n photograph(s)", nullptr, work->exposures), work->exposures) +
-                     "\n" + text(roundedDuration(work->seconds))
+                     "\n" + text(expectedDuration(work->seconds))
                : QString());
     }
     start->setVisible(!model.isDone());

@@ -15,6 +15,10 @@ constexpr double mostBeforeTheEnd = 0.99;
 // Below so many patterns a forecast's time is of computing, not of patterns.
 constexpr int enoughPatterns = 5;
 
+LiveRig::Taken takenOf(const Session& session) {
+  return session.live().taken(std::string(nameOf(calibration::Stage::acquisition)));
+}
+
 }  // namespace
 
 std::optional<double> AcquirePage::progress() const {
@@ -24,7 +28,16 @@ std::optional<double> AcquirePage::progress() const {
 }
 
 int AcquirePage::photographs() const {
-  return isMeasuring() ? session_.live().photographs() - begunAt_ : 0;
+  return isMeasuring() ? takenOf(session_).photographs - begunAt_ : 0;
+}
+
+bool AcquirePage::isReading() const {
+  const bool isOfThis = !isStale() || again_ > 0;
+  return isMeasuring() && !anew_ && kept_ > 0 && isOfThis && photographs() == 0;
+}
+
+PatternCount AcquirePage::reading() const {
+  return {std::min(kept_, patterns().taken), kept_};
 }
 
 PatternCount AcquirePage::patterns() const {
@@ -34,8 +47,7 @@ PatternCount AcquirePage::patterns() const {
   int taken = growth.through;
   if (growth.levels.size() > 1)
     taken = std::accumulate(growth.levels.begin(), growth.levels.end() - 1, taken);
-  const rig::ShotId last = session_.live().lastShot();
-  if (photographs() > 0 && last.stage == nameOf(calibration::Stage::acquisition)) taken = last.number + 1;
+  if (photographs() > 0) taken = takenOf(session_).lastShot + 1;
   return {taken, std::max(taken, patternsExpected())};
 }
 
@@ -45,7 +57,7 @@ int AcquirePage::patternsExpected() const {
   if (isDone()) return cost().value_or(calibration::StageCost()).patterns;
   const Rasters projectors = session_.projectorRasters();
   if (projectors.count() == 0) return 0;
-  const Rasters cameras(std::vector<Size>(session_.cameras(), projectors.size(0)));
+  const Rasters cameras = camerasUsed();
   const acquisition::AcquisitionSettings& settings = session_.settings().acquisition;
   acquisition::AcquisitionState state{isTraceCurrent() ? trace_.growth().levels : std::vector<int>()};
   if (!state.levels.empty()) {
@@ -64,6 +76,7 @@ void AcquirePage::expect(const WorkLeft& left) {
 }
 
 std::optional<double> AcquirePage::secondsLeft() const {
+  if (isReading()) return readingTime_.seconds(std::chrono::steady_clock::now());
   if (!isMeasuring() || photographs() < photographsBeforeTime) return std::nullopt;
   const PatternCount count = patterns();
   if (count.taken >= count.expected || !(secondsAPattern_ > 0.0)) return std::nullopt;
@@ -71,15 +84,10 @@ std::optional<double> AcquirePage::secondsLeft() const {
 }
 
 void AcquirePage::tick() {
-  const int count = session_.live().photographs();
-  // It stands still while nothing is photographed on purpose.
-  if (isHeldUp()) {
-    lastCount_ = count;
-    return tellProgress();
+  if (isReading()) {
+    const PatternCount read = reading();
+    readingTime_.add(std::chrono::steady_clock::now(), static_cast<double>(read.taken) / read.expected);
   }
-  // Smoothed over some seconds.
-  rate_ = rate_ == 0.0 ? count - lastCount_ : 0.8 * rate_ + 0.2 * (count - lastCount_);
-  lastCount_ = count;
   tellProgress();
 }
 
@@ -106,8 +114,8 @@ void AcquirePage::resume() {
 
 void AcquirePage::stopAndKeep() {
   job_.stopAndKeep();
+  if (isAsking()) answer(sentinels::Answer::keepAndStop);
   session_.giveUpCamera();
-  if (isAsked()) answer(sentinels::Answer::keepAndStop);
   resume();
 }
 
@@ -115,6 +123,7 @@ void AcquirePage::returnToEarlier() {
   if (isMeasuring()) {
     returns_ = true;
     job_.cancel();
+    asking_.reset();
     question_->setClosed(true);
     return resume();
   }

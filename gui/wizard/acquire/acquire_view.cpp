@@ -51,8 +51,16 @@ QWidget* livePart(AcquirePage& model) {
       for (ImageView* view : {pattern, photograph}) view->setPicture({});
       return seen->setSubtitle({});
     }
-    if (live.photographs == 0 || live.pattern.empty()) return;
-    pattern->setPicture(encodedPictureOf(live.pattern));
+    const bool isDark = model.isPaused() || model.isDiskFull();
+    const QString none = model.isReading() ? AcquirePage::tr("Kept photographs are read first.")
+                         : isDark          ? AcquirePage::tr("Nothing is being projected.")
+                                           : QString();
+    for (ImageView* view : {pattern, photograph}) view->setEmptyText(none);
+    if (model.isReading())
+      for (ImageView* view : {pattern, photograph}) view->setPicture({});
+    if (live.photographs == 0 || live.pattern.empty() || model.isReading()) return;
+    // What was shown last is dark by now.
+    pattern->setPicture(isDark ? QImage() : encodedPictureOf(live.pattern));
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     seen->setSubtitle(exposureText(live.frame.seconds));
   };
@@ -76,18 +84,33 @@ QWidget* stageOf(AcquirePage& model) {
 /// How long it still takes; held up, that stands still.
 QString timeText(const AcquirePage& model) {
   const std::optional<double> seconds = model.secondsLeft();
-  const QString left = seconds ? text(roundedDuration(*seconds)) : QString();
+  if (!seconds)
+    return model.isHeldUp()    ? AcquirePage::tr("Paused")
+           : model.isReading() ? AcquirePage::tr("Reading")
+                               : AcquirePage::tr("Measuring");
+  const bool isShort = isUnderAMinute(*seconds);
+  const QString left = text(expectedDuration(*seconds));
+  if (model.isReading())
+    return isShort ? AcquirePage::tr("Reading, under a minute left")
+                   : AcquirePage::tr("Reading, about %1 left").arg(left);
   if (model.isHeldUp())
-    return seconds ? AcquirePage::tr("Paused, about %1 left").arg(left) : AcquirePage::tr("Paused");
-  return seconds ? AcquirePage::tr("About %1 left").arg(left) : AcquirePage::tr("Measuring");
+    return isShort ? AcquirePage::tr("Paused, under a minute left")
+                   : AcquirePage::tr("Paused, about %1 left").arg(left);
+  return isShort ? AcquirePage::tr("Under a minute left") : AcquirePage::tr("About %1 left").arg(left);
 }
 
 /// What is done now, and when all of it ends.
 QString stageText(const AcquirePage& model) {
+  if (model.isReading()) {
+    const PatternCount read = model.reading();
+    return AcquirePage::tr("Reading the %n photograph(s) that are kept: %1.", nullptr, read.expected)
+        .arg(percentText(static_cast<double>(read.taken) / read.expected));
+  }
   QString stage = model.stage();
   if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
   const std::optional<double> seconds = model.secondsLeft();
-  if (!seconds || model.isHeldUp()) return stage;
+  // Of what ends within a minute, minutes would say nothing.
+  if (!seconds || model.isHeldUp() || isUnderAMinute(*seconds)) return stage;
   const QTime end = QTime::currentTime().addSecs(static_cast<int>(*seconds));
   return AcquirePage::tr("Ends near %1. %2").arg(QLocale().toString(end, QLocale::ShortFormat), stage);
 }
@@ -105,12 +128,11 @@ QWidget* runOf(AcquirePage& model) {
   column->addWidget(lineOf());
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
   auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
-  auto* rate = new ValueRow(AcquirePage::tr("Photographs a minute"));
   auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
-  for (ValueRow* row : {patterns, photographs, rate, disk}) column->addWidget(row);
+  for (ValueRow* row : {patterns, photographs, disk}) column->addWidget(row);
   column->addWidget(lineOf());
   column->addWidget(watchPart(model));
-  auto refresh = [&model, left, counts, patterns, photographs, rate, disk] {
+  auto refresh = [&model, left, counts, patterns, photographs, disk] {
     if (!model.isMeasuring()) return;
     left->setText(timeText(model));
     counts->setText(stageText(model));
@@ -120,7 +142,6 @@ QWidget* runOf(AcquirePage& model) {
     patterns->setValue(count.taken < count.expected ? AcquirePage::tr("%1 of about %2").arg(taken, expected)
                                                     : taken);
     photographs->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
-    rate->setValue(countText(static_cast<std::uint64_t>(std::lround(model.photographsAMinute()))));
     if (const auto& work = model.forecast()) disk->setValue(bytesText(work->diskBytes));
   };
   refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);
@@ -151,7 +172,7 @@ PageView viewOf(AcquirePage& model) {
   PageView view{stageOf(model), inspectorOf(model)};
   QObject::connect(&model, &AcquirePage::nudgeWanted, view.stage, [&model, stage = view.stage] {
     showNudge(*stage, std::make_unique<Nudge>(model.session(), model.viewBefore()),
-              [&model](bool) { model.askAgain(); });
+              [&model](bool isAtItsPlace) { model.askAgain(isAtItsPlace); });
   });
   return view;
 }

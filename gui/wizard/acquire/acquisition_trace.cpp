@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/acquire/acquisition_trace.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "views/number_text.h"
@@ -172,26 +173,40 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
              {false, true, tr("Projector"), {}},
              {false, true, tr("Flicker"), {}}}};
   const sentinels::Reading& now = points_.back().reading;
+  // What was put right is no longer so, and not looked at again before the next check.
+  const bool isOver = now.alarm && isAnswered();
   bool room = !isOf(now, {sentinels::AlarmKind::ambientChanged});
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
                           sentinels::AlarmKind::coveredLens});
   bool lamp = !isOf(now, {sentinels::AlarmKind::lampChanged, sentinels::AlarmKind::projectorAsleep});
   bool even = now.flicker < sentinels::reading_limit::flicker;
-  return {{{true, room, room ? tr("Room light steady") : tr("Room light changed"),
-            tr("%1 of full light, changed by %2 since the start.")
-                .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
-           {true, view, view ? tr("Camera still") : tr("The view changed"),
-            tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
-           // What is seen of another view says nothing of the lamp.
-           view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
-                             tr("Its light drifted by %1 and is corrected.")
-                                 .arg(fineShare(std::abs(now.lamp - 1.0)))}
-                : WatchState{false, true, tr("Projector"), {}},
-           {true, even, even ? tr("No flicker") : tr("The light flickers"),
-            // One exposure alone has nothing to differ from.
-            now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
-                              : tr("No difference between photographs of one pattern was found.")}}};
+  std::array<WatchState, 4> states{
+      {{true, room, room ? tr("Room light steady") : tr("Room light changed"),
+        tr("%1 of full light, changed by %2 since the start.")
+            .arg(fineShare(now.roomLight), fineShare(std::abs(now.roomLight - now.roomLightAtFirst)))},
+       {true, view, view ? tr("Camera still") : tr("The view changed"),
+        tr("The view differs by %1 from the first.").arg(fineShare(now.view))},
+       // What is seen of another view says nothing of the lamp.
+       view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
+                         tr("Its light drifted by %1 and is corrected.")
+                             .arg(fineShare(std::abs(now.lamp - 1.0)))}
+            : WatchState{false, true, tr("Projector"), {}},
+       {true, even, even ? tr("No flicker") : tr("The light flickers"),
+        // One exposure alone has nothing to differ from.
+        now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
+                          : tr("No difference between photographs of one pattern was found.")}}};
+  for (WatchState& state : states)
+    if (isOver && !state.isSteady)
+      state = {false, true, tr("Put right"), tr("Looked at again at the next check.")};
+  return states;
+}
+
+/// What the last check found was taken again since.
+bool AcquisitionTrace::isAnswered() const {
+  return std::ranges::any_of(marks_, [this](const Mark& mark) {
+    return mark.retake.reason == sentinels::RetakeReason::alarm && mark.seconds >= points_.back().seconds;
+  });
 }
 
 std::vector<TakenAgain> AcquisitionTrace::takenAgain(std::size_t most) const {

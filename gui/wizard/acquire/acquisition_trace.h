@@ -86,6 +86,8 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   void changed();
 
  private:
+  bool isAnswered() const;
+
   using Clock = std::chrono::steady_clock;
   std::vector<Point> points_;
   std::vector<Mark> marks_;

@@ -73,6 +73,8 @@ class CameraPage : public PageModel {
   bool isKept() const;
   /// Of what is kept, on projector and camera.
   QStringList keptVerdicts() const;
+  /// Nobody can aim it.
+  bool isSimulated() const { return session_.isSimulated(); }
   /// Which part of each projector's picture is seen; empty before it was looked for.
   const std::vector<linearization::Coverage>& coverage() const { return coverage_; }
   /// The time in which the projector's light changes, where exposures that are no whole multiples of it

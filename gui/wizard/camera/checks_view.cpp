@@ -55,7 +55,7 @@ class CoverageMap : public QWidget {
 };
 
 /// Where the picture is out of sight.
-QString missingText(const linearization::Coverage& coverage) {
+QString missingText(const linearization::Coverage& coverage, bool isSimulated) {
   constexpr double most = 0.5;  // of an edge's cells
   QStringList edges;
   if (coverage.missingLeft() > most) edges << CameraPage::tr("at the left");
@@ -64,6 +64,11 @@ QString missingText(const linearization::Coverage& coverage) {
   if (coverage.missingBottom() > most) edges << CameraPage::tr("at the bottom");
   if (edges.isEmpty())
     return CameraPage::tr("Missing are places within it: in shadow, or too dark for the camera.");
+  if (isSimulated)
+    return CameraPage::tr(
+               "Missing: %1. A simulated camera stays where it stands: go on, what it does not see "
+               "is left as it is.")
+        .arg(QLocale().createSeparatedList(edges));
   return CameraPage::tr("Missing: %1. Aim the camera there, or move it back.")
       .arg(QLocale().createSeparatedList(edges));
 }
@@ -91,7 +96,8 @@ QWidget* coveragePart(CameraPage& model) {
             ? CameraPage::tr("%1 of the projector's picture is seen").arg(share)
             : CameraPage::tr("%1 of projector %2's picture is seen").arg(share).arg(projector + 1);
     const bool isEnough = least->share() >= enough;
-    sees->show(isEnough ? Kind::good : Kind::warning, sentence, isEnough ? QString() : missingText(*least));
+    sees->show(isEnough ? Kind::good : Kind::warning, sentence,
+               isEnough ? QString() : missingText(*least, model.isSimulated()));
     map->setVisible(!isEnough);
     map->show(*least, model.projectorSize(projector));
   };

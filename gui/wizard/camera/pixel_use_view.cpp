@@ -76,7 +76,7 @@ class PixelUseView : public QWidget {
     const QString none = QString::fromUtf8("–");
     memory_->setValue(known ? bytesText(work.memoryBytes) : none);
     disk_->setValue(known ? bytesText(work.diskBytes) : none);
-    time_->setValue(known ? text(roundedDuration(work.seconds)) : none);
+    time_->setValue(known ? text(expectedDuration(work.seconds)) : none);
   }
 
   CameraPage& model_;

@@ -24,9 +24,9 @@ inline std::optional<Banner> stoppedEarly(const Session& session, PageCommand* g
       QCoreApplication::translate("StoppedEarly", "All that follows is as coarse. Go on measuring any time."),
       goOn};
 }
-/// Its words.
+/// Its words on those pages: it leads to Acquire, where it begins once all is ready.
 inline QString goOnMeasuringText() {
-  return QCoreApplication::translate("StoppedEarly", "Go on measuring");
+  return QCoreApplication::translate("StoppedEarly", "Go on at Acquire");
 }
 
 }  // namespace relucent::gui

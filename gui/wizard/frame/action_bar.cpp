@@ -98,6 +98,12 @@ void ActionBar::runPrimary() {
   if (PageCommand* command = wizard_.currentPage().primary()) command->trigger();
 }
 
+bool ActionBar::focusPrimary() {
+  if (!primary_->isVisible() || !primary_->isEnabled()) return false;
+  primary_->setFocus(Qt::OtherFocusReason);
+  return true;
+}
+
 void ActionBar::refresh() {
   const PageModel& page = wizard_.currentPage();
   if (std::exchange(shown_, &page) != &page) {

@@ -28,6 +28,8 @@ class ActionBar : public QFrame {
   bool leadsBack(const QWidget& widget) const { return &widget == back_; }
   /// Triggers the primary command if it is enabled.
   void runPrimary();
+  /// The primary command has the focus; false if it is not possible now.
+  bool focusPrimary();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

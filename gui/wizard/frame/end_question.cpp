@@ -15,6 +15,15 @@ EndQuestion::EndQuestion(const Session& session, QObject* parent)
     if (auto work = std::exchange(afterwards_, {})) work();
   });
   connect(stay_, &QAction::triggered, this, [this] { afterwards_ = {}; });
+  connect(&session_, &Session::devicesChanged, this, &EndQuestion::withdraw);
+  connect(&session_, &Session::showingChanged, this, &EndQuestion::withdraw);
+}
+
+/// What it asked about has changed since: an answer would be to something else.
+void EndQuestion::withdraw() {
+  if (!reason_ || session_.underWay() == asked_) return;
+  afterwards_ = {};
+  reason_.reset();
 }
 
 void EndQuestion::whenNothingEnds(std::function<void()> work,
@@ -24,8 +33,9 @@ void EndQuestion::whenNothingEnds(std::function<void()> work,
   ask(question());
 }
 
-FailureReport EndQuestion::question() const {
-  const UnderWay now = session_.underWay();
+FailureReport EndQuestion::question() {
+  const UnderWay now = asked_ = session_.underWay();
+  reason_ = std::make_unique<QObject>();
   QStringList ends, safe;
   if (now.measurement) {
     ends << tr("%1 in the venue “%2”.").arg(session_.devicesUserName(), session_.name());
@@ -52,6 +62,7 @@ FailureReport EndQuestion::question() const {
     end_->show(tr("End the show"));
     stay_->show(tr("Go on playing"));
   }
+  question.reason = reason_.get();
   question.goOn = end_;
   question.resume = stay_;
   return question;

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <functional>
+#include <memory>
 
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
@@ -18,13 +19,16 @@ class EndQuestion : public QObject {
 
   bool isNeeded() const { return !session_.underWay().isNothing(); }
   /// Does it at once where nothing ends by it; else `ask` shows the question, and it is done once somebody
-  /// has agreed.
+  /// has agreed. What ends by itself meanwhile needs no answer: the question goes, and nothing is done.
   void whenNothingEnds(std::function<void()> work, const std::function<void(const FailureReport&)>& ask);
 
  private:
-  FailureReport question() const;
+  FailureReport question();
+  void withdraw();
 
   const Session& session_;
+  UnderWay asked_;
+  std::unique_ptr<QObject> reason_;
   std::function<void()> afterwards_;  // what somebody is asked to agree to
   PageCommand *end_, *stay_;
 };

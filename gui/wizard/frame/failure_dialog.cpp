@@ -43,8 +43,9 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   column->addStrut(504);
   column->setSpacing(8);
   auto* top = new QHBoxLayout;
-  top->addWidget(report.isQuestion ? new IconLabel(Icon::warning, amberColour, 32)
-                                   : new IconLabel(Icon::failed, errorColour, 32),
+  top->addWidget(report.isPutRight   ? new IconLabel(Icon::tick, goodColour, 32)
+                 : report.isQuestion ? new IconLabel(Icon::warning, amberColour, 32)
+                                     : new IconLabel(Icon::failed, errorColour, 32),
                  0, Qt::AlignTop);
   auto* titles = new QVBoxLayout;
   titles->addWidget(labelOf(heading, "title"));
@@ -88,6 +89,7 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
   }
   action(report.resume, "primary");
   column->addLayout(row);
+  if (report.reason) connect(report.reason, &QObject::destroyed, this, &QDialog::reject);
   first->setDefault(true);
   first->setFocus();
 }

@@ -8,7 +8,7 @@
 namespace relucent::gui {
 
 /// What happened, what is safe, what to do; or a question, with what it would end. Esc and Close leave
-/// everything as it is.
+/// everything as it is. It closes by itself once its reason is gone.
 class FailureDialog : public QDialog {
   Q_OBJECT
 

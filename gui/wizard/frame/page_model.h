@@ -3,6 +3,7 @@
 
 #include <QKeySequence>
 #include <QObject>
+#include <QPointer>
 #include <QUndoStack>
 #include <optional>
 #include <vector>
@@ -51,6 +52,9 @@ struct FailureReport {
   PageCommand *resume = nullptr, *keep = nullptr, *goOn = nullptr;  // the page's; nullptr: not to be chosen
   bool isQuestion = false;                                          // nothing has happened yet
   PageCommand* repair = nullptr;  // helps to put right what happened; nullptr: nothing here does
+  bool isPutRight = false;        // what happened is over, and only the answer is missing
+  /// Where it goes, nobody has to be told or asked any more; nullptr: that does not happen.
+  QPointer<QObject> reason{};
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the
@@ -81,10 +85,10 @@ class PageModel : public QObject {
   virtual std::optional<Banner> banner() const { return std::nullopt; }
   /// What ends the wait for a device that is lost with what there is; nullptr: nothing does.
   virtual PageCommand* insteadOfWaiting() const { return nullptr; }
-  /// The venue that is decided on here, if that is another than the open one; empty: it is not.
-  virtual QString otherVenue() const { return {}; }
   /// False: the stage has the whole width now.
   virtual bool usesInspector() const { return true; }
+  /// Its work was interrupted when the venue was open last: opened again, the wizard begins here.
+  virtual bool wasInterrupted() const { return false; }
   /// The page is looked at, or no longer.
   virtual void enter() {}
   virtual void leave() {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/frame/page_view.h"
 
+#include <QGuiApplication>
 #include <QScrollArea>
 
 #include "theme/controls.h"
@@ -8,15 +9,29 @@
 
 namespace relucent::gui {
 
+namespace {
+
+constexpr const char* beginsHereName = "beginsHere";
+
+}  // namespace
+
 bool focusFirst(QWidget* region) {
+  QWidget* first = nullptr;
   for (QWidget* child : region->findChildren<QWidget*>()) {
     if (!child->isVisibleTo(region->window()) || !child->isEnabled() ||
         (child->focusPolicy() & Qt::TabFocus) == 0)
       continue;
-    child->setFocus(Qt::TabFocusReason);
-    return true;
+    if (first == nullptr) first = child;
+    if (!child->property(beginsHereName).toBool()) continue;
+    first = child;
+    break;
   }
-  return false;
+  if (first != nullptr) first->setFocus(Qt::TabFocusReason);
+  return first != nullptr;
+}
+
+void beginHere(QWidget* widget) {
+  widget->setProperty(beginsHereName, true);
 }
 
 void bringIntoSight(QWidget* widget) {
@@ -42,7 +57,10 @@ QWidget* inspectorCard(QVBoxLayout*& contents) {
   scroll->setFrameShape(QFrame::NoFrame);
   auto* inside = new QWidget;
   contents = new QVBoxLayout(inside);
-  contents->setContentsMargins(0, 0, 2, 0);
+  // The scroll bar stands where lines end.
+  constexpr int besideBar = 6;
+  const bool isMirrored = QGuiApplication::isRightToLeft();
+  contents->setContentsMargins(isMirrored ? besideBar : 0, 0, isMirrored ? 0 : besideBar, 0);
   contents->setSpacing(10);
   scroll->setWidget(inside);
   card->body()->addWidget(scroll);

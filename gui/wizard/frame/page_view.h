@@ -24,6 +24,8 @@ void refreshOn(PageModel& page, QObject* context, Refresh refresh, Signals... si
 
 /// Gives the focus to the first of the region's widgets that takes it by Tab; false: none does.
 bool focusFirst(QWidget* region);
+/// This one rather than the first of its region.
+void beginHere(QWidget* widget);
 /// Scrolls what is round a widget until that is in sight.
 void bringIntoSight(QWidget* widget);
 /// Gives the focus to what the user can change there and scrolls it into sight, if it is on the page that is

@@ -23,7 +23,7 @@ class Fact : public ElidedLabel {
  public:
   Fact() { setRole(this, "note"); }
   QSize sizeHint() const override {
-    return {fontMetrics().horizontalAdvance(toolTip()) + 2, ElidedLabel::sizeHint().height()};
+    return {fontMetrics().horizontalAdvance(accessibleName()) + 2, ElidedLabel::sizeHint().height()};
   }
   QSize minimumSizeHint() const override {
     return {std::min(least, sizeHint().width()), ElidedLabel::minimumSizeHint().height()};

@@ -236,17 +236,10 @@ void StepRail::setNarrow(bool narrow) {
 }
 
 void StepRail::refresh() {
-  // What a venue that is not begun yet has come to is not what the open one has. A measurement that is under
-  // way is never hidden.
-  const QString other = session_.isMeasuring() ? QString() : wizard_.currentPage().otherVenue();
-  venue_->setWhole(!other.isEmpty() ? other : session_.isOpen() ? session_.name() : tr("No venue open"));
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    const bool isCurrent = i == wizard_.current();
-    if (other.isEmpty())
-      steps_[i]->show(wizard_.page(i).name(), wizard_.statusOf(i), isCurrent, wizard_.isLocked(i));
-    else
-      steps_[i]->show(wizard_.page(i).name(), {}, isCurrent, !isCurrent);
-  }
+  // Of the venue that is open, also while another one is thought of: that has nothing yet.
+  venue_->setWhole(session_.isOpen() ? session_.name() : tr("No venue open"));
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+    steps_[i]->show(wizard_.page(i).name(), wizard_.statusOf(i), i == wizard_.current(), wizard_.isLocked(i));
 }
 
 }  // namespace relucent::gui

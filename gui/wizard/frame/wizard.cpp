@@ -72,7 +72,7 @@ bool Wizard::canGoBack() const {
 
 std::size_t Wizard::standing() const {
   std::size_t last = 0;
-  while (last + 1 < pages_.size() && !isLocked(last + 1)) ++last;
+  while (last + 1 < pages_.size() && !isLocked(last + 1) && !pages_[last]->wasInterrupted()) ++last;
   return last;
 }
 

@@ -34,7 +34,8 @@ class Wizard : public QObject {
   void next();
   void back();
   bool canGoBack() const;
-  /// The first page that has no result: where the calibration stood.
+  /// The first page that has no result, or was interrupted on the way to another: where the calibration
+  /// stood.
   std::size_t standing() const;
 
  Q_SIGNALS:

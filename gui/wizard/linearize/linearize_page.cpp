@@ -35,8 +35,7 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     });
     look();
   });
-  for (auto signal : {&Session::roomLightChanged, &Session::acquisitionChanged})
-    connect(&session_, signal, this, &LinearizePage::resultChanged);
+  connect(&session_, &Session::acquisitionChanged, this, &LinearizePage::resultChanged);
   connect(&session_, &Session::stepsChanged, this, [this] {
     look();
     tellAll();
@@ -86,7 +85,7 @@ QString LinearizePage::hint() const {
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (session_.progress(calibration::Stage::linearization) == calibration::StageProgress::done) {
     if (!addsUp()) return tr("The colours do not add up. Continuing is recorded in the report.");
-    if (auto took = seconds()) return tr("Measured in %1").arg(text(roundedDuration(*took)));
+    if (auto took = seconds()) return tr("Measured in %1").arg(text(spentDuration(*took)));
   }
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
   return tr("About %n test pattern(s)", nullptr,
@@ -149,13 +148,20 @@ const linearization::ProjectorResponse* LinearizePage::response() const {
 }
 
 std::optional<double> LinearizePage::blackShare() const {
-  if (session_.roomLight()) return session_.roomLight()->share;
+  if (!result_ || result_->blackShare) return result_ ? result_->blackShare : std::nullopt;
+  // Results of earlier versions do not say: what was measured on them does, once it is read.
   const std::shared_ptr<const transport::Acquisition> measured = session_.acquisition();
-  if (!measured) return result_ ? result_->blackShare : std::nullopt;
+  if (!measured) return std::nullopt;
   double black = 0.0, flood = 0.0;
   for (float value : measured->black) black += static_cast<double>(value);
   for (float value : measured->flood) flood += static_cast<double>(value);
   return flood > 0.0 ? std::optional(std::max(0.0, black / flood)) : std::nullopt;
+}
+
+std::vector<double> LinearizePage::exposures() const {
+  if (result_ && !isMeasuring()) return result_->exposures;
+  const auto& checked = session_.figures<calibration::Stage::camera>();
+  return checked ? checked->exposures : std::vector<double>();
 }
 
 bool LinearizePage::addsUp() const {

@@ -46,8 +46,10 @@ class LinearizePage : public DevicePage {
 
   int levels() const { return session_.settings().linearization.levels; }
   void setLevels(int levels);
-  /// Light under black projectors, the room's included, as a share of the surface's in full light; none
-  /// before it was seen.
+  /// Those that were chosen when the response was measured, seconds; before that, those kept at Camera.
+  std::vector<double> exposures() const;
+  /// Light under black projectors, the room's included, as a share of the surface's in full light, when the
+  /// response was measured; none before.
   std::optional<double> blackShare() const;
   /// The colours of a projector do not add up: going on is allowed, and is recorded.
   bool addsUp() const;

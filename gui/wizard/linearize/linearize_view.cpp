@@ -218,6 +218,7 @@ QWidget* inspectorOf(LinearizePage& model) {
   column->addWidget(lineOf());
   column->addWidget(labelOf(LinearizePage::tr("Exposures"), "section"));
   auto* exposures = new ValueRow(LinearizePage::tr("Chosen for this venue"));
+  exposures->setObjectName("exposures");
   column->addWidget(exposures);
   column->addWidget(blackPart(model));
   column->addWidget(lineOf());
@@ -230,6 +231,9 @@ QWidget* inspectorOf(LinearizePage& model) {
   for (int count : {9, 17, 33, 65}) levels->addItem(QString::number(count), count);
   row->addWidget(levels);
   column->addLayout(row);
+  column->addWidget(labelOf(
+      LinearizePage::tr("One test pattern shows many levels side by side, so few patterns are enough."),
+      "note"));
   QLabel* locked = labelOf({}, "note");
   locked->setObjectName("why-locked");
   column->addWidget(locked);
@@ -244,6 +248,9 @@ QWidget* inspectorOf(LinearizePage& model) {
     levels->setEnabled(why.isEmpty());
     locked->setText(why);
     locked->setVisible(!why.isEmpty());
+    QStringList times;
+    for (double seconds : model.exposures()) times << exposureText(seconds);
+    exposures->setValue(times.isEmpty() ? QString::fromUtf8("–") : times.join(", "));
     bool known = model.result() && !model.isMeasuring();
     linear->setVisible(known);
     rises->setVisible(known);
@@ -254,7 +261,6 @@ QWidget* inspectorOf(LinearizePage& model) {
                  LinearizePage::tr(
                      "Whether the colours add up, the camera is linear and every level is brighter than the "
                      "one below is told when all levels are measured."));
-      exposures->setValue(QString::fromUtf8("–"));
       return;
     }
     const linearization::Linearization& result = *model.result();
@@ -280,11 +286,9 @@ QWidget* inspectorOf(LinearizePage& model) {
                           : LinearizePage::tr("Its photographs are brought back to linear light."));
     rises->show(Kind::good, LinearizePage::tr("Curves rise everywhere"),
                 LinearizePage::tr("No level is darker than the one below it."));
-    QStringList sentences, times;
+    QStringList sentences;
     for (const Message& finding : result.findings) sentences << fullSentence(finding);
     findings->setText(LinearizePage::tr("Found while measuring"), sentences.join("\n\n"));
-    for (double seconds : result.exposures) times << exposureText(seconds);
-    exposures->setValue(times.join(", "));
   };
   refreshOn(model, card, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged);
   return card;

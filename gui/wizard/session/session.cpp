@@ -15,6 +15,7 @@
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "wizard/session/kept_shots.h"
 
 namespace relucent::gui {
 namespace fs = std::filesystem;
@@ -230,25 +231,11 @@ Rasters Session::projectorRasters() const {
 }
 
 int Session::photographsKept(calibration::Stage stage) const {
-  int count = 0;
-  std::error_code code;
-  const std::string begin = fmt::format("{}-", nameOf(stage));
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_ / "shots", code))
-    if (entry.path().filename().string().starts_with(begin)) ++count;
-  return count;
+  return gui::photographsKept(path_, stage);
 }
 
 int Session::photographsSince(calibration::Stage stage) const {
-  const auto& stored = result(stage);
-  if (!stored) return 0;
-  // Stored to the second, in which the last photographs of before may have been taken.
-  const QDateTime when =
-      QDateTime::fromString(QString::fromStdString(stored->stored), Qt::ISODate).addSecs(1);
-  const QString begin = QString::fromUtf8(nameOf(stage)) + '-';
-  const QDir shots(QString::fromStdString((path_ / "shots").string()));
-  const QFileInfoList files = shots.entryInfoList({begin + '*'}, QDir::Files);
-  return static_cast<int>(std::count_if(
-      files.begin(), files.end(), [&when](const QFileInfo& file) { return file.lastModified() > when; }));
+  return gui::photographsSince(path_, result(stage), stage);
 }
 
 int Session::stoppedAt() const {
@@ -323,7 +310,9 @@ void Session::setRoomLight(const RoomLight& light) {
 }
 
 void Session::setShowing(bool showing) {
-  if (std::exchange(isShowing_, showing) != showing) Q_EMIT devicesChanged();
+  if (std::exchange(isShowing_, showing) == showing) return;
+  Q_EMIT showingChanged();
+  Q_EMIT devicesChanged();
 }
 
 DeviceLease Session::leaseDevices(const StepName& step, DeviceWork work) {

@@ -107,6 +107,7 @@ enum class DeviceWork {
 struct UnderWay {
   bool measurement = false, show = false;
   bool isNothing() const { return !measurement && !show; }
+  bool operator==(const UnderWay&) const = default;
 };
 
 /// The calibration that the wizard works on, as it is on disk, and what of it is in memory. The folder is
@@ -273,6 +274,8 @@ class Session : public QObject {
   /// Who uses the devices, whether they may be used, whether a screen is missed, and whether a show plays.
   void devicesChanged();
   void roomLightChanged();
+  /// A show begins or ends.
+  void showingChanged();
 
  private:
   friend class DeviceLease;

@@ -128,6 +128,15 @@ void ThresholdPage::compute() {
   tellAll();
 }
 
+bool ThresholdPage::isStrongestKept() const {
+  if (!isExact() || shareOfPixel_) return false;
+  for (std::size_t bin = 0; bin < transport::StrengthHistogram::bins; ++bin)
+    if (kept_->histogram.leaves[bin] > 0 &&
+        transport::strengthOfBin(bin + 1) <= static_cast<double>(cut_.absolute))
+      return true;
+  return false;
+}
+
 StepStatus ThresholdPage::status() const {
   switch (session_.progress(calibration::Stage::threshold)) {
     case calibration::StageProgress::done:

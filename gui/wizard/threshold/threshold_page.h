@@ -38,6 +38,8 @@ class ThresholdPage : public DevicePage {
   /// knows, then counted.
   const std::optional<transport::TransportStatistics>& kept() const { return kept_; }
   bool isExact() const { return kept_.has_value() && !statistics_.isBusy(); }
+  /// Connections below the cut stay, as they are the strongest of their camera pixel.
+  bool isStrongestKept() const;
   /// Three times the noise of the measurement; less where that would cost light.
   double suggested() const { return suggested_; }
   /// suggested() is what the noise says.

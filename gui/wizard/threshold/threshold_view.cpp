@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/threshold/threshold_view.h"
 
+#include <QKeyEvent>
 #include <QLineEdit>
 #include <QLocale>
 #include <QSlider>
@@ -18,11 +19,14 @@
 namespace relucent::gui {
 namespace {
 
-std::vector<CutHistogram::Bar> barsOf(const transport::StrengthHistogram& histogram) {
+/// All that was measured, and of it what stays: the same that the readouts say.
+std::vector<CutHistogram::Bar> barsOf(const ThresholdPage& model) {
   std::vector<CutHistogram::Bar> bars;
-  for (std::size_t bin = 0; bin < transport::StrengthHistogram::bins; ++bin)
+  for (std::size_t bin = 0; bin < transport::StrengthHistogram::bins; ++bin) {
     bars.push_back({transport::strengthOfBin(bin), transport::strengthOfBin(bin + 1),
-                    static_cast<double>(histogram.leaves[bin])});
+                    static_cast<double>(model.whole()->histogram.leaves[bin])});
+    if (model.kept()) bars.back().kept = static_cast<double>(model.kept()->histogram.leaves[bin]);
+  }
   return bars;
 }
 
@@ -47,6 +51,25 @@ QString typedText(double cut) {
   if (text.endsWith(locale.decimalPoint())) text.chop(1);
   return text;
 }
+
+/// A field in which nothing is being typed has nothing of its own to take back.
+class LeavesUndoToThePage : public QObject {
+ public:
+  explicit LeavesUndoToThePage(QLineEdit* field) : QObject(field), field_(field) {}
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() != QEvent::ShortcutOverride || field_->isModified())
+      return QObject::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (!key->matches(QKeySequence::Undo) && !key->matches(QKeySequence::Redo)) return false;
+    event->ignore();
+    return true;
+  }
+
+ private:
+  QLineEdit* field_;
+};
 
 QWidget* stageOf(ThresholdPage& model) {
   auto* stage = new QWidget;
@@ -75,7 +98,7 @@ QWidget* stageOf(ThresholdPage& model) {
     charts::Axis axis = axisOf(model.whole()->histogram);
     axis.title = ThresholdPage::tr("Transport value, camera signal a second").toStdString();
     histogram->setAxis(axis);
-    histogram->setBars(barsOf(model.whole()->histogram));
+    histogram->setBars(barsOf(model));
     double cut = static_cast<double>(model.cut().absolute);
     histogram->setCut(model.isShareOfPixel() ? std::numeric_limits<double>::quiet_NaN()
                                              : std::max(cut, axis.low));
@@ -107,6 +130,10 @@ QWidget* inspectorOf(ThresholdPage& model) {
   usePicked->setObjectName("use-picked");
   // Rows of their own: the button's words are long in some languages, the number must not be cut.
   column->addWidget(typed);
+  QLabel* refused = labelOf({}, "amber");
+  refused->setObjectName("cut-refused");
+  column->addWidget(refused);
+  typed->installEventFilter(new LeavesUndoToThePage(typed));
   column->addWidget(usePicked);
   QPushButton* suggest = buttonOf({});
   suggest->setObjectName("use-suggested");
@@ -120,6 +147,11 @@ QWidget* inspectorOf(ThresholdPage& model) {
   auto* each = new ValueRow(ThresholdPage::tr("For each camera pixel"));
   auto* memory = new ValueRow(ThresholdPage::tr("Memory"));
   for (ValueRow* row : {light, connections, each, memory}) column->addWidget(row);
+  auto* strongestStay = labelOf(
+      ThresholdPage::tr("Of each camera pixel the strongest connection always stays, however high the cut."),
+      "note");
+  strongestStay->setObjectName("strongest-stay");
+  column->addWidget(strongestStay);
   column->addWidget(
       labelOf(ThresholdPage::tr("What is left out is put back in proportion, so that the surface keeps its "
                                 "brightness."),
@@ -141,12 +173,14 @@ QWidget* inspectorOf(ThresholdPage& model) {
   QObject::connect(suggest, &QPushButton::clicked, &model, &ThresholdPage::useSuggested);
   QObject::connect(usePicked, &QPushButton::clicked, &model, &ThresholdPage::usePicked);
   // Leaving the field changes nothing.
-  QObject::connect(typed, &QLineEdit::editingFinished, &model, [&model, typed] {
+  QObject::connect(typed, &QLineEdit::editingFinished, &model, [&model, typed, refused] {
     if (!typed->isModified()) return;
     bool isNumber = false;
     const double cut = QLocale().toDouble(typed->text(), &isNumber);
+    const bool isCut = isNumber && cut >= 0.0;
     typed->setModified(false);
-    model.setAbsolute(isNumber && cut >= 0.0 ? cut : static_cast<double>(model.cut().absolute));
+    refused->setProperty("typed", isCut ? QString() : typed->text());
+    model.setAbsolute(isCut ? cut : static_cast<double>(model.cut().absolute));
   });
   auto refresh = [=, &model] {
     kind->setCurrent(model.isShareOfPixel() ? 1 : 0);
@@ -163,6 +197,11 @@ QWidget* inspectorOf(ThresholdPage& model) {
     why->setText(model.isNoiseSuggested()
                      ? ThresholdPage::tr("Suggested: three times the noise of the measurement.")
                      : ThresholdPage::tr("Suggested: keeps nearly all of the light."));
+    strongestStay->setVisible(model.isStrongestKept());
+    const QString wrong = refused->property("typed").toString();
+    refused->setText(ThresholdPage::tr("“%1” is not a cut: type a number, 0 or more. The cut is still %2.")
+                         .arg(wrong, typedText(static_cast<double>(model.cut().absolute))));
+    refused->setVisible(!model.isShareOfPixel() && !wrong.isEmpty());
     QSignalBlocker quiet(share);
     share->setValue(static_cast<int>(std::lround(1000.0 * static_cast<double>(model.cut().shareOfRowMax))));
     shareText->setText(ThresholdPage::tr("Below %1 of the strongest light that each camera pixel gets")

@@ -8,6 +8,7 @@
 #include "relucent/base/error.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "wizard/session/kept_shots.h"
 #include "wizard/venue/venue_thumbnail.h"
 
 namespace relucent::gui {
@@ -19,17 +20,9 @@ struct Translated {
 
 constexpr const char* key = "recent/venues";
 
-/// Photographs of the light transport, and no light transport yet.
-bool wasInterrupted(const calibration::CalibrationFolder& folder) {
-  if (calibration::progressOf(folder, calibration::Stage::acquisition) != calibration::StageProgress::open)
-    return false;
-  const QStringList wanted{
-      QString("%1-*").arg(QString::fromStdString(std::string(nameOf(calibration::Stage::acquisition))))};
-  return !QDir(QString::fromStdString((folder.path() / "shots").string())).entryList(wanted).isEmpty();
-}
-
 QString stateOf(const calibration::CalibrationFolder& folder) {
-  if (wasInterrupted(folder)) return Translated::tr("Acquire was interrupted");
+  if (const int kept = photographsInterrupted(folder); kept > 0)
+    return Translated::tr("Interrupted: %n photograph(s) are safe", nullptr, kept);
   if (calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open)
     return calibration::progressOf(folder, calibration::Stage::linearization) ==
                    calibration::StageProgress::open
@@ -57,7 +50,7 @@ QList<RecentVenue> RecentVenues::list() const {
       auto folder = calibration::CalibrationFolder::open(venue.folder.toStdString(),
                                                          calibration::CalibrationFolder::Access::read);
       venue.state = stateOf(folder);
-      venue.isInterrupted = wasInterrupted(folder);
+      venue.isInterrupted = photographsInterrupted(folder) > 0;
       venue.picture = thumbnailOf(venue.folder);
       venue.simulated = std::holds_alternative<venue::VenueSettings>(pipeline::settingsOf(folder).rig);
     } catch (const Error&) {

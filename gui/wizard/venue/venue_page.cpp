@@ -79,7 +79,10 @@ QString VenuePage::subtitle() const {
     case Mode::start:
       break;
   }
-  return tr("Start here. Every venue keeps its own measurements and settings.");
+  return tr(
+      "Measures how a surface changes what is projected on it, and corrects pictures and films until they "
+      "look "
+      "right there.");
 }
 
 StepStatus VenuePage::status() const {
@@ -128,11 +131,6 @@ std::optional<Banner> VenuePage::banner() const {
                 tr("The projector's screen %1 is not there")
                     .arg(QString::fromStdString(session_.screenRig()->display.connector)),
                 tr("Plug it in, or say which screen the projector is now."), changeScreen_};
-}
-
-QString VenuePage::otherVenue() const {
-  const bool isNew = mode_ == Mode::rehearse || mode_ == Mode::script || mode_ == Mode::devices;
-  return isNew ? (venueName_.isEmpty() ? title() : venueName_) : QString();
 }
 
 bool VenuePage::goBack() {

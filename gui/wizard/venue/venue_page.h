@@ -27,7 +27,6 @@ struct RehearsalVenue {
   const char *name, *sentence;  // for VenuePage::tr()
   QString picture;              // resource
   Difficulty difficulty = Difficulty::usual;
-  double work = 1.0;  // of measuring it, relative to a painted wall
 };
 /// Sizes of the simulated devices.
 struct RehearsalSize {
@@ -59,7 +58,6 @@ class VenuePage : public PageModel {
   std::optional<Banner> banner() const override;
   bool goBack() override;
   bool canGoBack() const override { return mode_ != Mode::start; }
-  QString otherVenue() const override;
   bool usesInspector() const override { return mode_ != Mode::start; }
 
   Mode mode() const { return mode_; }
@@ -82,7 +80,7 @@ class VenuePage : public PageModel {
   std::size_t size() const { return size_; }
   void chooseVenue(std::size_t index);
   void chooseSize(std::size_t index);
-  /// How long it takes to measure one of the venues on a usual computer, and how hard it is.
+  /// How long it takes to measure one of the venues, and how hard it is.
   QString effortOf(const RehearsalVenue& venue) const;
   /// What happens while the rehearsal measures, for practice.
   bool hasSurprise(venue::Surprise surprise) const;
@@ -144,6 +142,8 @@ class VenuePage : public PageModel {
   Problem firstProblem() const;
   static std::vector<RehearsalVenue> rehearsalVenues();
   pipeline::CalibrateSettings wanted() const;
+  WorkLeft expectedWith(double secondsAPhotograph) const;
+  WorkLeft expectedOf(const RehearsalVenue& venue) const;
   venue::SurpriseSettings surprisesWanted() const;
   void begin();
   void openNow(const QString& folder);

@@ -16,8 +16,20 @@ namespace {
 
 constexpr Size usualScreen{1920, 1080};
 
+constexpr double meanExposure = 0.1;  // seconds
+
 bool hasOneScreen() {
   return QGuiApplication::screens().size() == 1;
+}
+
+/// What photographs take that a page knows of by size alone: the forecast then asks for no more.
+rig::ShotTimes photographsOf(double seconds) {
+  rig::ShotTimes times;
+  times.shots = times.exposures = 1;
+  times.capturing = seconds;
+  times.asked = meanExposure;
+  times.askedSquared = meanExposure * meanExposure;
+  return times;
 }
 
 }  // namespace
@@ -43,28 +55,44 @@ pipeline::CalibrateSettings VenuePage::wanted() const {
   return settings;
 }
 
-WorkLeft VenuePage::expected() const {
-  Size projector = sizes_[size_].projector, camera = sizes_[size_].camera;
+WorkLeft VenuePage::expectedWith(double secondsAPhotograph) const {
+  Size projector, camera;
   if (mode_ == Mode::script) {
     projector = script_.projector;
     camera = script_.camera.value_or(projector);
   } else if (mode_ == Mode::devices) {
     // A camera is chosen later; until then one of as many pixels.
     projector = camera = screen_.projector.empty() ? usualScreen : screen_.projector;
+  } else {
+    return expectedOf(venues_[venue_]);
   }
   constexpr std::size_t exposures = 2;
-  constexpr double meanExposure = 0.1;
-  const pipeline::CalibrateSettings settings = wanted();
-  Rasters projectors(std::vector<Size>(Session::projectorsOf(settings.rig), projector));
-  return acquisition::forecast({Rasters(camera), projectors, exposures, meanExposure}, settings.acquisition,
-                               {}, {});
+  return acquisition::forecast({Rasters(camera), Rasters(projector), exposures, meanExposure},
+                               wanted().acquisition, photographsOf(secondsAPhotograph), {});
+}
+
+/// By the same forecast as Acquire asks once the response is measured.
+WorkLeft VenuePage::expectedOf(const RehearsalVenue& venue) const {
+  // A photograph that is computed, on two processors of an older laptop.
+  constexpr double secondsAPixel = 2e-6;
+  const RehearsalSize& size = sizes_[size_];
+  venue::VenueSettings simulated;
+  simulated.name = venue.id;
+  const Rasters projectors(std::vector<Size>(Session::projectorsOf(simulated), size.projector));
+  constexpr std::size_t exposures = 2;
+  return acquisition::forecast({Rasters(size.camera), projectors, exposures, meanExposure},
+                               wanted().acquisition,
+                               photographsOf(secondsAPixel * static_cast<double>(size.camera.count())), {});
+}
+
+WorkLeft VenuePage::expected() const {
+  return expectedWith(meanExposure);
 }
 
 std::pair<double, double> VenuePage::expectedSeconds() const {
   // A GigE camera gave 16 photographs a second; a still camera takes and sends a raw file in some 3 seconds.
   constexpr double fastPhotograph = 1.0 / 16.0, slowPhotograph = 3.0;
-  const double photographs = expected().exposures;
-  return {photographs * fastPhotograph, photographs * slowPhotograph};
+  return {expectedWith(fastPhotograph).seconds, expectedWith(slowPhotograph).seconds};
 }
 
 VenuePage::Problem VenuePage::firstProblem() const {

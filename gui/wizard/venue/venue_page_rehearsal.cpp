@@ -13,38 +13,32 @@
 namespace relucent::gui {
 
 std::vector<RehearsalVenue> VenuePage::rehearsalVenues() {
-  // The work of measuring, relative to the painted wall's, with tracing its light the first time: measured
-  // with 128 x 96 pixels.
-  return {{"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
-           ":/venues/corner.png", Difficulty::usual, 1.2},
-          {"statue", QT_TR_NOOP("Bust before a brick wall"),
-           QT_TR_NOOP("Texture, shadow and light between surfaces"), ":/venues/statue.png", Difficulty::usual,
-           1.3},
-          {"depth", QT_TR_NOOP("Many depths"), QT_TR_NOOP("Some surfaces are out of focus"),
-           ":/venues/depth.png", Difficulty::usual, 1.8},
-          {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png",
-           Difficulty::hard, 1.7},
-          {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"),
-           ":/venues/glass.png", Difficulty::hard, 2.0},
-          {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
-           ":/venues/relief.png", Difficulty::hard, 1.8},
-          {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
-           ":/venues/plain.png", Difficulty::easy, 1.0}};
+  return {
+      {"corner", QT_TR_NOOP("Glossy corner"), QT_TR_NOOP("Light bounces between two cards"),
+       ":/venues/corner.png", Difficulty::usual},
+      {"statue", QT_TR_NOOP("Bust before a brick wall"),
+       QT_TR_NOOP("Texture, shadow and light between surfaces"), ":/venues/statue.png", Difficulty::usual},
+      {"depth", QT_TR_NOOP("Many depths"), QT_TR_NOOP("Some surfaces are out of focus"), ":/venues/depth.png",
+       Difficulty::usual},
+      {"dome", QT_TR_NOOP("Dome"), QT_TR_NOOP("Every part lights every other part"), ":/venues/dome.png",
+       Difficulty::hard},
+      {"glass", QT_TR_NOOP("Wine glass"), QT_TR_NOOP("Light is refracted both ways"), ":/venues/glass.png",
+       Difficulty::hard},
+      {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
+       ":/venues/relief.png", Difficulty::hard},
+      {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
+       ":/venues/plain.png", Difficulty::easy}};
 }
 
 QString VenuePage::effortOf(const RehearsalVenue& venue) const {
-  // Of the painted wall, on two processors of an older laptop.
-  constexpr double secondsAtLeast = 1.5, secondsAPixel = 3.6e-4;
-  const Size size = sizes_[size_].projector;
-  const double seconds = venue.work * (secondsAtLeast + secondsAPixel * static_cast<double>(size.count()));
-  const QString time = text(roundedDuration(seconds));
+  const QString time = text(expectedDuration(expectedOf(venue).seconds));
   switch (venue.difficulty) {
     case Difficulty::easy:
-      return tr("Easy. Measured in about %1").arg(time);
+      return tr("Easy. Measuring takes %1").arg(time);
     case Difficulty::usual:
-      return tr("Medium. Measured in about %1").arg(time);
+      return tr("Medium. Measuring takes %1").arg(time);
     case Difficulty::hard:
-      return tr("Hard. Measured in about %1").arg(time);
+      return tr("Hard. Measuring takes %1").arg(time);
   }
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "wizard/frame/page_view.h"
 #include "wizard/venue/tidy_dialog.h"
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_page.h"
@@ -42,8 +43,10 @@ class RecentRow : public QFrame {
         (venue.isInterrupted ? VenuePage::tr("Resume %1") : VenuePage::tr("Open %1")).arg(venue.name));
     QObject::connect(open, &QPushButton::clicked, &model,
                      [&model, folder = venue.folder] { model.open(folder); });
-    row->addWidget(open);
+    row->addWidget(open_ = open);
   }
+  /// What opens it.
+  QPushButton* open() const { return open_; }
 
  private:
   /// The surface, or what kind of venue it is.
@@ -66,13 +69,15 @@ class RecentRow : public QFrame {
     picture->setPixmap(shown);
     return picture;
   }
+  QPushButton* open_ = nullptr;
+
   QPushButton* tidyButton(VenuePage& model, const RecentVenue& venue) {
     QPushButton* tidy = buttonOf(VenuePage::tr("Free space…"), "flat");
     tidy->setObjectName("tidy");
     tidy->setAccessibleName(VenuePage::tr("Free the disk of what %1 does not need").arg(venue.name));
     const QString problem = model.tidyProblem();
     tidy->setEnabled(problem.isEmpty());
-    tidy->setToolTip(problem.isEmpty() ? tidy->accessibleName() : problem);
+    tidy->setToolTip(plainToolTip(problem.isEmpty() ? tidy->accessibleName() : problem));
     connect(tidy, &QPushButton::clicked, &model, [this, &model, venue] {
       auto* dialog = new TidyDialog(model.tidy(venue), window());
       dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -134,14 +139,21 @@ class StartStage : public QWidget {
       now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "");
     if (now == shown_ && recent_->body()->count() > 0) return;
     shown_ = now;
+    const bool hadFocus = recent_->isAncestorOf(window()->focusWidget());
     while (QLayoutItem* item = recent_->body()->takeAt(0)) {
       delete item->widget();
       delete item;
     }
     if (venues.isEmpty()) return fillEmpty();
-    for (const RecentVenue& venue : venues.first(std::min<qsizetype>(5, venues.size())))
-      recent_->body()->addWidget(new RecentRow(model_, venue));
+    const QList<RecentVenue> shown = venues.first(std::min<qsizetype>(5, venues.size()));
+    for (const RecentVenue& venue : shown) {
+      auto* row = new RecentRow(model_, venue);
+      recent_->body()->addWidget(row);
+      // Mostly one goes on where one was last.
+      if (&venue == &shown.first() && !model_.session().isOpen()) beginHere(row->open());
+    }
     recent_->body()->addStretch(1);
+    if (hadFocus) focusFirst(recent_);
   }
   void fillEmpty() {
     auto* middle = new QWidget;

@@ -72,7 +72,8 @@ class KeepingPart : public QWidget {
     WorkLeft work = model_.expected();
     patterns_->setValue(VenuePage::tr("about %1").arg(countText(static_cast<std::uint64_t>(work.shots))));
     auto [fast, slow] = model_.expectedSeconds();
-    time_->setValue(VenuePage::tr("%1 to %2").arg(text(roundedDuration(fast)), text(roundedDuration(slow))));
+    time_->setValue(
+        VenuePage::tr("%1 to %2").arg(text(expectedDuration(fast)), text(expectedDuration(slow))));
     const std::uint64_t free = model_.freeBytes();
     disk_->setValue(VenuePage::tr("%1 of %2").arg(bytesText(work.diskBytes), bytesText(free)),
                     free < work.diskBytes ? "error" : "strong");

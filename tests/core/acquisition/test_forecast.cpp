@@ -254,6 +254,22 @@ class TestForecast : public QObject {
     QVERIFY(std::abs(under.seconds - 0.2 * under.shots) < 1e-6 * under.seconds);
     QCOMPARE(before.exposures, 2 * before.shots);
     QVERIFY(before.diskBytes >= static_cast<std::uint64_t>(before.exposures) * 40 * 30 * 6);
+    // Dense patterns are computed with as well, the longer the more pixels see them; a benchmark of
+    // photographs knows nothing of it.
+    AcquisitionSettings dense = settingsOf(AcquisitionMode::multiplexed);
+    ShotTimes quick = fast;
+    quick.capturing = 0.2;
+    const auto denseSeconds = [&](Size camera, const AcquisitionState& state) {
+      return forecast({Rasters(camera), projectors, 2, 0.1}, dense, quick, state).seconds;
+    };
+    const double small = denseSeconds({80, 60}, {}), fourfold = denseSeconds({160, 120}, {});
+    QVERIFY2(small > 4.0 && small < 10.0, QByteArray::number(small));
+    QVERIFY2(fourfold > 3.0 * small && fourfold < 4.0 * small, QByteArray::number(fourfold));
+    // Known to take longer, that counts.
+    ShotTimes busy = quick;
+    busy.between = 100.0;
+    QVERIFY(denseSeconds({80, 60}, {{}, 0, busy}) > 2.0 * small);
+    QCOMPARE(denseSeconds({80, 60}, {{}, 1000, quick}), 0.0);
     WorkLeft larger = forecast({Rasters(Size{80, 60}), projectors, 2, 0.1}, settings, slow, {});
     QVERIFY(larger.memoryBytes > before.memoryBytes);
   }

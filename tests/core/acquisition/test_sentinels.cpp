@@ -169,6 +169,12 @@ class TestSentinels : public QObject {
       }
     }
     QCOMPARE(alarms, 1);
+    // It stays on record: what happened, and how many patterns were taken again from where on.
+    QCOMPARE(a.findings.size(), venue_->sound().findings.size() + 1);
+    const std::string said = english(a.findings.back());
+    for (const std::string& part :
+         {std::string("brighter"), std::to_string(retake.patterns), "No. " + std::to_string(retake.shot + 1)})
+      QVERIFY2(said.find(part) != std::string::npos, said.c_str());
     QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
   }
 

@@ -54,21 +54,37 @@ class TestTimeLeft : public QObject {
     QVERIFY2(std::abs(seconds - 940.0) < 10.0, QByteArray::number(seconds));
   }
 
-  void durationsAreRoundedUp_data() {
+  void durationsAreAsExactAsTheyAreKnown_data() {
     QTest::addColumn<double>("seconds");
-    QTest::addColumn<QString>("text");
-    QTest::newRow("nothing") << 0.0 << "10 s";
-    QTest::newRow("seconds") << 31.0 << "40 s";
-    QTest::newRow("the last step of ten") << 50.0 << "50 s";
-    QTest::newRow("nearly a minute") << 55.0 << "1 min";
-    QTest::newRow("minutes") << 61.0 << "2 min";
-    QTest::newRow("an hour") << 3600.0 << "60 min";
-    QTest::newRow("hours") << 7500.0 << "2 h 5 min";
+    QTest::addColumn<QString>("expected");
+    QTest::addColumn<QString>("spent");
+    QTest::newRow("nothing") << 0.0 << "under a minute"
+                             << "1 s";
+    QTest::newRow("a second and a half") << 1.38 << "under a minute"
+                                         << "1 s";
+    QTest::newRow("seconds") << 31.2 << "under a minute"
+                             << "31 s";
+    QTest::newRow("nearly a minute") << 59.9 << "under a minute"
+                                     << "60 s";
+    QTest::newRow("a minute") << 60.0 << "1 min"
+                              << "60 s";
+    QTest::newRow("more than a minute") << 61.0 << "2 min"
+                                        << "61 s";
+    QTest::newRow("minutes") << 140.0 << "3 min"
+                             << "2 min";
+    QTest::newRow("an hour") << 3600.0 << "60 min"
+                             << "60 min";
+    QTest::newRow("hours") << 7500.0 << "2 h 5 min"
+                           << "2 h 5 min";
   }
-  void durationsAreRoundedUp() {
+  /// Of what is to come nobody knows seconds; what was taken was counted.
+  void durationsAreAsExactAsTheyAreKnown() {
     QFETCH(double, seconds);
-    QFETCH(QString, text);
-    QCOMPARE(QString::fromStdString(english(roundedDuration(seconds))), text);
+    QFETCH(QString, expected);
+    QFETCH(QString, spent);
+    QCOMPARE(QString::fromStdString(english(expectedDuration(seconds))), expected);
+    QCOMPARE(QString::fromStdString(english(spentDuration(seconds))), spent);
+    QCOMPARE(isUnderAMinute(seconds), expected == "under a minute");
   }
 };
 

@@ -116,6 +116,9 @@ class TestShotJournal : public QObject {
     earlier.keep(shotOf(6));
     QVERIFY(earlier.find(shotOf(6).id, fingerprint) && !earlier.find({"acquisition", 7}, fingerprint));
     QCOMPARE(earlier.seconds(), 40.0);
+    // Of what was kept until a result was stored that says what it took, the times say nothing more.
+    earlier.remember(fs::file_time_type::max(), 17.0);
+    QCOMPARE(earlier.seconds(), 17.0);
   }
 
   void findsWhatWasKept_data() {

@@ -144,6 +144,29 @@ class TestSvg : public QObject {
     QVERIFY(std::abs(number(name, "y") - curve) > 14.0);
   }
 
+  /// Where every corner is taken, by lines, markers or the mark, names stand above the plot, side by side.
+  void theLegendLeavesAFullPlot() {
+    Chart chart{"", {0.0, 1.0}, {0.0, 1.0, false, "Title"}};
+    chart.curves = {{"Upper", "red", Marker::none, {{0.0, 0.95}, {1.0, 0.95}}, {}},
+                    {"Lower", "blue", Marker::none, {{0.0, 0.05}, {1.0, 0.05}}, {}}};
+    const Drawing drawing{{400, 300}};
+    const double top = plotOf(chart, drawing).top;
+    const auto full = named(elementsOf(svgOf(chart, drawing)), "text", "legend");
+    QCOMPARE(full.size(), qsizetype{2});
+    for (const Element& name : full) QVERIFY(number(name, "y") < top);
+    QVERIFY(number(full[1], "x") > number(full[0], "x") + 40.0);
+    // The mark is in the way as well.
+    chart.curves.pop_back();
+    chart.curves[0].line = {{0.0, 0.95}, {0.5, 0.95}};
+    const auto placed = [&] {
+      const Element name = named(elementsOf(svgOf(chart, drawing)), "text", "legend").at(0);
+      return std::pair(number(name, "x"), number(name, "y"));
+    };
+    const auto before = placed();
+    chart.mark = 0.9;
+    QVERIFY(placed() != before);
+  }
+
   void numbersAreWrittenAsAsked() {
     Drawing drawing{{470, 300}, {}, [](const Axis&, const Tick&) { return std::string("7"); }};
     for (const Element& tick : named(elementsOf(svgOf(fullChart(), drawing)), "text", "number"))

@@ -272,12 +272,12 @@ class TestAcceptanceWalk : public QObject {
     const QString moved = "The camera or the projector moved";
     SEEN(seen.dialog() == moved && seen.says("What happened") && seen.says("What is safe") &&
          seen.says("What to do"));
-    SEEN(seen.button("Measure again").isDefault && seen.button("Stop and keep").isEnabled);
+    SEEN(seen.button("Try again").isDefault && seen.button("Stop and keep").isEnabled);
     // Until somebody answers it waits, says so, and asks again whoever has closed the question.
-    TRY_SEEN(seen.part(step(4)).more.startsWith("Paused") && amber(step(4)) > 0);
+    TRY_SEEN(seen.part(step(4)).more.startsWith("Waits for an answer") && amber(step(4)) > 0);
     TRY_DO(program_->press("Escape"));
     TRY_SEEN(seen.dialog().isEmpty() && seen.part("banner-sentence").text == moved &&
-             seen.part("hint").text == "Waiting for your answer.");
+             seen.part("hint").text == "Waiting for your answer. Every photograph is saved.");
     TRY_DO(program_->click("banner-primary"));
     TRY_SEEN(seen.dialog() == moved);
     TRY_DO(program_->clickText("Put the camera back"));
@@ -292,9 +292,9 @@ class TestAcceptanceWalk : public QObject {
     TRY_SEEN(seen.says("The camera looks where it looked."));
     QCOMPARE(program_->pixels("nudge-view", arrow), 0);
     TRY_DO(program_->click("nudge-close"));
-    TRY_SEEN(seen.dialog() == moved);
+    TRY_SEEN(seen.dialog() == "The camera is back at its place");
     putBackAt_ = room_->patterns().size();
-    TRY_DO(program_->clickText("Measure again"));
+    TRY_DO(program_->clickText("Try again"));
     TRY_SEEN(seen.dialog().isEmpty() && seen.part(step(4)).more.startsWith("Measuring"));
     takesPhotographs();
   }

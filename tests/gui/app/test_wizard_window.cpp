@@ -195,6 +195,12 @@ class TestWizardWindow : public QObject {
     QVERIFY(text->toPlainText().contains("verification photograph"));
     QTest::keyClick(help, Qt::Key_Escape);
     QTRY_VERIFY(!help->isVisible());
+    // Asked for by the mouse, it leaves the focus where it was: Enter still does what the page says.
+    find<Tile>("rehearse")->setFocus();
+    click("open-help");
+    QTRY_VERIFY(help->isVisible());
+    help->close();
+    QCOMPARE(wizard_->window().focusWidget(), find<QWidget>("rehearse"));
   }
 
   void settingsActAtOnceAndAreKept() {
@@ -286,7 +292,9 @@ class TestWizardWindow : public QObject {
                              patience);
     QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<LinearizePage>().isMeasuring(), patience);
     QVERIFY(wizard_->page<LinearizePage>().addsUp());
-    press(QKeySequence("Ctrl+Return"));
+    // Enter leads on after a job, not back.
+    QTRY_COMPARE(wizard_->window().focusWidget(), find<QWidget>("primary"));
+    QTest::keyClick(wizard_->window().focusWidget(), Qt::Key_Return);
     QTRY_COMPARE(page(), std::size_t{3});
   }
 
@@ -584,8 +592,12 @@ class TestWizardWindow : public QObject {
     find<QWidget>("secondary-2")->setFocus();
     click("secondary-2");
     QTRY_VERIFY(!output.isOpen());
-    // Not to the rail, which would lead elsewhere.
-    QTRY_VERIFY(find<QWidget>("output-stage")->isAncestorOf(wizard_->window().focusWidget()));
+    // Not to the rail or to Back, which would lead elsewhere: to what the page does next.
+    const auto hasFocus = [this] {
+      QWidget* focus = wizard_->window().focusWidget();
+      return focus == find<QWidget>("primary") || find<QWidget>("output-stage")->isAncestorOf(focus);
+    };
+    QTRY_VERIFY(hasFocus());
     QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
   }
 
@@ -630,6 +642,9 @@ class TestWizardWindow : public QObject {
     help = find<HelpWindow>("help");
     QVERIFY(help != nullptr && help->isVisible());
     QCOMPARE(find<QListWidget>("help-pages")->currentRow(), shown);
+    // Its words have room.
+    for (const char* name : {"open-settings", "open-help"})
+      QVERIFY2(!find<QPushButton>(name)->text().isEmpty(), name);
     QString title = guidePages(":/help", "de")[shown].title;
     QVERIFY(!english.startsWith(title));
     QVERIFY2(find<QTextBrowser>("help-text")->toPlainText().trimmed().startsWith(title),
@@ -667,8 +682,10 @@ class TestWizardWindow : public QObject {
     wizard_.reset();
     start();
     QCOMPARE(wizard_->page<VenuePage>().recent().size(), 1);
-    wizard_->page<VenuePage>().open(wizard_->page<VenuePage>().recent().front().folder);
-    QCOMPARE(page(), std::size_t{7});
+    // Enter opens the last one.
+    QTRY_VERIFY(wizard_->window().focusWidget() != nullptr);
+    QTest::keyClick(wizard_->window().focusWidget(), Qt::Key_Return);
+    QTRY_COMPARE(page(), std::size_t{7});
   }
 
   void aProofIsRememberedAsLongAsItHolds() {

@@ -65,7 +65,7 @@ class TestRehearsal : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
     QCOMPARE(session_->progress(Stage::acquisition), StageProgress::done);
     QVERIFY(session_->surprises()->hasHappened(kind) && !session_->surprises()->lasts(kind));
-    QVERIFY(told_->isEmpty() && acquire_->findings().isEmpty());
+    QVERIFY(told_->isEmpty());
     QVERIFY(measured().leaves() == calm_->leaves());
   }
 
@@ -132,6 +132,9 @@ class TestRehearsal : public QObject {
     asked.resume->trigger();
     QVERIFY(!acquire_->isHeldUp() && !wizard_->banner());
     endsAsIfNothingHadHappened(Surprise::roomLight);
+    // What happened stays on record, with how many patterns were taken again.
+    const QString found = acquire_->findings().join(' ');
+    QVERIFY2(found.contains("brighter") && found.contains("photographed again"), qPrintable(found));
   }
 
   void aCameraThatIsBumped() {
@@ -142,6 +145,16 @@ class TestRehearsal : public QObject {
     asked.resume->trigger();
     asked = question();
     QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::moved));
+    // In the words of its buttons; nothing runs on meanwhile, and the page has the question as well.
+    for (const PageCommand* answer : {asked.resume, asked.goOn})
+      QVERIFY2(asked.failure.advice.contains("“" + answer->text() + "”"), qPrintable(asked.failure.advice));
+    QVERIFY(asked.failure.advice.contains("try again") && asked.resume->text() == "Try again");
+    QVERIFY(acquire_->isAsking() && acquire_->isHeldUp() && asked.reason != nullptr);
+    const std::optional<double> left = acquire_->secondsLeft();
+    const int photographs = acquire_->photographs();
+    QVERIFY(acquire_->banner() && acquire_->banner()->command);
+    acquire_->banner()->command->trigger();
+    QCOMPARE(question().failure.heading, asked.failure.heading);
     QVERIFY(asked.repair && asked.repair->text() == "Put the camera back");
     QSignalSpy wanted(acquire_.get(), &AcquirePage::nudgeWanted);
     asked.repair->trigger();
@@ -156,9 +169,19 @@ class TestRehearsal : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(nudge.sight()->isAtItsPlace(), patience);
     nudge.stop();
     QTRY_VERIFY_WITH_TIMEOUT(!ended.isEmpty(), patience);
-    acquire_->askAgain();
-    question().resume->trigger();
+    QCOMPARE(acquire_->secondsLeft(), left);
+    QCOMPARE(acquire_->photographs(), photographs);
+    // Put right, only the answer is missing.
+    acquire_->askAgain(true);
+    asked = question();
+    QVERIFY(asked.isPutRight && !asked.repair && !asked.goOn);
+    QCOMPARE(asked.failure.heading, QString("The camera is back at its place"));
+    QVERIFY2(!asked.failure.what.contains("shifted"), qPrintable(asked.failure.what));
+    asked.resume->trigger();
+    QVERIFY(!acquire_->isAsking() && asked.reason == nullptr);
     endsAsIfNothingHadHappened(Surprise::bump);
+    const QString found = acquire_->findings().join(' ');
+    QVERIFY2(found.contains("moved") && found.contains("photographed again"), qPrintable(found));
   }
 
   /// Law: a measurement that waits for an answer says so, and asks again whoever has closed the question.
@@ -166,8 +189,9 @@ class TestRehearsal : public QObject {
     rehearse({Surprise::bump});
     const FailureReport asked = question();
     QVERIFY(acquire_->isHeldUp() && wizard_->statusOf(1).isHeldUp);
-    QVERIFY2(wizard_->statusOf(1).result.startsWith("Paused"), qPrintable(wizard_->statusOf(1).result));
-    QCOMPARE(acquire_->hint(), QString("Waiting for your answer."));
+    QVERIFY2(wizard_->statusOf(1).result.startsWith("Waits for an answer"),
+             qPrintable(wizard_->statusOf(1).result));
+    QCOMPARE(acquire_->hint(), QString("Waiting for your answer. Every photograph is saved."));
     const std::optional<Banner> banner = wizard_->banner();
     QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
     QCOMPARE(banner->sentence, asked.failure.heading);

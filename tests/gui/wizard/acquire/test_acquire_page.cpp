@@ -2,6 +2,7 @@
 // The page of acquisition before and while it measures: plan, time to leave, tries by itself.
 #include "wizard/acquire/acquire_page.h"
 
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QSignalSpy>
 #include <QtTest>
@@ -216,7 +217,14 @@ class TestAcquirePage : public QObject {
                                   QString::number(quality->photographs)})
       QVERIFY2(banner->more.contains(figure), qPrintable(banner->more));
     const int before = page.cost().value().patterns;
+    const double took = page.cost().value().seconds;
+    // All of it a minute ago.
+    const auto aMinute = std::chrono::minutes(1);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(session_->path()))
+      std::filesystem::last_write_time(entry, std::filesystem::last_write_time(entry) - aMinute);
     disconnect(stopping);
+    QElapsedTimer since;
+    since.start();
     banner->command->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
@@ -224,6 +232,10 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.status().state, StepState::done);
     QVERIFY(!page.banner());
     QVERIFY(page.cost().value().patterns > before);
+    // Both sessions, and not what lay between them.
+    const double whole = page.cost().value().seconds;
+    QVERIFY2(whole >= took && whole <= took + since.elapsed() / 1000.0 + 1.0,
+             qPrintable(QString("%1 s, then %2 s").arg(took).arg(whole)));
   }
 
   /// Law: an earlier measurement is used until the new one is ready, and how far that has come is said. There

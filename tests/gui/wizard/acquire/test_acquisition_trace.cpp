@@ -145,10 +145,18 @@ class TestAcquisitionTrace : public QObject {
     QVERIFY2(
         states[0].figure.contains(decimalText(0.85, 2)) && states[0].figure.contains(decimalText(0.55, 2)),
         qPrintable(states[0].figure));
+    // Taken again, what was put right is no warning any more; whether it is good says the next check.
+    trace.takenAgain({20, 21, RetakeReason::alarm, kind});
+    QCoreApplication::processEvents();
+    states = trace.states();
+    for (int i = 0; i < 4; ++i) {
+      QVERIFY(states[static_cast<std::size_t>(i)].isSteady);
+      QCOMPARE(states[static_cast<std::size_t>(i)].isKnown, i != state);
+    }
     // Tried again, it is well.
     trace.checked(readingAt(40));
     QCoreApplication::processEvents();
-    for (const WatchState& watch : trace.states()) QVERIFY(watch.isSteady);
+    for (const WatchState& watch : trace.states()) QVERIFY(watch.isSteady && watch.isKnown);
   }
 
   void flickerBeyondItsLimitIsAState() {

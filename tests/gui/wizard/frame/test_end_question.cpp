@@ -5,6 +5,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "wizard/frame/failure_dialog.h"
+
 using namespace relucent;
 using namespace relucent::gui;
 
@@ -54,6 +56,42 @@ class TestEndQuestion : public QObject {
       asked->goOn->trigger();
       QCOMPARE(ended, agrees ? 1 : 0);
     }
+  }
+
+  /// Law: a question outlives what it asks about by nothing; what was to be done afterwards is not done.
+  void whatHasEndedIsNotAskedAbout_data() {
+    QTest::addColumn<bool>("measures");
+    QTest::newRow("a measurement") << true;
+    QTest::newRow("a show") << false;
+  }
+  void whatHasEndedIsNotAskedAbout() {
+    QFETCH(bool, measures);
+    Session session{std::filesystem::path()};
+    DeviceLease lease;
+    const StepName step{"acquire", "", "Acquire"};
+    if (measures) lease = session.leaseDevices(step, DeviceWork::measurement);
+    session.setShowing(!measures);
+    EndQuestion question(session);
+    int ended = 0;
+    std::unique_ptr<FailureDialog> dialog;
+    PageCommand* agree = nullptr;
+    question.whenNothingEnds([&ended] { ++ended; },
+                             [&](const FailureReport& report) {
+                               agree = report.goOn;
+                               dialog = std::make_unique<FailureDialog>(report, "Acquire");
+                               dialog->show();
+                             });
+    QVERIFY(dialog && dialog->isVisible());
+    // What has nothing to do with it changes nothing.
+    Q_EMIT session.devicesChanged();
+    QVERIFY(dialog->isVisible());
+    if (measures)
+      lease.release();
+    else
+      session.setShowing(false);
+    QTRY_VERIFY(!dialog->isVisible());
+    agree->trigger();
+    QCOMPARE(ended, 0);
   }
 
   /// Law: devices that are borrowed for a moment are nobody's measurement.

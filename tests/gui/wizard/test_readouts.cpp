@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// What pages say of a measurement: of one measurement only, and the same wherever it is said.
+#include <QLabel>
+#include <QLineEdit>
+#include <QtTest>
+
+#include "gui/wizard/simulated_session.h"
+#include "views/cut_histogram.h"
+#include "wizard/acquire/acquire_page.h"
+#include "wizard/frame/step_rail.h"
+#include "wizard/frame/wizard.h"
+#include "wizard/linearize/linearize_page.h"
+#include "wizard/linearize/linearize_view.h"
+#include "wizard/threshold/threshold_page.h"
+#include "wizard/threshold/threshold_view.h"
+#include "wizard/venue/venue_page.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::gui;
+
+class TestReadouts : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void init() {
+    own_ = std::make_unique<SimulatedSession>();
+    session_ = &own_->session;
+  }
+
+  /// Law: what a forecast says of a venue before it is begun, it says of it when the response is known.
+  void thereIsOneForecast() {
+    VenuePage venue(*session_, RecentVenues(own_->settings));
+    venue.setSizes({{{64, 48}, {48, 36}, "%1"}, {{512, 384}, {320, 240}, "%1"}});
+    venue.setMode(VenuePage::Mode::rehearse);
+    for (bool isSmall : {true, false}) {
+      venue.chooseSize(isSmall ? 0 : 1);
+      const QString effort = venue.effortOf(venue.venues().front());
+      QCOMPARE(effort.contains("under a minute"), isSmall);
+    }
+    // Fewer pixels of the camera than of the projector, which has no part in computing.
+    venue.setSizes({{{256, 192}, {48, 36}, "%1"}});
+    const double before = venue.expected().seconds;
+    own_->begin(smallVenue({256, 192}, {48, 36}));
+    LinearizePage linearize(*session_);
+    AcquirePage page(*session_);
+    linearize.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!linearize.isMeasuring() && linearize.result(), patience);
+    const double after = page.expected()->seconds;
+    QVERIFY2(isUnderAMinute(before) && isUnderAMinute(after) && after < 5.0 * before && before < 5.0 * after,
+             qPrintable(QString("%1 and %2").arg(before).arg(after)));
+  }
+
+  /// Law: contrast and black level are those of the response's photographs, whatever is looked at later.
+  void contrastIsOfOneMeasurement() {
+    own_->begin();
+    AcquirePage acquire(*session_);
+    LinearizePage page(*session_);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), patience);
+    const std::optional<double> black = page.blackShare();
+    QVERIFY(black.has_value());
+    session_->setRoomLight({10.0 * *black + 0.1, true});
+    QCOMPARE(page.blackShare(), black);
+    session_->wantAcquisition();
+    QTRY_VERIFY_WITH_TIMEOUT(session_->acquisition() != nullptr, patience);
+    QCOMPARE(page.blackShare(), black);
+  }
+
+  /// Exposures that were kept are those that are shown, until the response has its own.
+  void keptExposuresAreShown() {
+    own_->begin();
+    LinearizePage page(*session_);
+    QVERIFY(page.exposures().empty());
+    session_->decide(CameraCheckResult{{0.25, 0.5}, std::nullopt, {}});
+    QCOMPARE(page.exposures(), (std::vector<double>{0.25, 0.5}));
+  }
+
+  /// Law: the histogram's bars are of what the readouts count; beyond everything, the strongest stay.
+  void aCutIsTheSameEverywhere() {
+    measure();
+    ThresholdPage page(*session_);
+    page.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(page.whole().has_value() && page.isExact(), patience);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    auto* histogram = stage->findChild<CutHistogram*>("cut-histogram");
+    auto* strongest = inspector->findChild<QLabel*>("strongest-stay");
+    QVERIFY(histogram != nullptr && strongest != nullptr);
+    const auto barsOf = [histogram](const char* style) {
+      double sum = 0.0;
+      for (const charts::Column& column : histogram->columns())
+        if (column.style == style) sum += column.height;
+      return sum;
+    };
+    for (double cut : {0.0, 1e-3, 1e9}) {
+      page.setAbsolute(cut);
+      QTRY_VERIFY_WITH_TIMEOUT(page.isExact(), patience);
+      QCOMPARE(barsOf("kept"), static_cast<double>(page.kept()->leaves));
+      QCOMPARE(barsOf("dropped") > 0.0, page.kept()->leaves < page.whole()->leaves);
+    }
+    QVERIFY(page.kept()->leaves > 0 && page.isStrongestKept());
+    QVERIFY(strongest->isVisibleTo(inspector.get()) && !strongest->text().isEmpty());
+    page.setAbsolute(0.0);
+    QTRY_VERIFY_WITH_TIMEOUT(!strongest->isVisibleTo(inspector.get()), patience);
+  }
+
+  /// Law: what is no cut changes nothing and is said; what was typed is taken back by the page's undo.
+  void nonsenseIsRefused() {
+    measure();
+    ThresholdPage page(*session_);
+    page.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(page.whole().has_value(), patience);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    auto* typed = inspector->findChild<QLineEdit*>("cut-value");
+    auto* refused = inspector->findChild<QLabel*>("cut-refused");
+    const auto type = [typed](const QString& text) {
+      typed->selectAll();
+      QTest::keyClicks(typed, text);
+      QTest::keyClick(typed, Qt::Key_Return);
+    };
+    const auto isRefused = [&] { return refused->isVisibleTo(inspector.get()); };
+    QVERIFY(!isRefused());
+    type("0.002");
+    QCOMPARE(page.cut().absolute, 0.002f);
+    QVERIFY(!isRefused());
+    type("abc,-5");
+    QCOMPARE(page.cut().absolute, 0.002f);
+    QVERIFY2(isRefused() && refused->text().contains("abc,-5"), qPrintable(refused->text()));
+    QCOMPARE(typed->text(), QString("0.002"));
+    type("0.004");
+    QVERIFY(!isRefused());
+    for (bool isTyping : {false, true}) {
+      if (isTyping) QTest::keyClicks(typed, "7");
+      QKeyEvent undo(QEvent::ShortcutOverride, Qt::Key_Z, Qt::ControlModifier);
+      undo.ignore();
+      QCoreApplication::sendEvent(typed, &undo);
+      QCOMPARE(undo.isAccepted(), isTyping);
+    }
+    // Changes in quick succession are one.
+    page.undoStack().undo();
+    QCOMPARE(page.cut().absolute, 0.0f);
+  }
+
+  /// Law: what was interrupted is told on the list, and opened again it is where one goes on.
+  void anInterruptedMeasurementIsToldAndGoneOnWith_data() {
+    QTest::addColumn<bool>("again");
+    QTest::newRow("the first") << false;
+    QTest::newRow("measured again") << true;
+  }
+  void anInterruptedMeasurementIsToldAndGoneOnWith() {
+    QFETCH(bool, again);
+    own_->begin();
+    VenuePage venue(*session_, RecentVenues(own_->settings));
+    AcquirePage acquire(*session_);
+    ThresholdPage threshold(*session_);
+    Wizard wizard(*session_);
+    for (PageModel* page : std::initializer_list<PageModel*>{&venue, &acquire, &threshold}) wizard.add(*page);
+    const std::filesystem::path path = session_->path();
+    session_->open(path);
+    if (again) {
+      acquire.primary()->trigger();
+      QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), patience);
+      QVERIFY(!venue.recent().front().isInterrupted && !acquire.wasInterrupted());
+      QTest::qWait(1100);  // results are dated to the second
+      acquire.secondary().front()->trigger();
+    } else {
+      acquire.primary()->trigger();
+    }
+    QTRY_VERIFY_WITH_TIMEOUT(acquire.photographs() > 8, patience);
+    acquire.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    const int safe = again ? session_->photographsSince(Stage::acquisition)
+                           : session_->photographsKept(Stage::acquisition);
+    QVERIFY(safe > 0);
+    session_->close();
+    const RecentVenue listed = venue.recent().front();
+    QVERIFY(listed.isInterrupted);
+    QVERIFY2(listed.state.startsWith("Interrupted") && listed.state.contains(QString::number(safe)),
+             qPrintable(listed.state));
+    session_->open(path);
+    QCOMPARE(wizard.current(), std::size_t{1});
+    // What is kept is read first, which is said.
+    bool wasReading = false;
+    connect(&acquire, &AcquirePage::progressChanged, &acquire, [&] {
+      if (!acquire.isReading() || acquire.reading().taken == 0) return;
+      wasReading = true;
+      QVERIFY(acquire.reading().taken <= acquire.reading().expected);
+      QVERIFY2(acquire.status().result.startsWith("Reading"), qPrintable(acquire.status().result));
+    });
+    acquire.primary()->trigger();
+    QVERIFY(acquire.isReading());
+    QVERIFY2(acquire.hint().contains(QString::number(acquire.reading().expected)),
+             qPrintable(acquire.hint()));
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), patience);
+    QVERIFY(!acquire.wasInterrupted() && !venue.recent().front().isInterrupted);
+    // Nor is what was copied, whose photographs are newer than their result.
+    for (const auto& shot : std::filesystem::directory_iterator(path / "shots"))
+      std::filesystem::last_write_time(shot,
+                                       std::filesystem::last_write_time(shot) + std::chrono::minutes(1));
+    session_->open(path);
+    QVERIFY(session_->photographsSince(Stage::acquisition) > 0);
+    QVERIFY(!acquire.wasInterrupted() && !venue.recent().front().isInterrupted);
+    QCOMPARE(wizard.current(), std::size_t{2});
+  }
+
+  /// Law: while another venue is only thought of, the rail is of the open one: named, and open.
+  void theRailIsOfTheOpenVenue() {
+    own_->begin();
+    session_->decide(CameraCheckResult{{1.0}, std::nullopt, {}});
+    VenuePage venue(*session_, RecentVenues(own_->settings));
+    AcquirePage acquire(*session_);
+    Wizard wizard(*session_);
+    wizard.add(venue);
+    wizard.add(acquire);
+    StepRail rail(wizard, *session_);
+    auto* step = rail.findChild<QAbstractButton*>("step-2");
+    const auto names = [&rail] {
+      QStringList texts;
+      for (const QLabel* label : rail.findChildren<QLabel*>()) texts << label->accessibleName();
+      return texts;
+    };
+    const QStringList before = names();
+    QVERIFY(before.contains(session_->name()) && step->isEnabled());
+    for (VenuePage::Mode mode : {VenuePage::Mode::rehearse, VenuePage::Mode::devices}) {
+      venue.setMode(mode);
+      QCOMPARE(names(), before);
+      QVERIFY(step->isEnabled());
+    }
+  }
+
+ private:
+  void measure() {
+    own_->begin();
+    AcquirePage acquire(*session_);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring() && acquire.isDone(), patience);
+  }
+
+  std::unique_ptr<SimulatedSession> own_;
+  Session* session_ = nullptr;
+};
+
+QTEST_MAIN(TestReadouts)
+#include "test_readouts.moc"

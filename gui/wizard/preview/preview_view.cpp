@@ -114,14 +114,6 @@ class PreviewStage : public QWidget {
         page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
- protected:
-  /// In a small window the stage scrolls, and its picture is one that can be judged.
-  void resizeEvent(QResizeEvent* event) override {
-    QWidget::resizeEvent(event);
-    constexpr int narrow = 600, leastHeight = 280;
-    card_->setMinimumHeight(width() < narrow ? leastHeight : 0);
-  }
-
  private:
   /// What is looked at, and its numbers.
   ShownView shownView() const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
@@ -256,9 +257,11 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
   if (writeFiles) {
     fs::path results = path_ / "results";
     createFolder(results);
-    // A folder without an entry is what a program that died before its last step left; it is passed over.
+    std::set<std::string> taken;
+    for (const Json& entry : (*manifest_)["results"].value(std::string(nameOf(stage)), Json::array()))
+      taken.insert(entry.at("folder").get<std::string>());
     int number = 1;
-    while (fs::exists(results / fmt::format("{}-{}", nameOf(stage), number))) ++number;
+    while (taken.contains(fmt::format("{}-{}", nameOf(stage), number))) ++number;
     name = fmt::format("{}-{}", nameOf(stage), number);
     fs::path temporary = results / ("." + name + ".part");
 
@@ -270,6 +273,8 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
         files[entry.path().filename().string()] = entry.file_size();
       }
       checkSynced(platform::syncFolder(temporary), temporary);
+      // A folder without an entry is what a program that died before its last step left: nobody reads it.
+      fs::remove_all(results / name);
       fs::rename(temporary, results / name);
       checkSynced(platform::syncFolder(results), results);
     } catch (const fs::filesystem_error& error) {

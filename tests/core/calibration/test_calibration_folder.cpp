@@ -274,6 +274,27 @@ class TestCalibrationFolder : public QObject {
     QVERIFY(fs::exists(root_ / "c/notes.txt"));
   }
 
+  /// Law: killed between a result's folder and its entry, the next one takes its place, as if nothing had
+  /// been killed; a result that has an entry keeps its own.
+  void aFolderWithoutAnEntryIsReplaced() {
+    CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
+    const auto storing = [&](const std::string& inputs, const std::string& content) {
+      return folder.store(Stage::threshold, inputs, {},
+                          [&](const fs::path& in) { writeFileAtomically(in / "a", content); });
+    };
+    createFolder(root_ / "c/results/threshold-1");
+    writeFileAtomically(root_ / "c/results/threshold-1/a", "killed");
+    writeFileAtomically(root_ / "c/results/threshold-1/b", "killed");
+    const StageResult first = storing("f1", "first");
+    QCOMPARE(first.folder, root_ / "c/results/threshold-1");
+    QVERIFY(!fs::exists(first.folder / "b"));
+    createFolder(root_ / "c/results/threshold-2");
+    const StageResult second = storing("f2", "second");
+    QCOMPARE(second.folder, root_ / "c/results/threshold-2");
+    QCOMPARE(readFile(fileOf(first, "a")), std::string("first"));
+    QCOMPARE(readFile(fileOf(second, "a")), std::string("second"));
+  }
+
   void filesThatChangedAreFound() {
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
     StageResult result = folder.store(Stage::threshold, "f", {}, [](const fs::path& in) {

@@ -323,7 +323,7 @@ class TestAcceptanceWalk : public QObject {
     program_->kill();
     killedAt_ = room_->patterns().size();
     startProgram();
-    TRY_SEEN(seen.says("Walk") && seen.says("Acquire was interrupted"));
+    TRY_SEEN(seen.says("Walk") && seen.says("Interrupted: "));
     TRY_DO(program_->clickText("Resume"));
     TRY_SEEN(seen.part(step(4)).spoken.endsWith("current") && seen.part(step(4)).more.endsWith("kept"));
     SEEN(seen.part("banner-sentence").text == "The last session ended before it was finished" &&

@@ -261,8 +261,9 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
     for (const Json& entry : (*manifest_)["results"].value(std::string(nameOf(stage)), Json::array()))
       taken.insert(entry.at("folder").get<std::string>());
     int number = 1;
-    while (taken.contains(fmt::format("{}-{}", nameOf(stage), number))) ++number;
-    name = fmt::format("{}-{}", nameOf(stage), number);
+    const auto folderOf = [&] { return fmt::format("{}-{}", nameOf(stage), number); };
+    while (taken.contains(folderOf()) && fs::exists(results / folderOf())) ++number;
+    name = folderOf();
     fs::path temporary = results / ("." + name + ".part");
 
     try {

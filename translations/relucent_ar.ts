@@ -7199,6 +7199,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.sharing-leaves</name>
+    <message>
+        <source>light that neighbouring pixels share</source>
+        <translation>الضوء المشترك بين البكسلات المتجاورة</translation>
+    </message>
+</context>
+<context>
     <name>stage.sharpening</name>
     <message>
         <source>Sharpening</source>

@@ -7043,6 +7043,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.sharing-leaves</name>
+    <message>
+        <source>light that neighbouring pixels share</source>
+        <translation>Licht, das benachbarte Pixel teilen</translation>
+    </message>
+</context>
+<context>
     <name>stage.sharpening</name>
     <message>
         <source>Sharpening</source>

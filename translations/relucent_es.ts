@@ -7043,6 +7043,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.sharing-leaves</name>
+    <message>
+        <source>light that neighbouring pixels share</source>
+        <translation>luz que comparten los píxeles vecinos</translation>
+    </message>
+</context>
+<context>
     <name>stage.sharpening</name>
     <message>
         <source>Sharpening</source>

@@ -7043,6 +7043,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.sharing-leaves</name>
+    <message>
+        <source>light that neighbouring pixels share</source>
+        <translation>lumière que partagent les pixels voisins</translation>
+    </message>
+</context>
+<context>
     <name>stage.sharpening</name>
     <message>
         <source>Sharpening</source>

@@ -7043,6 +7043,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.sharing-leaves</name>
+    <message>
+        <source>light that neighbouring pixels share</source>
+        <translation>luce condivisa dai pixel vicini</translation>
+    </message>
+</context>
+<context>
     <name>stage.sharpening</name>
     <message>
         <source>Sharpening</source>

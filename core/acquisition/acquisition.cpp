@@ -11,6 +11,7 @@
 #include "relucent/acquisition/multiplexed.h"
 #include "relucent/acquisition/repair.h"
 #include "relucent/base/error.h"
+#include "relucent/transport/leaf_sharing.h"
 #include "relucent/transport/statistics.h"
 
 namespace relucent::acquisition {
@@ -18,7 +19,8 @@ namespace {
 
 // Shares of the time: the tree takes nearly all of it.
 constexpr double referenceShare = 0.06;
-constexpr double treeShare = 0.88;
+constexpr double treeShare = 0.87;
+constexpr double sharingShare = 0.01;
 constexpr double verificationShare = 0.04;
 
 // What is worth a sentence to the user.
@@ -132,6 +134,12 @@ class Measurement {
             : measureTree(measured, context, interrupted.has_value(), treePart);
     if (dropped == sentinels::Interruption::beginAgain) return *dropped;
 
+    if (measured.transport.ownLeaves().sharedColours()) {
+      Progress sharing = progress.part(
+          sharingShare, RELUCENT_MESSAGE("stage.sharing-leaves", "light that neighbouring pixels share"));
+      measured.transport =
+          transport::withSharedLeaves(measured.transport, transport::sharingTolerance, sharing);
+    }
     Progress verificationPart =
         progress.part(verificationShare, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
     const CameraMask unknown = std::move(measured.unknown);

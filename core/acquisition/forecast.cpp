@@ -41,6 +41,7 @@ constexpr double denseComputing = 1.2e-3;  // seconds a camera pixel
 // camera pixel's colours of near and far light of each projector. What else there is of a row: its
 // references, and a mark for each leaf while the level's are divided.
 constexpr double denseLeaves = 75.0;
+constexpr double denseKeptLeaves = 25.0;  // once neighbours share them
 constexpr double denseBytesPerLeaf = 10.0;
 constexpr double coloursBytes = 2.0 * 36.0;
 constexpr double rowBytesPerLeaf = 12.0;
@@ -205,7 +206,9 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
       mapped + (dense ? besideRowBytes * pixels + meansBytes * static_cast<double>(projectors.count())
                       : childrenBytes * pixels);
   work.mappedBytes = static_cast<std::uint64_t>(mapped);
-  work.diskBytes = static_cast<std::uint64_t>(photographs * bytes + leaves);
+  const double kept =
+      dense ? (denseKeptLeaves * denseBytesPerLeaf + coloursBytes * projectorCount) * pixels : leaves;
+  work.diskBytes = static_cast<std::uint64_t>(photographs * bytes + kept);
   work.memoryBytes = static_cast<std::uint64_t>(programBytes + underWay + framesInMemory * 27.0 * pixels +
                                                 60.0 * static_cast<double>(projectors.count()));
   return work;

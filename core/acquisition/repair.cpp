@@ -83,7 +83,8 @@ class Repair {
     const photography::References& references = context_.references();
     return transport::TransportMatrix(
         references.cameras, references.projectors,
-        mixedRows(verified_.transport.leaves(), again, chosen, references.fullScale));
+        mixedRows(verified_.transport.ownLeaves(), again, chosen, references.fullScale),
+        verified_.transport.groups().without(chosen));
   }
 
   void adopt(const Verification& after, const std::vector<std::uint8_t>& better) {

@@ -21,12 +21,12 @@ struct Prediction {
 
 Prediction predict(const transport::TransportMatrix& transport, std::size_t row,
                    const transport::NodeStack& means) {
-  const transport::BlockSparse& leaves = transport.leaves();
+  const transport::LeafRow leaves = transport.row(row);
   Prediction prediction;
-  for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
     Eigen::Map<const Eigen::Vector3f> mean(&means[3 * static_cast<std::size_t>(leaves.column(entry))]);
     if (mean.isZero(0.0f)) continue;
-    Eigen::Vector3f light = leaves.block(row, entry) * mean;
+    Eigen::Vector3f light = leaves.block(entry) * mean;
     for (std::size_t c = 0; c < 3; ++c) prediction.light[c] += light[static_cast<Eigen::Index>(c)];
     prediction.leafNoise += mean.squaredNorm();
   }

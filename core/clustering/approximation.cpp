@@ -22,11 +22,7 @@ class RowScaler {
  public:
   RowScaler(const ConnectionGraph& graph, const PixelPlaces& places, const Grouping& grouping,
             const ClusteringSettings& settings)
-      : graph_(graph),
-        leaves_(graph.transport().leaves()),
-        kept_(grouping.kept),
-        settings_(settings),
-        finder_(places) {}
+      : graph_(graph), kept_(grouping.kept), settings_(settings), finder_(places) {}
 
   struct Entry {
     std::uint32_t pixel;
@@ -42,11 +38,12 @@ class RowScaler {
     if (std::none_of(kept, kept + row.size(), [](std::uint8_t k) { return k != 0; })) return entries_;
 
     const std::vector<double>& gain = patchGains(row, kept);
+    const transport::LeafRow leaves = graph_.transport().row(i);
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (std::size_t k = 0; k < row.size(); ++k) {
       if (!kept[k]) continue;
       std::uint32_t leaf = row[k].leaf;
-      transport::ColourBlock density = leaves_.block(i, leaf) / graph_.nodes().pixels[leaves_.column(leaf)];
+      transport::ColourBlock density = leaves.block(leaf) / graph_.nodes().pixels[leaves.column(leaf)];
       transport::ColourBlock gained = density * static_cast<float>(gain[k]);
       sum += gained.rowwise().sum();
       entries_.push_back({row[k].pixel, density, gained});
@@ -86,7 +83,6 @@ class RowScaler {
   }
 
   const ConnectionGraph& graph_;
-  const transport::BlockSparse& leaves_;
   const std::vector<std::uint8_t>& kept_;
   const ClusteringSettings& settings_;
   PatchFinder finder_;
@@ -96,14 +92,14 @@ class RowScaler {
 
 /// What T holds for one projector pixel: the sum of all leaves over it, where leaves are nested.
 transport::ColourBlock allLightOf(const ConnectionGraph& graph, std::size_t row, std::uint32_t pixel) {
-  const transport::BlockSparse& leaves = graph.transport().leaves();
+  const transport::LeafRow leaves = graph.transport().row(row);
   const transport::NodeTable& nodes = graph.nodes();
   transport::ColourBlock sum = transport::ColourBlock::Zero();
-  std::size_t entry = leaves.rowBegin(row);
+  std::size_t entry = 0;
   for (std::uint32_t node = pixel;; node = nodes.parent[node]) {
-    while (entry < leaves.rowBegin(row + 1) && leaves.column(entry) < node) ++entry;
-    if (entry < leaves.rowBegin(row + 1) && leaves.column(entry) == node)
-      sum += leaves.block(row, entry) / nodes.pixels[node];
+    while (entry < leaves.size() && leaves.column(entry) < node) ++entry;
+    if (entry < leaves.size() && leaves.column(entry) == node)
+      sum += leaves.block(entry) / nodes.pixels[node];
     if (nodes.parent[node] == node) return sum;
   }
 }

@@ -22,7 +22,7 @@ constexpr std::size_t parts = 64;
 class NearLeaves {
  public:
   NearLeaves(const transport::TransportMatrix& transport, const transport::NodeTable& nodes)
-      : transport_(transport), leaves_(transport.leaves()), nodes_(nodes), level_(nodes.pixels.size()) {
+      : transport_(transport), nodes_(nodes), level_(nodes.pixels.size()) {
     parallelFor(0, level_.size(), 1024, [&](std::size_t node) {
       level_[node] = static_cast<std::uint8_t>(transport.layout().node(node).level);
     });
@@ -31,19 +31,21 @@ class NearLeaves {
   /// Looks at a row: the luminance of its leaves per projector pixel, and T_i 1.
   struct Row {
     std::vector<float> density;
+    std::vector<std::uint32_t> column;
     float brightest = 0.0f;
     std::array<float, 3> flood{};
   };
   void look(std::size_t row, Row& into) const {
-    std::size_t begin = leaves_.rowBegin(row), end = leaves_.rowBegin(row + 1);
-    into.density.resize(end - begin);
+    const transport::LeafRow leaves = transport_.row(row);
+    into.density.resize(leaves.size());
+    into.column.assign(leaves.columns().begin(), leaves.columns().end());
     into.brightest = 0.0f;
     Eigen::Vector3d flood = Eigen::Vector3d::Zero();
-    for (std::size_t entry = begin; entry < end; ++entry) {
-      const Eigen::Vector3f white = leaves_.block(row, entry).rowwise().sum();
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+      const Eigen::Vector3f white = leaves.block(entry).rowwise().sum();
       flood += white.cast<double>();
-      float density = image::luminanceOf(white[0], white[1], white[2]) / nodes_.pixels[leaves_.column(entry)];
-      into.density[entry - begin] = density;
+      float density = image::luminanceOf(white[0], white[1], white[2]) / nodes_.pixels[leaves.column(entry)];
+      into.density[entry] = density;
       into.brightest = std::max(into.brightest, density);
     }
     if (!std::isfinite(into.brightest)) into.brightest = 0.0f;
@@ -53,23 +55,20 @@ class NearLeaves {
 
   /// Calls visit(entry, luminance per pixel) for what is bright enough. Nothing is in a black row.
   template <typename Visit>
-  void visit(std::size_t row, const Row& seen, double share, int coarsest, const Visit& visit) const {
+  void visit(const Row& seen, double share, int coarsest, const Visit& visit) const {
     float least = static_cast<float>(share) * seen.brightest;
-    std::size_t begin = leaves_.rowBegin(row);
     for (std::size_t i = 0; i < seen.density.size() && seen.brightest > 0.0f; ++i) {
       float density = seen.density[i];
       if (!(density > 0.0f && density >= least)) continue;
-      if (level_[leaves_.column(begin + i)] <= coarsest) visit(begin + i, density);
+      if (level_[seen.column[i]] <= coarsest) visit(i, density);
     }
   }
 
-  std::size_t pixels(std::size_t entry) const {
-    return static_cast<std::size_t>(nodes_.pixels[leaves_.column(entry)]);
-  }
+  std::size_t pixels(std::uint32_t node) const { return static_cast<std::size_t>(nodes_.pixels[node]); }
 
   /// Adds a connection for every pixel of a leaf.
-  void expand(std::size_t entry, float bright, std::vector<Connection>& row) const {
-    std::uint32_t index = leaves_.column(entry);
+  void expand(const Row& seen, std::size_t entry, float bright, std::vector<Connection>& row) const {
+    std::uint32_t index = seen.column[entry];
     auto leaf = static_cast<std::uint32_t>(entry);
     if (level_[index] == 0) {
       row.push_back({index, leaf, bright});
@@ -89,7 +88,6 @@ class NearLeaves {
 
  private:
   const transport::TransportMatrix& transport_;
-  const transport::BlockSparse& leaves_;
   const transport::NodeTable& nodes_;
   std::vector<std::uint8_t> level_;
 };
@@ -104,8 +102,8 @@ std::vector<std::size_t> countedStarts(const NearLeaves& near, const CameraMask&
       near.look(row, seen);
       std::copy(seen.flood.begin(), seen.flood.end(), &flood[3 * row]);
       if (!usable[row]) continue;
-      near.visit(row, seen, share, coarsest,
-                 [&](std::size_t entry, float) { start[row + 1] += near.pixels(entry); });
+      near.visit(seen, share, coarsest,
+                 [&](std::size_t entry, float) { start[row + 1] += near.pixels(seen.column[entry]); });
     }
   });
   for (std::size_t row = 0; row < usable.size(); ++row) start[row + 1] += start[row];
@@ -143,16 +141,13 @@ ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport, co
   if (auto found = problems(settings); !found.empty())
     throw Error(ErrorKind::usage, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("clusters.correct-setting", "correct the setting"), "clustering");
-  const transport::BlockSparse& leaves = transport.leaves();
-  require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
-          leaves.rows());
-  require(leaves.blocks() < std::numeric_limits<std::uint32_t>::max(), "{} leaves", leaves.blocks());
+  const std::size_t rows = transport.cameras().count();
+  require(usable.size() == rows, "{} usable flags for {} camera pixels", usable.size(), rows);
   squaredNorm_ = transport::squaredRowNorms(transport, nodes_, &nested_);
   progress.report(0.3);
 
   // First to count: the connections are the largest array here and are made to measure.
   NearLeaves near(transport, nodes_);
-  std::size_t rows = leaves.rows();
   flood_.assign(3 * rows, 0.0f);
   length_.assign(rows, 0);
   coarsestLevel_ = settings.coarsestLevel;
@@ -175,8 +170,8 @@ ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport, co
       if (!usable[row]) continue;
       edges.clear();
       near.look(row, seen);
-      near.visit(row, seen, settings.leastShare, coarsestLevel_,
-                 [&](std::size_t entry, float bright) { near.expand(entry, bright, edges); });
+      near.visit(seen, settings.leastShare, coarsestLevel_,
+                 [&](std::size_t entry, float bright) { near.expand(seen, entry, bright, edges); });
       if (nested_[row]) keepBrightestOfEachPixel(edges);
       std::sort(edges.begin(), edges.end(), [](const Connection& a, const Connection& b) {
         return a.luminance != b.luminance ? a.luminance > b.luminance : a.pixel < b.pixel;

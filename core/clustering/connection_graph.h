@@ -14,7 +14,7 @@ namespace relucent::clustering {
 /// One edge of the bipartite graph of camera and projector pixels: the camera pixel sees the projector pixel.
 struct Connection {
   std::uint32_t pixel = 0;  // projector pixel, over all projectors
-  std::uint32_t leaf = 0;   // the entry of T that carries it
+  std::uint32_t leaf = 0;   // the place in the row of T of what carries it
   float luminance = 0.0f;   // of the camera pixel's signal from the projector pixel at white
 };
 

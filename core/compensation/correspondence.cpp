@@ -13,10 +13,10 @@ std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatr
                                                   const CameraMask& usable,
                                                   const DirectLightSettings& settings) {
   constexpr float leastShare = 0.01f;
-  const transport::BlockSparse& leaves = transport.leaves();
   const transport::NodeLayout& layout = transport.layout();
   const Rasters& projectors = transport.projectors();
-  require(usable.size() == leaves.rows(), "{} flags for {} camera pixels", usable.size(), leaves.rows());
+  const std::size_t rows = transport.cameras().count();
+  require(usable.size() == rows, "{} flags for {} camera pixels", usable.size(), rows);
   DirectLeaves rule(transport, settings);
   // The brightest so far, its light above its row: whoever comes first in whatever order, the brightest wins,
   // of equals the first row. Bits of positive floats sort as the floats do.
@@ -30,11 +30,12 @@ std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatr
     }
   };
 
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+  parallelFor(0, rows, 256, [&](std::size_t row) {
     if (!usable[row]) return;
-    float most = rule.lookOf(row).light;
-    rule.eachDirect(row, [&](std::size_t entry, const transport::Block& block) {
-      float light = leaves.block(row, entry).sum() / static_cast<float>(block.count());
+    const transport::LeafRow leaves = transport.row(row);
+    float most = rule.lookOf(leaves).light;
+    rule.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
+      float light = leaves.block(entry).sum() / static_cast<float>(block.count());
       if (!(light > 0.0f) || light < leastShare * most) return;
       auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
       for (int y = block.y0; y < block.y1; ++y)

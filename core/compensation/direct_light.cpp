@@ -35,7 +35,7 @@ std::vector<Message> problems(const DirectLightSettings& settings) {
 }
 
 DirectLeaves::DirectLeaves(const transport::TransportMatrix& transport, const DirectLightSettings& settings)
-    : leaves_(transport.leaves()), layout_(transport.layout()) {
+    : layout_(transport.layout()) {
   auto wrong = problems(settings);
   require(wrong.empty(), "direct light settings: {}", fmt::join(wrong, "; "));
   const double finest = transport::finestSide(transport);
@@ -45,8 +45,8 @@ DirectLeaves::DirectLeaves(const transport::TransportMatrix& transport, const Di
   }
 }
 
-DirectLook DirectLeaves::lookOf(std::size_t row) const {
-  std::vector<Place> places = placesOf(row);
+DirectLook DirectLeaves::lookOf(const transport::LeafRow& leaves) const {
+  std::vector<Place> places = placesOf(leaves);
   auto brightest = std::max_element(places.begin(), places.end(),
                                     [](const Place& a, const Place& b) { return a.light < b.light; });
   DirectLook look;
@@ -58,20 +58,19 @@ DirectLook DirectLeaves::lookOf(std::size_t row) const {
       static_cast<std::int32_t>(projectors.offset(projector) + indexOf(projectors.size(projector), pixel));
   look.light = brightest->light;
   float direct = 0.0f, all = 0.0f;
-  eachDirect(row,
-             [&](std::size_t entry, const transport::Block&) { direct += leaves_.block(row, entry).sum(); });
-  for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
-    all += leaves_.block(row, entry).sum();
+  eachDirect(leaves,
+             [&](std::size_t entry, const transport::Block&) { direct += leaves.block(entry).sum(); });
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) all += leaves.block(entry).sum();
   look.share = all > 0.0f ? std::clamp(direct / all, 0.0f, 1.0f) : 0.0f;
   return look;
 }
 
-std::vector<DirectLeaves::Place> DirectLeaves::placesOf(std::size_t row) const {
+std::vector<DirectLeaves::Place> DirectLeaves::placesOf(const transport::LeafRow& leaves) const {
   std::vector<Place> places(reach_.size());
-  for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-    transport::Node node = layout_.node(leaves_.column(entry));
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+    transport::Node node = layout_.node(leaves.column(entry));
     transport::Block block = layout_.block(node);
-    float light = leaves_.block(row, entry).sum() / static_cast<float>(block.count());
+    float light = leaves.block(entry).sum() / static_cast<float>(block.count());
     Place& place = places[static_cast<std::size_t>(node.projector)];
     if (light > place.light) place = {light, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
   }
@@ -80,20 +79,22 @@ std::vector<DirectLeaves::Place> DirectLeaves::placesOf(std::size_t row) const {
 
 transport::TransportMatrix directPart(const transport::TransportMatrix& transport,
                                       const DirectLightSettings& settings, Progress& progress) {
-  const transport::BlockSparse& leaves = transport.leaves();
   DirectLeaves rule(transport, settings);
-  CameraMask direct(leaves.blocks(), 0);
-  eachRow(leaves.rows(), progress, [&](std::size_t row) {
-    rule.eachDirect(row, [&](std::size_t entry, const transport::Block&) { direct[entry] = 1; });
-  });
-  return transport::TransportMatrix(transport.cameras(), transport.projectors(), leaves.filtered(direct));
+  constexpr std::size_t rowsBetweenLooks = 4096;
+  transport::TransportMatrix direct = transport.filtered(
+      [&](std::size_t row, const transport::LeafRow& leaves, std::vector<std::uint8_t>& keep) {
+        if (row % rowsBetweenLooks == 0) progress.checkpoint();
+        rule.eachDirect(leaves, [&](std::size_t entry, const transport::Block&) { keep[entry] = 1; });
+      });
+  progress.report(1.0);
+  return direct;
 }
 
 std::vector<DirectLook> directLooks(const transport::TransportMatrix& transport,
                                     const DirectLightSettings& settings, Progress& progress) {
   DirectLeaves rule(transport, settings);
-  std::vector<DirectLook> looks(transport.leaves().rows());
-  eachRow(looks.size(), progress, [&](std::size_t row) { looks[row] = rule.lookOf(row); });
+  std::vector<DirectLook> looks(transport.cameras().count());
+  eachRow(looks.size(), progress, [&](std::size_t row) { looks[row] = rule.lookOf(transport.row(row)); });
   return looks;
 }
 

@@ -42,19 +42,19 @@ inline constexpr double leastDirectShare = 0.1;
 /// Used by directPart() and wherever it matters where the projection itself falls.
 class DirectLeaves {
  public:
-  /// T must outlive this object.
+  /// T must outlive this object, and rows are T's.
   DirectLeaves(const transport::TransportMatrix& transport, const DirectLightSettings& settings);
 
   /// Calls visit(entry, block) for the direct leaves of a row.
   template <typename Visit>
-  void eachDirect(std::size_t row, const Visit& visit) const {
+  void eachDirect(const transport::LeafRow& leaves, const Visit& visit) const {
     // Where another projector lights a pixel directly, light of this one in its own shadow is indirect.
     constexpr float leastShare = 0.1f;
-    std::vector<Place> places = placesOf(row);
+    std::vector<Place> places = placesOf(leaves);
     float most = 0.0f;
     for (const Place& place : places) most = std::max(most, place.light);
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-      transport::Node node = layout_.node(leaves_.column(entry));
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+      transport::Node node = layout_.node(leaves.column(entry));
       auto projector = static_cast<std::size_t>(node.projector);
       const Place& place = places[projector];
       if (!(place.light > leastShare * most)) continue;
@@ -67,7 +67,7 @@ class DirectLeaves {
     }
   }
 
-  DirectLook lookOf(std::size_t row) const;
+  DirectLook lookOf(const transport::LeafRow& leaves) const;
 
  private:
   /// Where a camera pixel looks to in one projector.
@@ -75,9 +75,8 @@ class DirectLeaves {
     float light = 0.0f;  // of the brightest leaf, per projector pixel
     double x = 0.0, y = 0.0;
   };
-  std::vector<Place> placesOf(std::size_t row) const;
+  std::vector<Place> placesOf(const transport::LeafRow& leaves) const;
 
-  const transport::BlockSparse& leaves_;
   const transport::NodeLayout& layout_;
   std::vector<double> reach_;  // per projector, pixels
 };

@@ -89,11 +89,11 @@ class Correspondence {
     const transport::NodeLayout& layout = transport_.layout();
     const Rasters& projectors = transport_.projectors();
     seen.clear();
-    direct_.eachDirect(row, [&](std::size_t entry, const transport::Block& block) {
-      const float light = transport_.leaves().block(row, entry).sum() / static_cast<float>(block.count());
+    const transport::LeafRow leaves = transport_.row(row);
+    direct_.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
+      const float light = leaves.block(entry).sum() / static_cast<float>(block.count());
       if (!(light > 0.0f)) return;
-      const auto projector =
-          static_cast<std::size_t>(layout.node(transport_.leaves().column(entry)).projector);
+      const auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
       for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x)
           seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});

@@ -59,8 +59,8 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
       venue.usable.size(), pixels);
   checkFinite(venue.black, "the black level");
   checkFinite(venue.flood, "the flood image");
-  for (std::size_t row = 0; row < transport.leaves().rows(); ++row)
-    if (!std::isfinite(transport.leaves().scale(row)))
+  for (std::size_t row = 0; row < pixels; ++row)
+    if (!std::isfinite(transport.ownLeaves().scale(row)))
       throw Error(ErrorKind::numerics,
                   RELUCENT_ENGLISH_MESSAGE("engine.transport-not-finite",
                                            "the light transport holds values that are not finite"),

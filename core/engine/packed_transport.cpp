@@ -9,7 +9,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
-#include "relucent/engine/row_light.h"
+#include "relucent/transport/row_light.h"
 
 namespace relucent::engine {
 namespace {
@@ -17,8 +17,14 @@ namespace {
 // Of the columns that 16 bits number some are for what fills up runs.
 constexpr std::size_t mostColumnsOfAPatch = 65536 - leavesTogether;
 constexpr float largestCode = 32767.0f;
-constexpr int squareSide = SharedLight::side;
+using transport::Channels;
 using transport::ColourBlock;
+using transport::LightGroup;
+using transport::LightPart;
+using transport::NodeShare;
+using transport::RowLight;
+using transport::SharedLight;
+constexpr int squareSide = SharedLight::side;
 using transport::TransportMatrix;
 
 /// Leaves with nodes of the layout, before patches renumber them.
@@ -162,7 +168,11 @@ struct Place {
 class SquarePacker {
  public:
   SquarePacker(const TransportMatrix& transport, float tolerance)
-      : transport_(transport), tolerance_(tolerance) {}
+      : transport_(transport),
+        tolerance_(tolerance),
+        // What T shares is within its own tolerance already. With several projectors it shares for each,
+        // rows here for all together.
+        asMeasured_(!transport.groups().empty() && transport.projectors().devices() == 1) {}
 
   /// The place's camera pixels with leaves that they share; or, where so many nodes fit in no patch, each
   /// alone.
@@ -175,7 +185,8 @@ class SquarePacker {
       for (int x = place.from.x; x < place.to.x; ++x) {
         const std::size_t i = SharedLight::placeOf(x - place.from.x, y - place.from.y);
         pixel[i] = transport_.cameras().offset(place.camera) + indexOf(size, {x, y});
-        light[i] = rowLight(transport_, pixel[i], tolerance_);
+        light[i] = asMeasured_ ? transport::rowLightAsShared(transport_, pixel[i])
+                               : transport::rowLight(transport_, pixel[i], tolerance_);
         keepBrightest(light[i]);
       }
     if (nodesOf(light) <= mostColumnsOfAPatch) return {shared(pixel, light)};
@@ -206,9 +217,8 @@ class SquarePacker {
   Row rowOf(std::size_t pixel, const RowLight& light, const std::vector<NodeShare>& own,
             const Channels& farShares) const {
     ColourBlock sum = ColourBlock::Zero();
-    const transport::BlockSparse& blocks = transport_.leaves();
-    for (std::size_t entry = blocks.rowBegin(pixel); entry < blocks.rowBegin(pixel + 1); ++entry)
-      sum += blocks.block(pixel, entry);
+    const transport::LeafRow leaves = transport_.row(pixel);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) sum += leaves.block(entry);
     Row row = packedRow(light, own, farShares, sum);
     row.packed.pixel = static_cast<std::uint32_t>(pixel);
     return row;
@@ -221,7 +231,8 @@ class SquarePacker {
       far.push_back(of.far.leaves);
       weight.push_back(of.farWeight);
     }
-    const SharedLight shared = shareLight(transport_.layout(), far, weight, tolerance_);
+    const SharedLight shared =
+        transport::shareLight(transport_.layout(), far, weight, asMeasured_ ? 0.0f : tolerance_);
 
     Square square;
     std::vector<Channels> sums;  // of each group with its parents
@@ -250,6 +261,7 @@ class SquarePacker {
 
   const TransportMatrix& transport_;
   float tolerance_;
+  bool asMeasured_;
 };
 
 std::vector<Place> placesOf(const Rasters& cameras, int side) {
@@ -304,8 +316,8 @@ void split(std::vector<Square> squares, std::vector<Patch>& done) {
 
 PackedTransport::PackedTransport(const TransportMatrix& transport, const PackingSettings& settings) {
   require(settings.patchSide > 0, "patches of {} pixels", settings.patchSide);
-  require(transport.leaves().blocks() <= std::numeric_limits<std::uint32_t>::max(),
-          "{} leaves are more than 32-bit indices hold", transport.leaves().blocks());
+  require(transport.storedLeaves() <= std::numeric_limits<std::uint32_t>::max(),
+          "{} leaves are more than 32-bit indices hold", transport.storedLeaves());
   const SquarePacker packer(transport, settings.tolerance);
   const std::vector<Place> places = placesOf(transport.cameras(), settings.patchSide);
   // A few patches at a time: rows on their way take several times the memory of packed ones.

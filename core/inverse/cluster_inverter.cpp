@@ -40,7 +40,7 @@ class ClusterInverter {
  public:
   ClusterInverter(const clustering::Clustering& clustering, const CameraMask& usable,
                   const ClusterInverseSettings& settings)
-      : leaves_(clustering.transport.leaves()), settings_(settings) {
+      : transport_(clustering.transport), settings_(settings) {
     inverse_.cameras_ = clustering.transport.cameras();
     inverse_.projectors_ = clustering.transport.projectors();
     inverse_.full_ = settings.colour == ClusterColour::full;
@@ -107,8 +107,9 @@ class ClusterInverter {
   }
 
   /// A connection of A: its 3x3 block on the common scale, or in its one value the mean of the channels.
-  transport::ColourBlock connection(std::size_t row, std::size_t entry) const {
-    return Eigen::Map<const transport::ColourBlock>(&inverse_.unmix_[9 * row]) * leaves_.block(row, entry);
+  transport::ColourBlock connection(std::size_t row, const transport::LeafRow& leaves,
+                                    std::size_t entry) const {
+    return Eigen::Map<const transport::ColourBlock>(&inverse_.unmix_[9 * row]) * leaves.block(entry);
   }
 
   /// Mean diagonal of A^T A over all unknowns of all clusters.
@@ -117,8 +118,9 @@ class ClusterInverter {
     parallelChunks(0, inverse_.row_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         std::size_t row = inverse_.row_[k];
-        for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-          transport::ColourBlock value = connection(row, entry);
+        const transport::LeafRow leaves = transport_.row(row);
+        for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+          transport::ColourBlock value = connection(row, leaves, entry);
           float mean = value.trace() / 3.0f;
           sums[part] += static_cast<double>(inverse_.full_ ? value.squaredNorm() : mean * mean);
         }
@@ -139,9 +141,10 @@ class ClusterInverter {
     Eigen::MatrixXf block = Eigen::MatrixXf::Zero(side * rows, side * pixels);
     for (Eigen::Index i = 0; i < rows; ++i) {
       std::size_t row = inverse_.row_[firstRow + static_cast<std::size_t>(i)];
-      for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry) {
-        auto j = static_cast<Eigen::Index>(placeInCluster_[leaves_.column(entry)]);
-        transport::ColourBlock value = connection(row, entry);
+      const transport::LeafRow leaves = transport_.row(row);
+      for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+        auto j = static_cast<Eigen::Index>(placeInCluster_[leaves.column(entry)]);
+        transport::ColourBlock value = connection(row, leaves, entry);
         if (inverse_.full_)
           block.block<3, 3>(3 * i, 3 * j) = value;
         else
@@ -167,7 +170,7 @@ class ClusterInverter {
             *code++ = static_cast<std::int16_t>(std::lround(weights(side * j + p, side * i + c) / scale));
   }
 
-  const transport::BlockSparse& leaves_;
+  const transport::TransportMatrix& transport_;
   const ClusterInverseSettings& settings_;
   std::vector<std::uint32_t> placeInCluster_;
   ClusterInverse inverse_;

@@ -31,54 +31,54 @@ NearField::Value unmixed(const transport::ColourBlock& unmix, const transport::C
 }  // namespace
 
 NearField nearFieldOf(const transport::TransportMatrix& transport, const CameraMask& usable) {
-  const transport::BlockSparse& leaves = transport.leaves();
-  require(usable.size() == leaves.rows(), "{} usable flags for {} camera pixels", usable.size(),
-          leaves.rows());
+  const std::size_t rows = transport.cameras().count();
+  require(usable.size() == rows, "{} usable flags for {} camera pixels", usable.size(), rows);
 
   transport::NodeTable nodes(transport.layout());
   NearField near;
-  near.unmix.assign(leaves.rows(), transport::ColourBlock::Zero());
-  near.flood.assign(leaves.rows(), NearField::Value{});
+  near.unmix.assign(rows, transport::ColourBlock::Zero());
+  near.flood.assign(rows, NearField::Value{});
   std::vector<transport::ColourBlock> mixing = transport.rowSums();
-  std::vector<float> threshold(leaves.rows(), 0.0f);
+  std::vector<float> threshold(rows, 0.0f);
 
   // Twice over the same leaves, first to count: the near field is the largest array here and is made to
   // measure.
-  auto brightness = [&](std::size_t row, std::size_t entry) {
-    return std::abs(mean(unmixed(near.unmix[row], leaves.block(row, entry)))) /
-           nodes.pixels[leaves.column(entry)];
+  auto brightness = [&](std::size_t row, const transport::LeafRow& leaves, std::size_t entry) {
+    return std::abs(mean(unmixed(near.unmix[row], leaves.block(entry)))) / nodes.pixels[leaves.column(entry)];
   };
-  near.start.assign(leaves.rows() + 1, 0);
-  near.step.assign(leaves.rows(), 0.0f);
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+  near.start.assign(rows + 1, 0);
+  near.step.assign(rows, 0.0f);
+  parallelFor(0, rows, 256, [&](std::size_t row) {
     if (!usable[row]) return;
     near.unmix[row] = regularisedUnmixing(mixing[row]);
     Eigen::Vector3f flood = near.unmix[row] * (mixing[row] * Eigen::Vector3f::Ones());
     near.flood[row] = {flood[0], flood[1], flood[2], 0.0f};
+    const transport::LeafRow leaves = transport.row(row);
     float brightest = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-      brightest = std::max(brightest, brightness(row, entry));
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+      brightest = std::max(brightest, brightness(row, leaves, entry));
     threshold[row] = nearShare * brightest;
     if (!(brightest > 0.0f)) return;
     float largest = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      if (brightness(row, entry) < threshold[row]) continue;
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+      if (brightness(row, leaves, entry) < threshold[row]) continue;
       ++near.start[row + 1];
-      for (float value : unmixed(near.unmix[row], leaves.block(row, entry)))
+      for (float value : unmixed(near.unmix[row], leaves.block(entry)))
         largest = std::max(largest, std::abs(value));
     }
     near.step[row] = largest / largestCode;
   });
-  for (std::size_t row = 0; row < leaves.rows(); ++row) near.start[row + 1] += near.start[row];
+  for (std::size_t row = 0; row < rows; ++row) near.start[row + 1] += near.start[row];
 
   near.node.resize(near.start.back());
   near.code.resize(near.start.back());
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+  parallelFor(0, rows, 256, [&](std::size_t row) {
     std::size_t next = near.start[row];
     if (next == near.start[row + 1]) return;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-      if (brightness(row, entry) < threshold[row]) continue;
-      const NearField::Value value = unmixed(near.unmix[row], leaves.block(row, entry));
+    const transport::LeafRow leaves = transport.row(row);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+      if (brightness(row, leaves, entry) < threshold[row]) continue;
+      const NearField::Value value = unmixed(near.unmix[row], leaves.block(entry));
       near.node[next] = leaves.column(entry);
       for (std::size_t c = 0; c < 3; ++c)
         near.code[next][c] = static_cast<std::int16_t>(std::lround(value[c] / near.step[row]));

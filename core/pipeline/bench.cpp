@@ -146,7 +146,7 @@ BenchResult bench(const std::string& name, Progress& progress) {
   };
 
   auto floats = [](std::size_t count) { return static_cast<double>(count) * sizeof(float); };
-  double leaves = static_cast<double>(transport.leaves().bytes());
+  double leaves = static_cast<double>(transport.bytes());
   std::vector<Case> cases{
       {"transport/apply", leaves + floats(cameraValues) + floats(projectorValues) + 2 * floats(nodeValues),
        [&] { transport.apply(projector); }},

@@ -30,15 +30,15 @@ struct Look {
 std::vector<Look> looksOf(const transport::TransportMatrix& transport, const CameraMask& usable,
                           std::size_t projector) {
   const transport::NodeLayout& layout = transport.layout();
-  const transport::BlockSparse& leaves = transport.leaves();
   std::vector<Look> looks(usable.size());
   parallelFor(0, looks.size(), 256, [&](std::size_t row) {
     if (!usable[row]) return;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+    const transport::LeafRow leaves = transport.row(row);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
       transport::Node node = layout.node(leaves.column(entry));
       if (static_cast<std::size_t>(node.projector) != projector) continue;
       Block block = layout.block(node);
-      float light = leaves.block(row, entry).sum() / static_cast<float>(block.count());
+      float light = leaves.block(entry).sum() / static_cast<float>(block.count());
       if (light > looks[row].light)
         looks[row] = {light, block, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
     }
@@ -116,7 +116,6 @@ float coverage(const Area& area, int x, int y) {
 transport::TransportMatrix expectedTransport(const transport::TransportMatrix& transport,
                                              const CameraMask& usable) {
   const transport::NodeLayout& layout = transport.layout();
-  const transport::BlockSparse& leaves = transport.leaves();
   const Rasters &cameras = transport.cameras(), &projectors = transport.projectors();
   std::vector<std::vector<Look>> looks;
   std::vector<std::vector<Area>> areas(projectors.devices(), std::vector<Area>(usable.size()));
@@ -141,11 +140,12 @@ transport::TransportMatrix expectedTransport(const transport::TransportMatrix& t
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     parallelFor(0, cameras.size(camera).count(), 32, [&](std::size_t pixel) {
       std::size_t row = cameras.offset(camera) + pixel;
-      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+      const transport::LeafRow leaves = transport.row(row);
+      for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
         std::size_t column = leaves.column(entry);
         transport::Node node = layout.node(column);
         auto projector = static_cast<std::size_t>(node.projector);
-        transport::ColourBlock value = leaves.block(row, entry);
+        transport::ColourBlock value = leaves.block(entry);
         Block block = layout.block(node);
         Block met = metBy(areas[projector][row], block);
         bool divides = looks[projector][row].light > 0.0f && met.x0 < met.x1 && met.y0 < met.y1 &&

@@ -293,7 +293,7 @@ ImportResult resultOf(const importing::Import& import, const ImportedRigSettings
   result.heldOut = static_cast<int>(import.heldOut.size());
   result.fitted = result.patterns - result.heldOut;
   result.error = import.error;
-  result.leaves = import.acquisition.transport.leaves().blocks();
+  result.leaves = import.acquisition.transport.storedLeaves();
   result.flaggedShare = flaggedShare(import.acquisition);
   result.findings = import.linearization.findings;
   result.findings.insert(result.findings.end(), import.acquisition.findings.begin(),

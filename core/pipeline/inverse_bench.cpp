@@ -99,7 +99,7 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading = progress.part(0.05, RELUCENT_MESSAGE("stage.reading-venue", "Reading {}").with(name));
   MeasuredCalibration measured = loadCalibration(folder, loading);
-  result.leaves = measured.venue.transport.leaves().blocks();
+  result.leaves = measured.venue.transport.storedLeaves();
   Progress timing = progress.part(0.1, RELUCENT_MESSAGE("stage.inverting-venue", "Inverting {}").with(name));
   timeInversions(measured.venue, result, timing);
   Progress evaluating = progress.part(

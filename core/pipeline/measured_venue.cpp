@@ -91,10 +91,12 @@ namespace {
 /// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
 std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
   std::uint64_t connections = 0;
-  const transport::BlockSparse& leaves = transport.leaves();
   const transport::NodeLayout& layout = transport.layout();
-  for (std::size_t entry = 0; entry < leaves.blocks(); ++entry)
-    connections += static_cast<std::uint64_t>(layout.block(layout.node(leaves.column(entry))).count());
+  for (std::size_t row = 0; row < transport.cameras().count(); ++row) {
+    const transport::LeafRow leaves = transport.row(row);
+    for (std::uint32_t column : leaves.columns())
+      connections += static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
+  }
   return connections;
 }
 
@@ -119,7 +121,7 @@ CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const Me
   result.seconds.acquisition = acquiring.seconds;
   result.seconds.inverse = costOf<calibration::Stage::inverse>(folder).seconds;
   const AcquisitionFigures& acquisition = measured.acquisition;
-  result.leaves = measured.venue.transport.leaves().blocks();
+  result.leaves = measured.venue.transport.storedLeaves();
   result.connections = connectionsOf(measured.venue.transport);
   result.unresolvedEnergy = acquisition.unresolvedEnergy;
   result.verificationError = acquisition.verificationError;

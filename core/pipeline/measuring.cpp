@@ -98,8 +98,7 @@ sentinels::AlarmHandler patientHandler(const sentinels::AlarmHandler& handler, S
 /// At most: T, and its dozen images of what the cameras saw, before they are compressed.
 std::uint64_t bytesOf(const transport::Acquisition& acquisition) {
   constexpr std::uint64_t images = 12, bytesOfPixel = 3 * sizeof(float);
-  return acquisition.transport.leaves().bytes() +
-         images * bytesOfPixel * acquisition.transport.cameras().count();
+  return acquisition.transport.bytes() + images * bytesOfPixel * acquisition.transport.cameras().count();
 }
 
 /// Measured on shots of the journal, as far as there are any, and stored.

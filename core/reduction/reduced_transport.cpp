@@ -33,7 +33,6 @@ transport::TransportMatrix reducedTransport(const transport::TransportMatrix& tr
   if (reductions.empty()) return transport;
   const Rasters full = fullRasters(reductions), small = reducedRasters(reductions);
   require(full == transport.cameras(), "{} reduced cameras are not those of T", reductions.size());
-  const transport::BlockSparse& leaves = transport.leaves();
 
   // Every row, where it goes and how much it counts there.
   auto forRows = [&](const auto& take) {
@@ -50,15 +49,17 @@ transport::TransportMatrix reducedTransport(const transport::TransportMatrix& tr
   };
   std::vector<float> fullScale(small.count(), 0.0f);
   forRows([&](std::size_t from, std::size_t to, float share) {
+    const transport::LeafRow leaves = transport.row(from);
     float largest = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(from); entry < leaves.rowBegin(from + 1); ++entry)
-      largest = std::max(largest, leaves.sizeOf(from, entry).largest);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+      largest = std::max(largest, leaves.sizeOf(entry).largest);
     fullScale[to] += share * largest;
   });
-  transport::BlockSparseBuilder builder(leaves.columns(), std::move(fullScale));
+  transport::BlockSparseBuilder builder(transport.layout().count(), std::move(fullScale));
   forRows([&](std::size_t from, std::size_t to, float share) {
-    for (std::size_t entry = leaves.rowBegin(from); entry < leaves.rowBegin(from + 1); ++entry)
-      builder.add(to, leaves.column(entry), share * leaves.block(from, entry));
+    const transport::LeafRow leaves = transport.row(from);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+      builder.add(to, leaves.column(entry), share * leaves.block(entry));
   });
   return {small, transport.projectors(), builder.build()};
 }

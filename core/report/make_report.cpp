@@ -37,8 +37,9 @@ std::string venueSentence(const pipeline::RigSettings& rig) {
 std::vector<std::uint64_t> leavesPerLevel(const transport::TransportMatrix& transport) {
   const transport::NodeLayout& layout = transport.layout();
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(layout.levels()));
-  for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
-    ++counts[static_cast<std::size_t>(layout.node(transport.leaves().column(entry)).level)];
+  for (const transport::BlockSparse* leaves : {&transport.ownLeaves(), &transport.groups().leaves()})
+    for (std::size_t entry = 0; entry < leaves->blocks(); ++entry)
+      ++counts[static_cast<std::size_t>(layout.node(leaves->column(entry)).level)];
   return counts;
 }
 

@@ -151,12 +151,12 @@ Acquisition coarsened(const Acquisition& acquisition, const Coarsening& coarseni
     return few;
   };
   Acquisition few;
-  few.transport = coarsenedTransport(
-      cameras, transport.layout(), counts, coarsening, [&](std::size_t row, const AddLeaf& add) {
-        const BlockSparse& leaves = transport.leaves();
-        for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-          add(leaves.column(entry), leaves.block(row, entry));
-      });
+  few.transport = coarsenedTransport(cameras, transport.layout(), counts, coarsening,
+                                     [&](std::size_t row, const AddLeaf& add) {
+                                       const LeafRow leaves = transport.row(row);
+                                       for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+                                         add(leaves.column(entry), leaves.block(entry));
+                                     });
   few.black = mean(acquisition.black);
   few.blackVariance = variance(acquisition.blackVariance);
   few.flood = mean(acquisition.flood);

@@ -31,5 +31,11 @@ struct ColumnKinds {
 /// `nearLevels` finest levels comes straight from it, that of wider nodes by way of other surfaces, with
 /// their colours.
 ColumnKinds nearAndFar(const NodeLayout& layout, int nearLevels);
+constexpr std::size_t nearKind(std::size_t projector) {
+  return 2 * projector;
+}
+constexpr std::size_t farKind(std::size_t projector) {
+  return 2 * projector + 1;
+}
 
 }  // namespace relucent::transport

@@ -21,11 +21,11 @@ struct NodeDensity {
 /// Adds `sign` times a row's leaves, as densities per projector pixel.
 void addRow(const TransportMatrix& transport, const NodeTable& nodes, std::size_t row, double sign,
             std::vector<NodeDensity>& into) {
-  const BlockSparse& leaves = transport.leaves();
-  for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+  const LeafRow leaves = transport.row(row);
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
     std::uint32_t node = leaves.column(entry);
     auto pixels = static_cast<double>(nodes.pixels[node]);
-    into.push_back({node, leaves.block(row, entry).cast<double>() * (sign / pixels)});
+    into.push_back({node, leaves.block(entry).cast<double>() * (sign / pixels)});
   }
 }
 
@@ -62,7 +62,7 @@ double squaredNorm(const NodeTable& nodes, std::vector<NodeDensity>& row) {
 TransportDifference difference(const TransportMatrix& transport, const TransportMatrix& reference) {
   require(transport.cameras() == reference.cameras() && transport.projectors() == reference.projectors(),
           "only transport between the same devices can be compared");
-  std::size_t rows = transport.leaves().rows();
+  std::size_t rows = transport.cameras().count();
   NodeTable nodes(reference.layout());
   std::vector<double> apart(rows), whole(rows);
   parallelFor(0, rows, 64, [&](std::size_t row) {

@@ -40,10 +40,10 @@ PixelExpansion::PixelExpansion(const TransportMatrix& transport, const Expansion
 
 std::uint64_t PixelExpansion::blocksAt(int side) const {
   const NodeLayout& layout = transport_->layout();
-  const BlockSparse& leaves = transport_->leaves();
-  std::vector<std::uint64_t> count(leaves.rows());
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+  std::vector<std::uint64_t> count(transport_->cameras().count());
+  parallelFor(0, count.size(), 256, [&](std::size_t row) {
+    const LeafRow leaves = transport_->row(row);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
       Block block = layout.block(layout.node(leaves.column(entry)));
       count[row] += static_cast<std::uint64_t>(std::min(side, block.x1 - block.x0)) *
                     static_cast<std::uint64_t>(std::min(side, block.y1 - block.y0));
@@ -56,22 +56,23 @@ std::uint64_t PixelExpansion::blocksAt(int side) const {
 
 void PixelExpansion::countRows() {
   const NodeLayout& layout = transport_->layout();
-  const BlockSparse& leaves = transport_->leaves();
-  rowStart_.assign(leaves.rows() + 1, 0);
-  std::vector<double> all(leaves.rows()), sampled(leaves.rows());
-  parallelFor(0, leaves.rows(), 64, [&](std::size_t row_) {
+  const std::size_t rows = transport_->cameras().count();
+  rowStart_.assign(rows + 1, 0);
+  std::vector<double> all(rows), sampled(rows);
+  parallelFor(0, rows, 64, [&](std::size_t row_) {
     std::vector<Entry> entries;
     row(row_, entries);
     rowStart_[row_ + 1] = entries.size();
-    for (std::size_t entry = leaves.rowBegin(row_); entry < leaves.rowBegin(row_ + 1); ++entry) {
+    const LeafRow leaves = transport_->row(row_);
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
       Block block = layout.block(layout.node(leaves.column(entry)));
-      double light = std::abs(static_cast<double>(leaves.block(row_, entry).sum()));
+      double light = std::abs(static_cast<double>(leaves.block(entry).sum()));
       all[row_] += light;
       if (block.x1 - block.x0 > side_ || block.y1 - block.y0 > side_) sampled[row_] += light;
     }
   });
   double total = 0.0;
-  for (std::size_t r = 0; r < leaves.rows(); ++r) {
+  for (std::size_t r = 0; r < rows; ++r) {
     rowStart_[r + 1] += rowStart_[r];
     total += all[r];
     sampledShare_ += sampled[r];
@@ -81,15 +82,15 @@ void PixelExpansion::countRows() {
 
 void PixelExpansion::row(std::size_t row, std::vector<Entry>& entries) const {
   const NodeLayout& layout = transport_->layout();
-  const BlockSparse& leaves = transport_->leaves();
+  const LeafRow leaves = transport_->row(row);
   const Rasters& projectors = transport_->projectors();
   entries.clear();
-  for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
     std::uint32_t index = leaves.column(entry);
     Node node = layout.node(index);
     auto projector = static_cast<std::size_t>(node.projector);
     Block block = layout.block(node);
-    ColourBlock density = leaves.block(row, entry) / static_cast<float>(block.count());
+    ColourBlock density = leaves.block(entry) / static_cast<float>(block.count());
     int width = block.x1 - block.x0, height = block.y1 - block.y0;
     int columns = std::min(side_, width), lines = std::min(side_, height);
     Random random{limits_.seed, row, index};

@@ -20,6 +20,7 @@ constexpr float largestCode = 32767.0f;
 constexpr const char* codeType = "<i2";
 constexpr const char* ownColours = "bsr";  // as SciPy calls it
 constexpr const char* sharedColours = "relucent-shared-colours";
+constexpr const char* sharedLeaves = "relucent-shared-leaves";
 constexpr std::uint64_t largestInt32 = std::numeric_limits<std::int32_t>::max();
 
 /// Writes integers in 32 bits where they all fit, else in 64.
@@ -83,15 +84,12 @@ Rasters readSizes(const NpzReader& reader, const std::string& name) {
 /// Reads and writes the private arrays of BlockSparse, so that nothing is held twice.
 class TransportFile {
  public:
-  static void add(NpzWriter& writer, const BlockSparse& blocks, StoredValues values) {
-    bool wide = blocks.blocks() > largestInt32 || blocks.columns() > largestInt32;
+  static void add(NpzWriter& writer, const BlockSparse& blocks, StoredValues values,
+                  const char* sharedFormat = sharedColours) {
     const bool shared = values == StoredValues::codes && blocks.sharedColours();
-    addFrame(writer, blocks.rows(), blocks.columns(), shared ? sharedColours : ownColours);
+    addFrame(writer, blocks.rows(), blocks.columns(), shared ? sharedFormat : ownColours);
     const BlockSparse* source = &blocks;
-    addIndices(writer, "indptr", blocks.rows() + 1, wide,
-               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowStart_[i]); });
-    addIndices(writer, "indices", blocks.blocks(), wide,
-               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->column_[i]); });
+    addPlaces(writer, "", blocks);
     if (shared) {
       addSharedColours(writer, blocks);
       return;
@@ -123,14 +121,59 @@ class TransportFile {
                });
   }
 
+  /// Groups' leaves have no colours of their own, and their rows and columns follow from the others.
+  static void addGroups(NpzWriter& writer, const LeafGroups& groups) {
+    addPlaces(writer, "group_", groups.leaves());
+    addFactors(writer, "group_", groups.leaves());
+    auto addNumbers = [&writer](const char* name, const std::vector<std::uint32_t>& numbers) {
+      const std::vector<std::uint32_t>* source = &numbers;
+      addIndices(writer, name, numbers.size(), false, [source](std::uint64_t i) {
+        return (*source)[i] == LeafGroups::none ? std::int64_t{-1} : std::int64_t{(*source)[i]};
+      });
+    };
+    addNumbers("group_parent", groups.parents());
+    addNumbers("group_of", groups.groupsOfPixels());
+  }
+
+  static bool hasGroups(const NpzReader& reader) { return reader.text("format") == sharedLeaves; }
+
+  static LeafGroups readGroups(const NpzReader& reader, std::size_t pixels, const NodeLayout& layout) {
+    auto fail = [&] {
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shared-leaves-invalid",
+                                           "has shared leaves that do not fit its cameras and projectors"));
+    };
+    auto numbers = [&](const char* name) {
+      std::vector<std::uint32_t> result;
+      for (std::int64_t value : reader.integers(name)) {
+        if (value < -1 || value > static_cast<std::int64_t>(largestInt32)) fail();
+        result.push_back(value < 0 ? LeafGroups::none : static_cast<std::uint32_t>(value));
+      }
+      return result;
+    };
+    std::vector<std::uint32_t> parent = numbers("group_parent"), groupOf = numbers("group_of");
+    const std::size_t projectors = layout.projectors().devices();
+    if (groupOf.size() != pixels * projectors || !LeafGroups::areSound(parent, groupOf)) fail();
+    BlockSparse leaves;
+    leaves.columns_ = layout.count();
+    leaves.rowStart_.assign(parent.size() + 1, 0);
+    leaves.kinds_ = LeafGroups::withoutColours(layout.count());
+    readIndices(reader, leaves, "group_");
+    if (leaves.rows() != parent.size()) fail();
+    readFactors(reader, leaves, "group_");
+    leaves.mixing_.assign(parent.size(), ColourBlock::Identity());
+    leaves.scale_.assign(parent.size(), BlockSparse::stepOf({leaves.mixing_.data(), 1}));
+    if (parent.empty()) leaves.scale_.clear();
+    return LeafGroups(projectors, std::move(leaves), std::move(parent), std::move(groupOf));
+  }
+
   static BlockSparse read(const NpzReader& reader) {
     const std::string format = reader.text("format");
-    if (format != ownColours && format != sharedColours)
+    if (format != ownColours && format != sharedColours && format != sharedLeaves)
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.not-bsr", "holds a matrix in another form than BSR"));
     BlockSparse blocks;
     readShape(reader, blocks);
-    readIndices(reader, blocks);
-    if (format == sharedColours) {
+    readIndices(reader, blocks, "");
+    if (format != ownColours) {
       readSharedColours(reader, blocks);
       return blocks;
     }
@@ -146,6 +189,35 @@ class TransportFile {
   }
 
  private:
+  static void addPlaces(NpzWriter& writer, const std::string& prefix, const BlockSparse& blocks) {
+    const bool wide = blocks.blocks() > largestInt32 || blocks.columns() > largestInt32;
+    const BlockSparse* source = &blocks;
+    addIndices(writer, prefix + "indptr", blocks.rows() + 1, wide,
+               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowStart_[i]); });
+    addIndices(writer, prefix + "indices", blocks.blocks(), wide,
+               [source](std::uint64_t i) { return static_cast<std::int64_t>(source->column_[i]); });
+  }
+
+  static void addFactors(NpzWriter& writer, const std::string& prefix, const BlockSparse& blocks) {
+    const BlockSparse* source = &blocks;
+    writer.add(prefix + "factor", {codeType, {blocks.blocks(), 3}},
+               [source](std::uint64_t begin, std::uint64_t count, char* out) {
+                 if (count > 0)
+                   std::memcpy(out, source->factor_.front().data() + begin, count * sizeof(std::int16_t));
+               });
+  }
+
+  static void readFactors(const NpzReader& reader, BlockSparse& blocks, const std::string& prefix) {
+    const NpyHeader header = reader.header(prefix + "factor");
+    if (header.shape != std::vector<std::uint64_t>{blocks.blocks(), 3} || header.type != codeType)
+      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shared-colours-invalid",
+                                           "has shared colours that do not fit its rows and columns"));
+    blocks.factor_.resize(blocks.blocks());
+    reader.read(prefix + "factor", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+      if (items > 0) std::memcpy(blocks.factor_.front().data() + begin, in, items * sizeof(std::int16_t));
+    });
+  }
+
   static void addSharedColours(NpzWriter& writer, const BlockSparse& blocks) {
     const BlockSparse* source = &blocks;
     const ColumnKinds& kinds = *blocks.sharedColours();
@@ -157,11 +229,7 @@ class TransportFile {
                  if (count > 0)
                    std::memcpy(out, source->mixing_.front().data() + begin, count * sizeof(float));
                });
-    writer.add("factor", {codeType, {blocks.blocks(), 3}},
-               [source](std::uint64_t begin, std::uint64_t count, char* out) {
-                 if (count > 0)
-                   std::memcpy(out, source->factor_.front().data() + begin, count * sizeof(std::int16_t));
-               });
+    addFactors(writer, "", blocks);
   }
 
   static void readSharedColours(const NpzReader& reader, BlockSparse& blocks) {
@@ -185,18 +253,13 @@ class TransportFile {
     }
     if (end != static_cast<std::int64_t>(blocks.columns_)) fail();
     blocks.kinds_.count = shape[1];
-    if (reader.header("factor").shape != std::vector<std::uint64_t>{blocks.blocks(), 3} ||
-        reader.header("factor").type != codeType || reader.header("mixing").type != "<f4")
-      fail();
+    if (reader.header("mixing").type != "<f4") fail();
 
     blocks.mixing_.resize(blocks.rows() * shape[1]);
     reader.read("mixing", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       if (items > 0) std::memcpy(blocks.mixing_.front().data() + begin, in, items * sizeof(float));
     });
-    blocks.factor_.resize(blocks.blocks());
-    reader.read("factor", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
-      if (items > 0) std::memcpy(blocks.factor_.front().data() + begin, in, items * sizeof(std::int16_t));
-    });
+    readFactors(reader, blocks, "");
     blocks.scale_.reserve(blocks.rows());
     for (std::size_t row = 0; row < blocks.rows(); ++row) {
       blocks.scale_.push_back(BlockSparse::stepOf({&blocks.mixing_[row * shape[1]], shape[1]}));
@@ -219,9 +282,9 @@ class TransportFile {
                                            "has another number of rows in 'indptr' than in 'shape'"));
   }
 
-  static void readIndices(const NpzReader& reader, BlockSparse& blocks) {
-    std::uint64_t count = reader.header("indices").count();
-    std::vector<std::int64_t> start = reader.integers("indptr");
+  static void readIndices(const NpzReader& reader, BlockSparse& blocks, const std::string& prefix) {
+    std::uint64_t count = reader.header(prefix + "indices").count();
+    std::vector<std::int64_t> start = reader.integers(prefix + "indptr");
     bool ordered = start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
                    std::is_sorted(start.begin(), start.end());
     if (!ordered)
@@ -229,13 +292,13 @@ class TransportFile {
                                            "has rows in 'indptr' that do not fit its entries"));
     blocks.rowStart_.assign(start.begin(), start.end());
 
-    NpyHeader header = reader.header("indices");
+    NpyHeader header = reader.header(prefix + "indices");
     bool wide = header.type == "<i8";
     if (!wide && header.type != "<i4")
       reader.fail(
           RELUCENT_ENGLISH_MESSAGE("transport.indices-not-integers", "has indices that are not integers"));
     RowCursor cursor;
-    reader.read("indices", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
+    reader.read(prefix + "indices", [&](std::uint64_t begin, std::uint64_t items, const char* in) {
       if (begin == 0) blocks.column_.reserve(count);
       for (std::uint64_t i = 0; i < items; ++i) {
         std::int64_t column = 0;
@@ -390,7 +453,16 @@ void saveTransport(const std::filesystem::path& path, const TransportMatrix& tra
   NpzWriter writer;
   addSizes(writer, "cameras", transport.cameras());
   addSizes(writer, "projectors", transport.projectors());
-  TransportFile::add(writer, transport.leaves(), values);
+  // Other programs know no groups.
+  if (!transport.groups().empty() && values == StoredValues::floats) {
+    const TransportMatrix flat = transport.flattened();
+    TransportFile::add(writer, flat.ownLeaves(), values);
+    writer.save(path);
+    return;
+  }
+  const bool grouped = !transport.groups().empty();
+  TransportFile::add(writer, transport.ownLeaves(), values, grouped ? sharedLeaves : sharedColours);
+  if (grouped) TransportFile::addGroups(writer, transport.groups());
   writer.save(path);
 }
 
@@ -399,10 +471,14 @@ TransportMatrix loadTransport(const std::filesystem::path& path) {
     NpzReader reader(path);
     Rasters cameras = readSizes(reader, "cameras"), projectors = readSizes(reader, "projectors");
     BlockSparse leaves = TransportFile::read(reader);
-    if (leaves.rows() != cameras.count() || leaves.columns() != NodeLayout(projectors).count())
+    const NodeLayout layout(projectors);
+    const bool grouped = TransportFile::hasGroups(reader);
+    if (leaves.rows() != cameras.count() || leaves.columns() != layout.count() ||
+        (grouped && leaves.sharedColours()->count != 2 * projectors.devices()))
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.shape-not-of-devices",
                                            "has a shape that does not fit its cameras and projectors"));
-    return TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves));
+    LeafGroups groups = grouped ? TransportFile::readGroups(reader, cameras.count(), layout) : LeafGroups();
+    return TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves), std::move(groups));
   });
 }
 

@@ -16,9 +16,13 @@ namespace relucent::transport {
 /// the same bits, and for a light transport `cameras` and `projectors` (devices, 2), their sizes.
 /// Indices are 64-bit where 32 bits are too few.
 ///
-/// Shared colours, as they are, have the format b'relucent-shared-colours' instead, which SciPy does not know:
-///   factor (n, 3) int16, indices (n), indptr (rows + 1), mixing (rows, kinds, 3, 3) float32, kinds (ranges, 2):
-///   the end of each range of columns, and its kind;   block = mixing[row, kind] @ diag(factor[block]).
+/// Shared colours, as they are, have the format b'relucent-shared-colours' instead, which SciPy does not
+/// know:
+///   factor (n, 3) int16, indices (n), indptr (rows + 1), mixing (rows, kinds, 3, 3) float32, kinds (ranges,
+///   2): the end of each range of columns, and its kind;   block = mixing[row, kind] @ diag(factor[block]).
+/// Leaves that camera pixels share, beside those, have the format b'relucent-shared-leaves' and
+///   group_factor, group_indices, group_indptr: a row for each group;  group_parent (groups): the next wider
+///   one, or -1;  group_of (camera pixels, projectors): the group, or -1.
 /// Source: core/transport/README.md.
 
 /// Atomically. Throws: Error{disk}.
@@ -28,8 +32,8 @@ void saveBlocks(const std::filesystem::path& path, const BlockSparse& blocks);
 BlockSparse loadBlocks(const std::filesystem::path& path);
 
 /// How the values of blocks are written: as numbers for every reader, or as codes, the 16-bit fixed-point
-/// values that a BlockSparse holds: own colours (int16; value = scale[row] * code) in little more than half of
-/// the bytes, which SciPy opens too; shared colours in a quarter.
+/// values that a BlockSparse holds: own colours (int16; value = scale[row] * code) in little more than half
+/// of the bytes, which SciPy opens too; shared colours in a quarter.
 enum class StoredValues { floats, codes };
 
 /// T' with its devices; columns are the nodes of NodeLayout. Errors as above.

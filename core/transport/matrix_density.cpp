@@ -94,31 +94,29 @@ class MatrixPictures::RowOfCells {
         scratch_(scratch) {}
 
   void add(std::size_t row, Of of) {
-    const BlockSparse& leaves = pictures_.transport_->leaves();
+    const LeafRow leaves = pictures_.transport_->row(row);
     std::size_t pixels = pictures_.transport_->projectors().count();
-    const std::span<const std::uint32_t> columns = leaves.columnsOf(row);
+    const std::span<const std::uint32_t> columns = leaves.columns();
     const std::uint32_t* begin = columns.data();
     const std::uint32_t* end = begin + columns.size();
     const std::uint32_t* coarse = std::lower_bound(begin, end, pixels);
-    auto entryOf = [&](const std::uint32_t* at) {
-      return leaves.rowBegin(row) + static_cast<std::size_t>(at - begin);
-    };
+    auto entryOf = [&](const std::uint32_t* at) { return static_cast<std::size_t>(at - begin); };
     float limit = pictures_.limits_.empty() ? 0.0f : pictures_.limits_[row];
 
     const std::uint32_t* last = std::lower_bound(begin, coarse, part_.endColumn);
     for (const std::uint32_t* at = std::lower_bound(begin, last, part_.firstColumn); at != last; ++at) {
-      if (limit > 0.0f && leaves.sizeOf(row, entryOf(at)).largest < limit) continue;
+      if (limit > 0.0f && leaves.sizeOf(entryOf(at)).largest < limit) continue;
       sums_[cellOf_[*at - part_.firstColumn]] +=
-          static_cast<double>(of == Of::light ? blockLuminance(leaves.block(row, entryOf(at))) : 1.0f);
+          static_cast<double>(of == Of::light ? blockLuminance(leaves.block(entryOf(at))) : 1.0f);
     }
     for (const std::uint32_t* at = coarse; at != end; ++at) {
       auto node = static_cast<std::uint32_t>(*at - pixels);
       auto count = static_cast<float>(pictures_.areas_[node].block.count());
-      if (limit > 0.0f && leaves.sizeOf(row, entryOf(at)).largest / count < limit) continue;
+      if (limit > 0.0f && leaves.sizeOf(entryOf(at)).largest / count < limit) continue;
       float& sum = scratch_.coarse[node];
       // One whose sum comes back to zero is listed twice; the second time there is nothing left of it.
       if (sum == 0.0f) scratch_.touched.push_back(node);
-      sum += of == Of::light ? blockLuminance(leaves.block(row, entryOf(at))) / count : 1.0f;
+      sum += of == Of::light ? blockLuminance(leaves.block(entryOf(at))) / count : 1.0f;
     }
   }
 

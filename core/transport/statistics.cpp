@@ -24,13 +24,13 @@ std::size_t binOf(float strength) {
 
 /// Adds what light of two leaves falls on the same pixels, for the leaf at `entry` and its ancestors.
 /// `holds` marks the row's wide leaves.
-double sharedWithAncestors(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row,
-                           std::size_t entry, const std::vector<std::uint8_t>& holds) {
+double sharedWithAncestors(const LeafRow& leaves, const NodeTable& nodes, std::size_t entry,
+                           const std::vector<std::uint8_t>& holds) {
   double sum = 0.0;
   std::uint32_t node = leaves.column(entry);
   for (std::uint32_t above = nodes.parent[node]; above != node; node = above, above = nodes.parent[node]) {
     if (!holds[above]) continue;
-    std::size_t begin = entry + 1, end = leaves.rowBegin(row + 1);
+    std::size_t begin = entry + 1, end = leaves.size();
     while (begin < end) {
       std::size_t middle = begin + (end - begin) / 2;
       if (leaves.column(middle) < above)
@@ -38,8 +38,8 @@ double sharedWithAncestors(const BlockSparse& leaves, const NodeTable& nodes, st
       else
         end = middle;
     }
-    Eigen::Matrix3d inner = leaves.block(row, entry).cast<double>();
-    Eigen::Matrix3d outer = leaves.block(row, begin).cast<double>();
+    Eigen::Matrix3d inner = leaves.block(entry).cast<double>();
+    Eigen::Matrix3d outer = leaves.block(begin).cast<double>();
     sum += 2.0 * inner.cwiseProduct(outer).sum() / static_cast<double>(nodes.pixels[above]);
   }
   return sum;
@@ -57,7 +57,6 @@ NodeTable::NodeTable(const NodeLayout& layout) : pixels(layout.count()), parent(
 }
 
 TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings) {
-  const BlockSparse& leaves = transport.leaves();
   std::vector<float> limit = thresholdLimits(transport, settings);
   NodeTable nodes(transport.layout());
 
@@ -66,11 +65,12 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     double all = 0.0;
   };
   std::vector<Part> sums(parts);
-  parallelChunks(0, leaves.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  parallelChunks(0, limit.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     Part& sum = sums[part];
     for (std::size_t row = begin; row < end; ++row) {
-      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-        BlockSize size = leaves.sizeOf(row, entry);
+      const LeafRow leaves = transport.row(row);
+      for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+        BlockSize size = leaves.sizeOf(entry);
         float pixels = nodes.pixels[leaves.column(entry)];
         float strength = size.largest / pixels;
         auto energy = static_cast<double>(size.sum);
@@ -100,29 +100,30 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     }
   }
   if (all > 0.0) result.energyKept = result.energy / all;
-  result.bytes = leaves.bytes() - (leaves.blocks() - result.leaves) * leaves.bytesOfBlock();
+  const BlockSparse& own = transport.ownLeaves();
+  // What is cut has no groups.
+  result.bytes = cutsNothing(settings) ? transport.bytes()
+                                       : own.bytes() + (result.leaves - own.blocks()) * own.bytesOfBlock();
   return result;
 }
 
 std::vector<double> squaredRowNorms(const TransportMatrix& transport, const NodeTable& nodes,
                                     std::vector<std::uint8_t>* nested) {
-  const BlockSparse& leaves = transport.leaves();
   std::size_t pixels = transport.projectors().count();
-  std::vector<double> norms(leaves.rows());
-  if (nested) nested->assign(leaves.rows(), 0);
-  parallelChunks(0, leaves.rows(), parts, [&](std::size_t, std::size_t firstRow, std::size_t lastRow) {
+  std::vector<double> norms(transport.cameras().count());
+  if (nested) nested->assign(norms.size(), 0);
+  parallelChunks(0, norms.size(), parts, [&](std::size_t, std::size_t firstRow, std::size_t lastRow) {
     std::vector<std::uint8_t> holds(nodes.pixels.size(), 0);
     for (std::size_t row = firstRow; row < lastRow; ++row) {
-      std::size_t begin = leaves.rowBegin(row), end = leaves.rowBegin(row + 1);
-      for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
+      const LeafRow leaves = transport.row(row);
+      for (std::size_t entry = leaves.size(); entry-- > 0 && leaves.column(entry) >= pixels;)
         holds[leaves.column(entry)] = 1;
       double own = 0.0, shared = 0.0;
       bool inside = false;
       std::uint32_t lastParent = std::numeric_limits<std::uint32_t>::max();
-      for (std::size_t entry = begin; entry < end; ++entry) {
+      for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
         std::uint32_t node = leaves.column(entry);
-        own +=
-            leaves.block(row, entry).cast<double>().squaredNorm() / static_cast<double>(nodes.pixels[node]);
+        own += leaves.block(entry).cast<double>().squaredNorm() / static_cast<double>(nodes.pixels[node]);
         // Neighbours often share their parent, and with it everything above.
         if (std::uint32_t parent = nodes.parent[node]; parent != lastParent || parent == node) {
           lastParent = parent;
@@ -133,9 +134,9 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
         }
         if (!inside) continue;
         if (nested) (*nested)[row] = 1;
-        shared += sharedWithAncestors(leaves, nodes, row, entry, holds);
+        shared += sharedWithAncestors(leaves, nodes, entry, holds);
       }
-      for (std::size_t entry = end; entry-- > begin && leaves.column(entry) >= pixels;)
+      for (std::size_t entry = leaves.size(); entry-- > 0 && leaves.column(entry) >= pixels;)
         holds[leaves.column(entry)] = 0;
       norms[row] = own + shared;
     }
@@ -162,8 +163,10 @@ double cutKeeping(const StrengthHistogram& histogram, double share) {
 int finestSide(const TransportMatrix& transport) {
   const NodeLayout& layout = transport.layout();
   int finest = layout.levels() - 1;
-  for (std::size_t entry = 0; entry < transport.leaves().blocks() && finest > 0; ++entry)
-    finest = std::min(finest, layout.node(transport.leaves().column(entry)).level);
+  // What is shared is far; but all of it may be.
+  for (const BlockSparse* leaves : {&transport.ownLeaves(), &transport.groups().leaves()})
+    for (std::size_t entry = 0; entry < leaves->blocks() && finest > 0; ++entry)
+      finest = std::min(finest, layout.node(leaves->column(entry)).level);
   return 1 << finest;
 }
 

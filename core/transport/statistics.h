@@ -35,7 +35,7 @@ double cutKeeping(const StrengthHistogram& histogram, double share);
 
 /// Statistics of T, or of T after a threshold.
 struct TransportStatistics {
-  std::uint64_t leaves = 0;
+  std::uint64_t leaves = 0;       // of all camera pixels: one that they share counts for each
   std::uint64_t connections = 0;  // pairs of a camera pixel and a projector pixel
   std::uint64_t bytes = 0;        // in memory
   double energy = 0.0;            // sum of the magnitudes of all values: the light in all leaves

@@ -12,23 +12,24 @@ namespace {
 
 constexpr std::size_t parts = 64;
 
-float strengthOf(const BlockSparse& leaves, const NodeTable& nodes, std::size_t row, std::size_t entry) {
-  return leaves.sizeOf(row, entry).largest / nodes.pixels[leaves.column(entry)];
+float strengthOf(const LeafRow& leaves, const NodeTable& nodes, std::size_t entry) {
+  return leaves.sizeOf(entry).largest / nodes.pixels[leaves.column(entry)];
 }
 
 /// The strength above which leaves hold `share` of all light. Strengths are told apart by their leading 16
 /// bits, which is 1 % of their value; of a tie everything stays.
 float limitOfEnergy(const TransportMatrix& transport, const NodeTable& nodes, double share) {
   if (share >= 1.0) return 0.0f;
-  const BlockSparse& leaves = transport.leaves();
   constexpr std::size_t bins = 1 << 15;  // positive floats by their leading bits, in order
   std::vector<std::vector<double>> partial(parts);
-  parallelChunks(0, leaves.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  const std::size_t rows = transport.cameras().count();
+  parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     partial[part].assign(bins, 0.0);
     for (std::size_t row = begin; row < end; ++row) {
-      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
-        auto bits = std::bit_cast<std::uint32_t>(strengthOf(leaves, nodes, row, entry));
-        partial[part][(bits >> 16) & (bins - 1)] += static_cast<double>(leaves.sizeOf(row, entry).sum);
+      const LeafRow leaves = transport.row(row);
+      for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+        auto bits = std::bit_cast<std::uint32_t>(strengthOf(leaves, nodes, entry));
+        partial[part][(bits >> 16) & (bins - 1)] += static_cast<double>(leaves.sizeOf(entry).sum);
       }
     }
   });
@@ -68,18 +69,22 @@ std::vector<Message> problems(const ThresholdSettings& settings) {
   return found;
 }
 
+bool cutsNothing(const ThresholdSettings& settings) {
+  return settings.absolute == 0.0f && settings.shareOfRowMax == 0.0f && settings.energyKept == 1.0;
+}
+
 std::vector<float> thresholdLimits(const TransportMatrix& transport, const ThresholdSettings& settings) {
   requireValid(settings);
-  const BlockSparse& leaves = transport.leaves();
-  std::vector<float> limit(leaves.rows(), 0.0f);
-  if (settings.absolute == 0.0f && settings.shareOfRowMax == 0.0f && settings.energyKept == 1.0) return limit;
+  std::vector<float> limit(transport.cameras().count(), 0.0f);
+  if (cutsNothing(settings)) return limit;
 
   NodeTable nodes(transport.layout());
   float everywhere = std::max(settings.absolute, limitOfEnergy(transport, nodes, settings.energyKept));
-  parallelFor(0, leaves.rows(), 256, [&](std::size_t row) {
+  parallelFor(0, limit.size(), 256, [&](std::size_t row) {
+    const LeafRow leaves = transport.row(row);
     float strongest = 0.0f;
-    for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
-      strongest = std::max(strongest, strengthOf(leaves, nodes, row, entry));
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+      strongest = std::max(strongest, strengthOf(leaves, nodes, entry));
     limit[row] = std::min(strongest, std::max(everywhere, settings.shareOfRowMax * strongest));
   });
   return limit;
@@ -88,12 +93,14 @@ std::vector<float> thresholdLimits(const TransportMatrix& transport, const Thres
 TransportMatrix thresholded(const TransportMatrix& transport, const ThresholdSettings& settings,
                             const CameraStack& flood) {
   std::vector<float> limit = thresholdLimits(transport, settings);
+  if (cutsNothing(settings)) return rescaledToFloodlight(transport, flood);
   NodeTable nodes(transport.layout());
-  BlockSparse kept = transport.leaves().filtered([&](std::size_t row, std::size_t entry) {
-    return strengthOf(transport.leaves(), nodes, row, entry) >= limit[row];
-  });
-  return rescaledToFloodlight(TransportMatrix(transport.cameras(), transport.projectors(), std::move(kept)),
-                              flood);
+  return rescaledToFloodlight(
+      transport.filtered([&](std::size_t row, const LeafRow& leaves, std::vector<std::uint8_t>& keep) {
+        for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+          keep[entry] = strengthOf(leaves, nodes, entry) >= limit[row] ? 1 : 0;
+      }),
+      flood);
 }
 
 }  // namespace relucent::transport

@@ -5,35 +5,95 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
 
 TransportMatrix::TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse leaves)
-    : cameras_(std::move(cameras)), layout_(std::move(projectors)), leaves_(std::move(leaves)) {
-  require(leaves_.rows() == cameras_.count() && leaves_.columns() == layout_.count(),
-          "{} x {} leaves for {} camera pixels and {} nodes", leaves_.rows(), leaves_.columns(),
-          cameras_.count(), layout_.count());
+    : TransportMatrix(std::move(cameras), std::move(projectors), std::move(leaves), {}) {}
+
+TransportMatrix::TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse own, LeafGroups groups)
+    : cameras_(std::move(cameras)),
+      layout_(std::move(projectors)),
+      own_(std::move(own)),
+      groups_(std::move(groups)) {
+  require(own_.rows() == cameras_.count() && own_.columns() == layout_.count(),
+          "{} x {} leaves for {} camera pixels and {} nodes", own_.rows(), own_.columns(), cameras_.count(),
+          layout_.count());
+  if (groups_.empty()) return;
+  const std::size_t devices = layout_.projectors().devices();
+  require(own_.sharedColours() && own_.sharedColours()->count == 2 * devices &&
+              groups_.leaves().sharedColours() && groups_.leaves().columns() == layout_.count() &&
+              groups_.groupsOfPixels().size() == cameras_.count() * devices,
+          "groups of {} memberships for {} camera pixels and {} projectors", groups_.groupsOfPixels().size(),
+          cameras_.count(), devices);
 }
 
 CameraStack TransportMatrix::apply(const ProjectorStack& projector) const {
-  return CameraStack(leaves_.multiply(layout_.means(projector)));
+  const NodeStack means = layout_.means(projector);
+  Stack camera = own_.multiply(means);
+  groups_.addLight(own_, means, camera);
+  return CameraStack(std::move(camera));
 }
 
 ProjectorStack TransportMatrix::applyTransposed(const CameraStack& camera) const {
-  return layout_.meansAdjoint(NodeStack(leaves_.multiplyTransposed(camera)));
+  Stack nodes = own_.multiplyTransposed(camera);
+  groups_.addAdjoint(own_, camera, nodes);
+  return layout_.meansAdjoint(NodeStack(std::move(nodes)));
 }
 
 CameraStack TransportMatrix::floodlight() const {
-  return CameraStack(leaves_.multiply(Stack(3 * layout_.count(), 1.0f)));
+  const Stack white(3 * layout_.count(), 1.0f);
+  Stack camera = own_.multiply(white);
+  groups_.addLight(own_, white, camera);
+  return CameraStack(std::move(camera));
 }
 
 std::vector<ColourBlock> TransportMatrix::rowSums() const {
-  std::vector<ColourBlock> sums(leaves_.rows(), ColourBlock::Zero());
-  parallelFor(0, leaves_.rows(), 256, [&](std::size_t row) {
-    for (std::size_t entry = leaves_.rowBegin(row); entry < leaves_.rowBegin(row + 1); ++entry)
-      sums[row] += leaves_.block(row, entry);
+  std::vector<ColourBlock> sums(own_.rows(), ColourBlock::Zero());
+  const std::vector<std::array<float, 3>> ofGroups = groups_.sums();
+  parallelFor(0, own_.rows(), 256, [&](std::size_t row) {
+    for (std::size_t entry = own_.rowBegin(row); entry < own_.rowBegin(row + 1); ++entry)
+      sums[row] += own_.block(row, entry);
+    for (std::size_t projector = 0; !groups_.empty() && projector < projectors().devices(); ++projector)
+      if (const std::uint32_t group = groups_.groupOf(row, projector); group != LeafGroups::none)
+        sums[row] += own_.mixing(row, farKind(projector)) *
+                     Eigen::Map<const Eigen::Vector3f>(ofGroups[group].data()).asDiagonal();
   });
   return sums;
+}
+
+TransportMatrix TransportMatrix::flattened() const {
+  if (groups_.empty()) return *this;
+  std::size_t leaves = 0;
+  for (std::size_t pixel = 0; pixel < own_.rows(); ++pixel) leaves += row(pixel).size();
+  SharedColourWriter writer(own_.columns(), own_.rows(), *own_.sharedColours(), leaves);
+  for (std::size_t pixel = 0; pixel < own_.rows(); ++pixel) writer.add(row(pixel).shared());
+  return {cameras_, projectors(), writer.build()};
+}
+
+TransportMatrix TransportMatrix::filtered(const KeepLeaves& keep) const {
+  if (!groups_.empty()) return flattened().filtered(keep);
+  std::vector<std::uint8_t> kept(own_.blocks());
+  parallelChunks(0, own_.rows(), 64, [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> ofRow;
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      const LeafRow leaves = row(pixel);
+      ofRow.assign(leaves.size(), 0);
+      keep(pixel, leaves, ofRow);
+      std::ranges::copy(ofRow, kept.begin() + static_cast<std::ptrdiff_t>(own_.rowBegin(pixel)));
+    }
+  });
+  return {cameras_, projectors(), own_.filtered(kept)};
+}
+
+TransportMatrix TransportMatrix::withRowsScaled(const Stack& factor) const {
+  return {cameras_, projectors(), own_.withRowsScaled(factor), groups_};
+}
+
+bool TransportMatrix::operator==(const TransportMatrix& other) const {
+  return cameras_ == other.cameras_ && projectors() == other.projectors() && own_ == other.own_ &&
+         groups_ == other.groups_;
 }
 
 TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const CameraStack& flood,
@@ -43,8 +103,7 @@ TransportMatrix rescaledToFloodlight(const TransportMatrix& transport, const Cam
   Stack factor(now.size(), 1.0f);
   for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] > floor && now[i] > 0.0f) factor[i] = std::max(0.0f, flood[i]) / now[i];
-  return TransportMatrix(transport.cameras(), transport.projectors(),
-                         transport.leaves().withRowsScaled(factor));
+  return transport.withRowsScaled(factor);
 }
 
 }  // namespace relucent::transport

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "relucent/base/message.h"
 #include "relucent/base/raster.h"
 #include "relucent/transport/block_sparse.h"
+#include "relucent/transport/leaf_groups.h"
+#include "relucent/transport/leaf_row.h"
 #include "relucent/transport/node_layout.h"
 
 namespace relucent::transport {
@@ -16,6 +19,7 @@ namespace relucent::transport {
 /// where A computes a pattern's means over the nodes of its mean pyramid and T' ("leaves") has a column for
 /// every node: light that arrives evenly from a wide area is one entry instead of thousands.
 /// A leaf's value is the camera signal per second while its whole block is fully lit.
+/// Leaves that neighbouring camera pixels see alike are held once for all of them: see LeafGroups.
 /// Shapes: rows = camera pixels, columns = projector pixels, 3x3 blocks (paper eq. 2 and appendix).
 /// Source: core/transport/README.md; Wetzstein & Bimber 2007, Sen et al. 2005.
 class TransportMatrix {
@@ -23,11 +27,32 @@ class TransportMatrix {
   TransportMatrix() = default;
   /// Throws: std::logic_error unless leaves is cameras.count() x NodeLayout(projectors).count().
   TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse leaves);
+  /// With leaves that camera pixels share, beside those of their own.
+  /// Throws: also unless own leaves share colours as nearAndFar() has them.
+  TransportMatrix(Rasters cameras, Rasters projectors, BlockSparse own, LeafGroups groups);
 
   const Rasters& cameras() const { return cameras_; }
   const Rasters& projectors() const { return layout_.projectors(); }
   const NodeLayout& layout() const { return layout_; }
-  const BlockSparse& leaves() const { return leaves_; }
+  /// All leaves that a camera pixel sees.
+  LeafRow row(std::size_t pixel) const { return {own_, groups_, pixel, projectors().devices()}; }
+  /// Those that it has for itself, a row for each camera pixel; all of them where there are no groups.
+  const BlockSparse& ownLeaves() const { return own_; }
+  const LeafGroups& groups() const { return groups_; }
+  /// Leaves that are held, each once.
+  std::size_t storedLeaves() const { return own_.blocks() + groups_.leaves().blocks(); }
+  std::size_t bytes() const { return own_.bytes() + groups_.bytes(); }
+  /// The same T without groups: every camera pixel has its leaves for itself.
+  TransportMatrix flattened() const;
+  /// Marks the leaves of a camera pixel that stay. Called from several threads.
+  using KeepLeaves =
+      std::function<void(std::size_t pixel, const LeafRow& leaves, std::vector<std::uint8_t>& keep)>;
+  /// Without groups, since pixels may keep unlike leaves.
+  TransportMatrix filtered(const KeepLeaves& keep) const;
+  /// Row r times the factor of each camera channel.
+  TransportMatrix withRowsScaled(const Stack& factor) const;
+
+  bool operator==(const TransportMatrix& other) const;
 
   /// Relighting, without e: what the cameras see under linear patterns. Shapes: projector -> camera stack.
   CameraStack apply(const ProjectorStack& projector) const;
@@ -41,7 +66,8 @@ class TransportMatrix {
  private:
   Rasters cameras_;
   NodeLayout layout_;
-  BlockSparse leaves_;
+  BlockSparse own_;
+  LeafGroups groups_;
 };
 
 /// Rows scaled, per camera channel, so that T 1 equals `flood`: what a threshold removed is restored in
@@ -58,6 +84,7 @@ struct ThresholdSettings {
       1.0;  // of the light in all leaves: the strongest leaves that hold at least this share are kept
 };
 std::vector<Message> problems(const ThresholdSettings& settings);
+bool cutsNothing(const ThresholdSettings& settings);
 
 /// Least strength that is kept, per row. The strongest leaf of a row is always kept, so that no row becomes
 /// empty. Source: Wetzstein & Bimber 2007, section 3.

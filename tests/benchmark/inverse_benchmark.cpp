@@ -68,7 +68,7 @@ void describe(benchmark::State& state, const clustering::ClusteringStatistics& s
 void announceThreshold(benchmark::State& state) {
   venue();
   for (auto _ : state) benchmark::DoNotOptimize(transport::statisticsOf(venue(), {0.001f, 0.01f, 0.95}));
-  state.counters["leaves"] = static_cast<double>(venue().leaves().blocks());
+  state.counters["leaves"] = static_cast<double>(venue().ownLeaves().blocks());
 }
 
 void applyThreshold(benchmark::State& state) {

@@ -103,8 +103,7 @@ int main(int argc, char** argv) {
   NodeLayout layout(projectors);
   auto transport = std::make_shared<TransportMatrix>(settings.camera, settings.projector,
                                                      benchmarks::syntheticLeaves(settings, layout));
-  nlohmann::json result{{"leaves", transport->leaves().blocks()},
-                        {"cores", tbb::info::default_concurrency()}};
+  nlohmann::json result{{"leaves", transport->storedLeaves()}, {"cores", tbb::info::default_concurrency()}};
   std::shared_ptr<const MatrixPictures> matrix;
   result["prepare_seconds"] = quickest([&] { matrix = std::make_shared<MatrixPictures>(transport); });
   if (!panOnly) result["picture_seconds_by_share_of_a_side"] = pictures(*matrix);

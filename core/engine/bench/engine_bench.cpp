@@ -145,7 +145,7 @@ void timeReferences(Bench& bench, const EngineVenue& engine) {
   const CameraStack camera(randomStack(transport.cameras().count(), 2));
   bench.time("WindowInverse::apply", static_cast<double>(engine.inverse.bytes()),
              [&] { engine.inverse.apply(camera); });
-  bench.time("TransportMatrix: T p and adjoint", 2.0 * static_cast<double>(transport.leaves().bytes()),
+  bench.time("TransportMatrix: T p and adjoint", 2.0 * static_cast<double>(transport.bytes()),
              [&] { transport.applyTransposed(transport.apply(projector)); });
 }
 

@@ -36,7 +36,8 @@ Plane windowsPlane(const EngineVenue& engine, std::size_t channel) {
 
 /// T from a projector channel to the camera channel of its number: camera pixels x nodes.
 Plane transportPlane(const EngineVenue& engine, std::size_t channel) {
-  const transport::BlockSparse& leaves = engine.venue.transport.leaves();
+  const transport::TransportMatrix flat = engine.venue.transport.flattened();
+  const transport::BlockSparse& leaves = flat.ownLeaves();
   Plane plane(static_cast<Eigen::Index>(leaves.rows()), static_cast<Eigen::Index>(leaves.columns()));
   Eigen::VectorXi count(plane.rows());
   for (std::size_t row = 0; row < leaves.rows(); ++row)

@@ -131,8 +131,11 @@ inline std::size_t flaggedIn(const transport::Acquisition& acquisition) {
 
 inline int finestLevel(const transport::TransportMatrix& transport) {
   int finest = transport.layout().levels();
-  for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry)
-    finest = std::min(finest, transport.layout().node(transport.leaves().column(entry)).level);
+  for (std::size_t row = 0; row < transport.cameras().count(); ++row) {
+    const transport::LeafRow leaves = transport.row(row);
+    for (std::uint32_t column : leaves.columns())
+      finest = std::min(finest, transport.layout().node(column).level);
+  }
   return finest;
 }
 

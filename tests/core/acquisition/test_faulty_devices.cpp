@@ -97,7 +97,7 @@ bool isSame(const Measurements::Outcome& outcome, const Acquisition& b) {
   if (!outcome.measured) qWarning("%s", outcome.said.c_str());
   if (!outcome.measured) return false;
   const Acquisition& a = *outcome.measured;
-  return a.transport.leaves() == b.transport.leaves() && a.black == b.black && a.flood == b.flood &&
+  return a.transport == b.transport && a.black == b.black && a.flood == b.flood &&
          a.leafVariance == b.leafVariance && a.flagged == b.flagged && a.patterns == b.patterns &&
          a.exposures == b.exposures;
 }

@@ -65,7 +65,7 @@ class TestPassersBy : public QObject {
     const Acquisition covered = keptAfter(fault(FaultKind::coveredLens, shot));
     const Acquisition asleep = keptAfter(fault(FaultKind::asleepProjector, shot));
     QVERIFY(covered.stoppedAt > 0 && covered.patterns < venue_.sound().patterns);
-    QVERIFY(covered.transport.leaves() == asleep.transport.leaves());
+    QVERIFY(covered.transport == asleep.transport);
     ProjectorStack pattern(naturalPattern(covered.transport.projectors()));
     qInfo("%d patterns, natural picture off by %.4f", covered.patterns,
           relativeError(covered.transport.apply(pattern), venue_.sound().transport.apply(pattern)));

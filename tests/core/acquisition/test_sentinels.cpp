@@ -64,7 +64,7 @@ class TestSentinels : public QObject {
     QCOMPARE(alarms.size(), std::size_t{1});
     QVERIFY2(alarms[0].kind == kind, english(alarms[0].what).c_str());
     QVERIFY(!alarms[0].what.empty() && !alarms[0].safe.empty() && !alarms[0].advice.empty());
-    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+    QVERIFY(a.transport == venue_->sound().transport);
     QVERIFY(a.black == venue_->sound().black && a.flagged == venue_->sound().flagged);
     QCOMPARE(a.patterns, venue_->sound().patterns);
   }
@@ -90,7 +90,7 @@ class TestSentinels : public QObject {
     for (const auto& [number, shot] : log.shots) QVERIFY(number < std::max(1, fault.first));
     venue_->faults->faults.clear();
     Acquisition a = venue_->run({}, log);
-    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+    QVERIFY(a.transport == venue_->sound().transport);
   }
 
   /// A little more light in the room, too little to stop for, is part of e from the next check on.
@@ -175,7 +175,7 @@ class TestSentinels : public QObject {
     for (const std::string& part :
          {std::string("brighter"), std::to_string(retake.patterns), "No. " + std::to_string(retake.shot + 1)})
       QVERIFY2(said.find(part) != std::string::npos, said.c_str());
-    QVERIFY(a.transport.leaves() == venue_->sound().transport.leaves());
+    QVERIFY(a.transport == venue_->sound().transport);
   }
 
   /// Level by level, pattern by pattern, none left out; read from a log as well.
@@ -244,7 +244,7 @@ class TestSentinels : public QObject {
       return text.starts_with("accepted before pattern ") && text.ends_with(english(alarms[0].what));
     };
     QCOMPARE(std::count_if(a.findings.begin(), a.findings.end(), names), 1);
-    QVERIFY(a.transport.leaves().blocks() > 0);
+    QVERIFY(a.transport.ownLeaves().blocks() > 0);
     // Read from its log it asks the same again, at the same place, and comes to the same.
     Acquisition again = venue_->run(
         [&](const Alarm& alarm) {
@@ -254,7 +254,7 @@ class TestSentinels : public QObject {
         log);
     QCOMPARE(alarms.size(), std::size_t{2});
     QVERIFY(again.findings == a.findings);
-    QVERIFY(again.transport.leaves() == a.transport.leaves());
+    QVERIFY(again.transport == a.transport);
   }
 
   void keepingEndsWithWhatIsSafe() {
@@ -262,7 +262,7 @@ class TestSentinels : public QObject {
     NoShotLog log;
     Acquisition a = venue_->run([&](const Alarm&) { return Answer::keepAndStop; }, log);
     QVERIFY(a.patterns < venue_->sound().patterns);
-    QVERIFY(a.transport.leaves().blocks() > 0);
+    QVERIFY(a.transport.ownLeaves().blocks() > 0);
     QVERIFY(std::abs(a.unresolvedEnergy) < 0.01);
     QVERIFY(finestLevel(a.transport) > finestLevel(venue_->sound().transport));
   }

@@ -163,7 +163,7 @@ class TestResults : public QObject {
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
     StageResult result = storeAcquisition(folder, "f", before, {});
     Acquisition after = loadAcquisition(result);
-    QVERIFY(after.transport.leaves() == before.transport.leaves());
+    QVERIFY(after.transport == before.transport);
     QVERIFY(after.transport.cameras() == cameras && after.transport.projectors() == projectors);
     QCOMPARE(after.black, before.black);
     QCOMPARE(after.blackVariance, before.blackVariance);

@@ -21,16 +21,17 @@ class AsPrinted {
         luminance_(rows_ * columns_, 0.0f),
         connected_(rows_ * columns_, false) {
     for (std::size_t i = 0; i < rows_; ++i)
-      for (std::size_t e = transport.leaves().rowBegin(i); e < transport.leaves().rowBegin(i + 1); ++e) {
-        transport::ColourBlock b = transport.leaves().block(i, e);
+      for (std::size_t e = transport.ownLeaves().rowBegin(i); e < transport.ownLeaves().rowBegin(i + 1);
+           ++e) {
+        transport::ColourBlock b = transport.ownLeaves().block(i, e);
         std::array<int, 3> sum{};
         for (std::size_t c = 0; c < 3; ++c)
-          for (std::size_t p = 0; p < 3; ++p) sum[c] += transport.leaves().code(e)[3 * c + p];
-        at(i, transport.leaves().column(e)) =
-            transport.leaves().scale(i) * image::luminanceOf(static_cast<float>(sum[0]),
-                                                             static_cast<float>(sum[1]),
-                                                             static_cast<float>(sum[2]));
-        connected_[i * columns_ + transport.leaves().column(e)] = b.sum() > 0;
+          for (std::size_t p = 0; p < 3; ++p) sum[c] += transport.ownLeaves().code(e)[3 * c + p];
+        at(i, transport.ownLeaves().column(e)) =
+            transport.ownLeaves().scale(i) * image::luminanceOf(static_cast<float>(sum[0]),
+                                                                static_cast<float>(sum[1]),
+                                                                static_cast<float>(sum[2]));
+        connected_[i * columns_ + transport.ownLeaves().column(e)] = b.sum() > 0;
       }
     std::vector<bool> original = connected_;
     for (std::size_t ci = 0; ci < rows_; ++ci) {  // line 1

@@ -56,7 +56,7 @@ inline void verifyPartition(const clustering::Clustering& clustering) {
     if (cluster != clustering::noCluster) ++counted.at(cluster).unknowns;
   for (std::uint32_t cluster : clustering.cameraCluster)
     if (cluster != clustering::noCluster) ++counted.at(cluster).rows;
-  const transport::BlockSparse& leaves = clustering.transport.leaves();
+  const transport::BlockSparse& leaves = clustering.transport.ownLeaves();
   for (std::size_t i = 0; i < leaves.rows(); ++i)
     for (std::size_t e = leaves.rowBegin(i); e < leaves.rowBegin(i + 1); ++e) {
       QCOMPARE(clustering.projectorCluster.at(leaves.column(e)), clustering.cameraCluster[i]);

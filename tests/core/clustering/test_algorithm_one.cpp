@@ -48,7 +48,7 @@ class TestAlgorithmOne : public QObject {
           pixelTransport(Size{5, 1 + static_cast<int>(seed % 5)}, sizes, density, seed, ties);
       AsPrinted printed(transport, radius, cut);
       Clustering ours = clustered(everything(transport), asPrinted(radius, cut), quiet);
-      const BlockSparse& kept = ours.transport.leaves();
+      const BlockSparse& kept = ours.transport.ownLeaves();
       for (std::size_t i = 0; i < kept.rows(); ++i) {
         std::set<std::size_t> here;
         for (std::size_t e = kept.rowBegin(i); e < kept.rowBegin(i + 1); ++e) here.insert(kept.column(e));
@@ -102,7 +102,7 @@ class TestAlgorithmOne : public QObject {
     for (Rescaling rescaling : {Rescaling::patches, Rescaling::rows}) {
       ClusteringSettings settings = asPrinted(3.0, 0.5);
       settings.rescaling = rescaling;
-      BlockSparse kept = clustered(graph, settings, quiet).transport.leaves();
+      BlockSparse kept = clustered(graph, settings, quiet).transport.ownLeaves();
       QCOMPARE(kept.rowBegin(1), std::size_t{2});
       double wide = rescaling == Rescaling::patches ? 1.4 : 2.0 * 0.8 / 1.4;
       QVERIFY(std::abs(kept.block(0, 0)(0, 0) - wide) < rounding);

@@ -101,7 +101,7 @@ class TestCorrespondence : public QObject {
     TransportMatrix direct = directPart(t, {}, quiet);
     std::vector<float> best(t.projectors().count(), 0.0f);
     std::vector<std::int32_t> expected(best.size(), -1);
-    const BlockSparse& leaves = direct.leaves();
+    const BlockSparse& leaves = direct.ownLeaves();
     auto light = [&](std::size_t row, std::size_t entry) {
       return leaves.block(row, entry).sum() /
              static_cast<float>(t.layout().block(t.layout().node(leaves.column(entry))).count());

@@ -43,8 +43,8 @@ TransportMatrix onePixel(Rasters projectors, const std::vector<std::pair<Node, f
 std::vector<std::size_t> directNodes(const TransportMatrix& transport) {
   TransportMatrix direct = directPart(transport, {}, quiet);
   std::vector<std::size_t> nodes;
-  for (std::size_t entry = 0; entry < direct.leaves().blocks(); ++entry)
-    nodes.push_back(direct.leaves().column(entry));
+  for (std::size_t entry = 0; entry < direct.ownLeaves().blocks(); ++entry)
+    nodes.push_back(direct.ownLeaves().column(entry));
   return nodes;
 }
 
@@ -58,7 +58,7 @@ class TestDirectLight : public QObject {
   void directIsPartOfTheWhole() {
     Scene scene = makeScene({});
     TransportMatrix direct = directPart(scene.transport, {}, quiet);
-    const BlockSparse &all = scene.transport.leaves(), &kept = direct.leaves();
+    const BlockSparse &all = scene.transport.ownLeaves(), &kept = direct.ownLeaves();
     QVERIFY(kept.blocks() > 0 && kept.blocks() < all.blocks());
     for (std::size_t row = 0; row < all.rows(); ++row) {
       std::size_t entry = all.rowBegin(row);
@@ -71,7 +71,7 @@ class TestDirectLight : public QObject {
     }
     DirectLightSettings everything;
     everything.reach = 1.0;
-    QVERIFY(directPart(scene.transport, everything, quiet).leaves() == all);
+    QVERIFY(directPart(scene.transport, everything, quiet).ownLeaves() == all);
   }
 
   void nearAndNarrowIsDirect_data() {
@@ -168,7 +168,7 @@ class TestDirectLight : public QObject {
     TransportMatrix defocus = defocusOnly(scene.transport, {}, quiet);
     Stack through = defocus.floodlight();
     for (std::size_t i = 0; i < flood.size(); ++i) {
-      if (defocus.leaves().rowBegin(i / 3) == defocus.leaves().rowBegin(i / 3 + 1)) continue;
+      if (defocus.ownLeaves().rowBegin(i / 3) == defocus.ownLeaves().rowBegin(i / 3 + 1)) continue;
       // Scaled rows are rounded to their codes again: 2e-5 of the row's largest, for each of some dozens.
       QVERIFY2(std::abs(through[i] - flood[i]) <= 2e-3f * flood[i],
                qPrintable(QString("%1 %2").arg(through[i]).arg(flood[i])));
@@ -179,7 +179,7 @@ class TestDirectLight : public QObject {
     NodeLayout layout{Rasters(Size{7, 5})};
     BlockSparseBuilder builder(layout.count(), std::vector<float>(6, 0.0f));
     TransportMatrix dark(Size{3, 2}, Size{7, 5}, builder.build());
-    QCOMPARE(directPart(dark, {}, quiet).leaves().blocks(), std::size_t{0});
+    QCOMPARE(directPart(dark, {}, quiet).ownLeaves().blocks(), std::size_t{0});
     QVERIFY(defocusOnly(dark, {}, quiet).floodlight() == Stack(18, 0.0f));
     QCOMPARE(directNodes(onePixel(Size{1, 1}, {{{0, 0, 0, 0}, 0.5f}})).size(), std::size_t{1});
   }

@@ -177,7 +177,7 @@ class TestSolver : public QObject {
     QCOMPARE(free.objective, 0.0);
 
     Case noLight = smallCase(1);
-    BlockSparseBuilder empty(noLight.transport.leaves().columns(), std::vector<float>(6, 0.0f));
+    BlockSparseBuilder empty(noLight.transport.ownLeaves().columns(), std::vector<float>(6, 0.0f));
     noLight.transport =
         TransportMatrix(noLight.transport.cameras(), noLight.transport.projectors(), empty.build());
     SolveResult unseen = solveConstrained(noLight.problem(), start, settings, quiet);

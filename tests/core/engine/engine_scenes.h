@@ -8,6 +8,8 @@
 #include "core/inverse/synthetic_transport.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/engine/engine_plan.h"
+#include "relucent/transport/leaf_sharing.h"
+#include "relucent/transport/shared_colours.h"
 
 namespace relucent::synthetic {
 
@@ -102,10 +104,30 @@ inline compensation::MeasuredVenue holes(std::uint64_t seed) {
   return venue;
 }
 
+/// The same T, near enough, as dense patterns measure it: colours are shared, and leaves by neighbours.
+inline transport::TransportMatrix sharing(const transport::TransportMatrix& own) {
+  const transport::ColumnKinds kinds = transport::nearAndFar(own.layout(), 2);
+  transport::SharedColourEncoder encoder(kinds);
+  transport::SharedColourWriter writer(own.layout().count(), own.cameras().count(), kinds, 0);
+  transport::SharedColourRow encoded;
+  std::vector<transport::ColourBlock> blocks;
+  for (std::size_t row = 0; row < own.cameras().count(); ++row) {
+    const transport::LeafRow leaves = own.row(row);
+    blocks.clear();
+    for (std::size_t entry = 0; entry < leaves.size(); ++entry) blocks.push_back(leaves.block(entry));
+    encoder.encode(leaves.columns(), blocks, encoded);
+    writer.add(encoded);
+  }
+  Progress quiet;
+  return transport::withSharedLeaves({own.cameras(), own.projectors(), writer.build()},
+                                     transport::sharingTolerance, quiet);
+}
+
 /// Scenes by name, for data-driven tests.
 inline const std::vector<std::string>& engineSceneNames() {
   static const std::vector<std::string> names{
-      "wall", "defocus", "coarse tiles", "several devices", "several views", "single pixel", "holes"};
+      "wall",         "defocus", "coarse tiles",     "several devices", "several views",
+      "single pixel", "holes",   "neighbours share", "several share"};
   return names;
 }
 
@@ -117,6 +139,16 @@ inline EngineScene engineSceneOf(const std::string& name) {
     return engineScene(std::move(venue));
   }
   if (name == "holes") return engineScene(holes(4));
+  if (name == "several share") {
+    compensation::MeasuredVenue venue = severalDevices(3);
+    venue.transport = sharing(venue.transport);
+    return engineScene(std::move(venue));
+  }
+  if (name == "neighbours share") {
+    compensation::MeasuredVenue venue = venueOf(makeScene({{50, 37}, {41, 29}, 2, 0.8, 2.0}));
+    venue.transport = sharing(venue.transport);
+    return engineScene(std::move(venue));
+  }
   SceneSettings settings;
   if (name == "defocus") settings = {{50, 37}, {41, 29}, 2, 0.8, 2.0};
   if (name == "coarse tiles") return engineScene(venueOf(makeScene({{33, 30}, {24, 20}, 5})), 8);

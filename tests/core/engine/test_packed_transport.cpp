@@ -98,7 +98,7 @@ class TestPackedTransport : public QObject {
     std::sort(pixels.begin(), pixels.end());
     QCOMPARE(pixels.size(), venue.usable.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) QCOMPARE(pixels[i], static_cast<std::uint32_t>(i));
-    QVERIFY(packed.leaves().size() <= venue.transport.leaves().blocks() +
+    QVERIFY(packed.leaves().size() <= venue.transport.flattened().storedLeaves() +
                                           leavesTogether * (packed.rows().size() + packed.groups().size()));
     // Leaves are read four at a time: none is there twice.
     auto differ = [&](std::uint32_t begin, std::uint32_t end) {
@@ -125,7 +125,6 @@ class TestPackedTransport : public QObject {
     MeasuredVenue venue = engineSceneOf(scene.toStdString()).venue;
     PackedTransport packed(venue.transport, {16, exactly});
     std::vector<ColourBlock> sums = venue.transport.rowSums();
-    const BlockSparse& leaves = venue.transport.leaves();
     for (const TransportPatch& patch : packed.patches()) {
       for (std::size_t row = patch.rowBegin; row < patch.rowEnd; ++row) {
         auto blocks = writtenOut(packed, patch, row);
@@ -140,9 +139,10 @@ class TestPackedTransport : public QObject {
         float rounding = static_cast<float>(blocks.size() + 1) * (largest + 1e-6f) / 32767.0f;
         QVERIFY((sum - sums[pixel]).cwiseAbs().maxCoeff() <= rounding);
         if (scene.startsWith("several")) continue;
+        const LeafRow leaves = venue.transport.row(pixel);
         Blocks whole;
-        for (std::size_t entry = leaves.rowBegin(pixel); entry < leaves.rowBegin(pixel + 1); ++entry)
-          whole.emplace(leaves.column(entry), leaves.block(pixel, entry));
+        for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+          whole.emplace(leaves.column(entry), leaves.block(entry));
         // Far light is some codes of T bright, so that its mixing is rounded, and the brightest leaf is cut
         // off.
         const double error = apart(venue.transport.layout(), blocks, whole);

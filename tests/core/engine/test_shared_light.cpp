@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/engine/shared_light.h"
+#include "relucent/transport/shared_light.h"
 
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
 
 #include "core/engine/engine_scenes.h"
-#include "relucent/engine/row_light.h"
+#include "relucent/transport/row_light.h"
 
 using namespace relucent;
 using namespace relucent::engine;
@@ -208,7 +208,7 @@ class TestSharedLight : public QObject {
     const compensation::MeasuredVenue venue = engineSceneOf(scene.toStdString()).venue;
     const TransportMatrix& transport = venue.transport;
     const std::vector<ColourBlock> sums = transport.rowSums();
-    for (std::size_t row = 0; row < transport.leaves().rows(); ++row) {
+    for (std::size_t row = 0; row < transport.cameras().count(); ++row) {
       std::size_t before = 0;
       for (float tolerance : {0.0f, 0.02f}) {
         const RowLight light = rowLight(transport, row, tolerance);

@@ -212,7 +212,7 @@ class TestImport : public QObject {
     for (int k : before.heldOut) photographs[static_cast<std::size_t>(k)] = Image(camera, 3, 0.3f);
     Import after = importTransport(sequenceOf(patterns), sequenceOf(photographs), settings, progress);
     QCOMPARE(after.heldOut, before.heldOut);
-    QVERIFY(after.acquisition.transport.leaves() == before.acquisition.transport.leaves());
+    QVERIFY(after.acquisition.transport == before.acquisition.transport);
     QVERIFY(after.acquisition.black == before.acquisition.black);
     QVERIFY(after.error.transport > before.error.transport);
   }
@@ -281,7 +281,7 @@ class TestImport : public QObject {
       }
     Progress progress;
     Import import = importTransport(sequenceOf(patterns), sequenceOf(photographs), {}, progress);
-    const BlockSparse& leaves = import.acquisition.transport.leaves();
+    const BlockSparse& leaves = import.acquisition.transport.ownLeaves();
     for (std::size_t row = 0; row < leaves.rows(); ++row)
       for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
         const auto& code = leaves.code(entry);
@@ -297,7 +297,7 @@ class TestImport : public QObject {
     Import several = imported(scene, patterns);
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     Import single = imported(scene, patterns);
-    QVERIFY(several.acquisition.transport.leaves() == single.acquisition.transport.leaves());
+    QVERIFY(several.acquisition.transport == single.acquisition.transport);
     QCOMPARE(several.error.transport, single.error.transport);
   }
 

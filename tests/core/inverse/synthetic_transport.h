@@ -171,7 +171,7 @@ inline Scene makeScene(const SceneSettings& s) {
 /// brightest leaf; rescaled to the true flood image, which is measured well.
 inline transport::TransportMatrix measured(const transport::TransportMatrix& truth, double relative,
                                            double absolute, std::uint64_t seed) {
-  const transport::BlockSparse& leaves = truth.leaves();
+  const transport::BlockSparse& leaves = truth.ownLeaves();
   std::vector<float> fullScale(leaves.rows());
   for (std::size_t row = 0; row < leaves.rows(); ++row) fullScale[row] = 1.5f * 32767.0f * leaves.scale(row);
   transport::BlockSparseBuilder builder(leaves.columns(), fullScale);

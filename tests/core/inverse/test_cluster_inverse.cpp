@@ -241,7 +241,7 @@ class TestClusterInverse : public QObject {
     Scene scene = defocused(1.2, 6), bright = scene;
     const TransportMatrix& t = scene.transport;
     bright.transport = TransportMatrix(t.cameras(), t.projectors(),
-                                       t.leaves().withRowsScaled(Stack(3 * t.cameras().count(), 2.0f)));
+                                       t.ownLeaves().withRowsScaled(Stack(3 * t.cameras().count(), 2.0f)));
     CameraStack r = randomStack<CameraStack>(3 * t.cameras().count(), 2);
     ProjectorStack p =
         computeClusterInverse(clusteredScene(scene), scene.usable, withColour(full), quiet).apply(r);

@@ -199,7 +199,7 @@ class TestWindows : public QObject {
   /// Law: every value of the near field is that of its leaf, unmixed, to half a step of the row's largest.
   void theNearFieldIsThatOfTheLeaves() {
     const Scene scene = makeScene({});
-    const BlockSparse& leaves = scene.transport.leaves();
+    const BlockSparse& leaves = scene.transport.ownLeaves();
     const NearField near = nearFieldOf(scene.transport, scene.usable);
     QVERIFY(near.node.size() > leaves.rows());
     for (std::size_t row = 0; row < leaves.rows(); ++row) {

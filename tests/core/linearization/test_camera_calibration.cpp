@@ -233,7 +233,7 @@ class TestCameraCalibration : public QObject {
     const CameraStack flood = even.floodlight();
     Stack factor(flood.size(), 1.0f);
     for (std::size_t i = 0; i < factor.size(); ++i) factor[i] = 15.0f / std::max(flood[i], 1.0f);
-    TransportMatrix wall(even.cameras(), even.projectors(), even.leaves().withRowsScaled(factor));
+    TransportMatrix wall(even.cameras(), even.projectors(), even.ownLeaves().withRowsScaled(factor));
     CameraStack black = syntheticBlack(wall);
     ScriptedVenue venue(std::move(wall), std::move(black));
     QVERIFY(looksLinear(take(venue, {1, 1, 1}, {0.6, 0.1, 0.05, 0.006}), 0, 0.97));
@@ -349,7 +349,7 @@ class TestCameraCalibration : public QObject {
     Stack factor(3 * plain.cameras().count(), 1.0f);
     std::size_t highlight = 30 * 80 + 40;
     for (std::size_t c = 0; c < 3; ++c) factor[3 * highlight + c] = static_cast<float>(brighter);
-    TransportMatrix transport(plain.cameras(), plain.projectors(), plain.leaves().withRowsScaled(factor));
+    TransportMatrix transport(plain.cameras(), plain.projectors(), plain.ownLeaves().withRowsScaled(factor));
     CameraStack black = syntheticBlack(transport);
     ScriptedSettings settings;
     ScriptedCamera camera;

@@ -39,10 +39,10 @@ Acquisition venueOf(double interreflection, std::uint64_t seed = 1) {
 std::array<double, 3> centreOf(const TransportMatrix& transport, std::size_t row) {
   const NodeLayout& layout = transport.layout();
   std::array<double, 3> centre{};
-  for (std::size_t entry = transport.leaves().rowBegin(row); entry < transport.leaves().rowBegin(row + 1);
-       ++entry) {
-    const Block block = layout.block(layout.node(transport.leaves().column(entry)));
-    const double light = static_cast<double>(transport.leaves().block(row, entry).sum());
+  const LeafRow leaves = transport.row(row);
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+    const Block block = layout.block(layout.node(leaves.column(entry)));
+    const double light = static_cast<double>(leaves.block(entry).sum());
     centre[0] += light * 0.5 * (block.x0 + block.x1);
     centre[1] += light * 0.5 * (block.y0 + block.y1);
     centre[2] += light;

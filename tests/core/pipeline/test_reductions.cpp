@@ -86,8 +86,8 @@ class TestReductions : public QObject {
     CalibrationFolder few = opened("few"), all = opened("all");
     QVERIFY(!few.settings().contains("reduction"));
     QCOMPARE(fingerprintOf(few, Stage::acquisition), fingerprintOf(all, Stage::acquisition));
-    QVERIFY(loadAcquisition(*few.latest(Stage::acquisition)).transport.leaves() ==
-            loadAcquisition(*all.latest(Stage::acquisition)).transport.leaves());
+    QVERIFY(loadAcquisition(*few.latest(Stage::acquisition)).transport.ownLeaves() ==
+            loadAcquisition(*all.latest(Stage::acquisition)).transport.ownLeaves());
   }
 
   /// The reduced camera measures what the same camera would with larger pixels: not less well than one that
@@ -140,8 +140,8 @@ class TestReductions : public QObject {
     CalibrationFolder parts = opened("in parts"), whole = opened("whole run");
     QCOMPARE(parts.settings().at("reduction").dump(), chosen);
     QCOMPARE(chosen, whole.settings().at("reduction").dump());
-    QVERIFY(loadAcquisition(*parts.latest(Stage::acquisition)).transport.leaves() ==
-            loadAcquisition(*whole.latest(Stage::acquisition)).transport.leaves());
+    QVERIFY(loadAcquisition(*parts.latest(Stage::acquisition)).transport.ownLeaves() ==
+            loadAcquisition(*whole.latest(Stage::acquisition)).transport.ownLeaves());
   }
 
   /// Photographs that are there already are of the size that was used then.

@@ -45,7 +45,8 @@ Vector2f seenAt(const CameraOptics& camera, const Vector3f& point) {
 /// Of a venue, what its first camera measured alone.
 MeasuredVenue firstAlone(const MeasuredVenue& all) {
   const Size size = all.transport.cameras().size(0);
-  const BlockSparse& leaves = all.transport.leaves();
+  const TransportMatrix flat = all.transport.flattened();
+  const BlockSparse& leaves = flat.ownLeaves();
   std::vector<float> fullScale(size.count());
   for (std::size_t row = 0; row < size.count(); ++row)
     for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)

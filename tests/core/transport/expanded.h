@@ -13,9 +13,10 @@ inline Eigen::MatrixXd expanded(const transport::TransportMatrix& transport) {
   const Rasters& projectors = layout.projectors();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(transport.cameras().count()),
                                                 3 * static_cast<Eigen::Index>(projectors.count()));
-  for (std::size_t i = 0; i < transport.leaves().rows(); ++i)
-    for (std::size_t e = transport.leaves().rowBegin(i); e < transport.leaves().rowBegin(i + 1); ++e) {
-      transport::Node node = layout.node(transport.leaves().column(e));
+  for (std::size_t i = 0; i < transport.cameras().count(); ++i) {
+    const transport::LeafRow leaves = transport.row(i);
+    for (std::size_t e = 0; e < leaves.size(); ++e) {
+      transport::Node node = layout.node(leaves.column(e));
       transport::Block block = layout.block(node);
       auto device = static_cast<std::size_t>(node.projector);
       for (int y = block.y0; y < block.y1; ++y)
@@ -23,9 +24,10 @@ inline Eigen::MatrixXd expanded(const transport::TransportMatrix& transport) {
           auto j =
               static_cast<Eigen::Index>(projectors.offset(device) + indexOf(projectors.size(device), {x, y}));
           dense.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * j) +=
-              transport.leaves().block(i, e).cast<double>() / block.count();
+              leaves.block(e).cast<double>() / block.count();
         }
     }
+  }
   return dense;
 }
 

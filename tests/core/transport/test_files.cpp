@@ -61,7 +61,7 @@ TransportMatrix someTransport() {
 TransportMatrix someSharedTransport() {
   const TransportMatrix own = someTransport();
   return {own.cameras(), own.projectors(),
-          randomSharedBlocks(own.leaves().rows(), own.leaves().columns(), 0.2, 9).sparse};
+          randomSharedBlocks(own.ownLeaves().rows(), own.ownLeaves().columns(), 0.2, 9).sparse};
 }
 
 }  // namespace
@@ -114,14 +114,14 @@ class TestFiles : public QObject {
     saveTransport(path(), transport, values);
     // Beside the blocks there are a scale or colours, and an index of each row, and headers.
     const auto others =
-        (shared ? 8.0 + 3.0 * 36.0 : 8.0) * static_cast<double>(transport.leaves().rows()) + 3000.0;
+        (shared ? 8.0 + 3.0 * 36.0 : 8.0) * static_cast<double>(transport.ownLeaves().rows()) + 3000.0;
     QVERIFY(static_cast<double>(fs::file_size(path())) <
-            bytesOfBlock * static_cast<double>(transport.leaves().blocks()) + others);
+            bytesOfBlock * static_cast<double>(transport.ownLeaves().blocks()) + others);
     TransportMatrix loaded = loadTransport(path());
     QVERIFY(loaded.cameras() == transport.cameras());
     QVERIFY(loaded.projectors() == transport.projectors());
-    QVERIFY(loaded.leaves() == transport.leaves());
-    QVERIFY(loadBlocks(path()) == transport.leaves());
+    QVERIFY(loaded.ownLeaves() == transport.ownLeaves());
+    QVERIFY(loadBlocks(path()) == transport.ownLeaves());
   }
 
   void scipyOpensCodes() {
@@ -138,7 +138,7 @@ class TestFiles : public QObject {
     QVERIFY2(ran, qPrintable(output));
     const QStringList words = output.split(' ');
     QCOMPARE(words[0], QString("int16"));
-    const double expected = denseOf(transport.leaves()).sum();
+    const double expected = denseOf(transport.ownLeaves()).sum();
     QVERIFY(std::abs(words[1].toDouble() - expected) < 1e-9 * std::abs(expected));
   }
 
@@ -356,8 +356,8 @@ class TestFiles : public QObject {
     TransportMatrix transport = someTransport();
     // Just enough for this side: entries that fall on the same pixel only make it less.
     std::uint64_t blocks = 0;
-    for (std::size_t entry = 0; entry < transport.leaves().blocks(); ++entry) {
-      Block block = transport.layout().block(transport.layout().node(transport.leaves().column(entry)));
+    for (std::size_t entry = 0; entry < transport.ownLeaves().blocks(); ++entry) {
+      Block block = transport.layout().block(transport.layout().node(transport.ownLeaves().column(entry)));
       blocks += static_cast<std::uint64_t>(std::min(side, block.x1 - block.x0) *
                                            std::min(side, block.y1 - block.y0));
     }

@@ -23,14 +23,15 @@ TransportMatrix randomTransport(Rasters cameras, Rasters projectors, double dens
 }
 
 float strengthOf(const TransportMatrix& transport, std::size_t row, std::size_t entry) {
-  Block block = transport.layout().block(transport.layout().node(transport.leaves().column(entry)));
-  return transport.leaves().block(row, entry).cwiseAbs().maxCoeff() / static_cast<float>(block.count());
+  Block block = transport.layout().block(transport.layout().node(transport.ownLeaves().column(entry)));
+  return transport.ownLeaves().block(row, entry).cwiseAbs().maxCoeff() / static_cast<float>(block.count());
 }
 
 template <typename Visit>
 void visitLeaves(const TransportMatrix& transport, const Visit& visit) {
-  for (std::size_t row = 0; row < transport.leaves().rows(); ++row)
-    for (std::size_t e = transport.leaves().rowBegin(row); e < transport.leaves().rowBegin(row + 1); ++e)
+  for (std::size_t row = 0; row < transport.ownLeaves().rows(); ++row)
+    for (std::size_t e = transport.ownLeaves().rowBegin(row); e < transport.ownLeaves().rowBegin(row + 1);
+         ++e)
       visit(row, e);
 }
 
@@ -66,8 +67,8 @@ class TestStatistics : public QObject {
     TransportMatrix transport = randomTransport(Size{9, 5}, std::vector<Size>{{13, 7}, {3, 2}}, 0.3, 4);
     TransportStatistics announced = statisticsOf(transport, settings());
     TransportMatrix cut = thresholded(transport, settings(), transport.floodlight());
-    QCOMPARE(announced.leaves, cut.leaves().blocks());
-    QCOMPARE(announced.bytes, cut.leaves().bytes());
+    QCOMPARE(announced.leaves, cut.ownLeaves().blocks());
+    QCOMPARE(announced.bytes, cut.ownLeaves().bytes());
     QCOMPARE(announced.connections, statisticsOf(cut).connections);
     std::uint64_t counted = 0;
     for (std::uint64_t bin : announced.histogram.leaves) counted += bin;
@@ -82,7 +83,7 @@ class TestStatistics : public QObject {
     std::vector<float> limit = thresholdLimits(transport, asked);
     double all = 0, kept = 0, stronger = 0;
     visitLeaves(transport, [&](std::size_t row, std::size_t entry) {
-      double light = transport.leaves().block(row, entry).cwiseAbs().sum();
+      double light = transport.ownLeaves().block(row, entry).cwiseAbs().sum();
       float strength = strengthOf(transport, row, entry);
       all += light;
       // The limit is rounded down by at most 2^-7 of itself.
@@ -119,15 +120,16 @@ class TestStatistics : public QObject {
     for (std::size_t row = 0; row < norms.size(); ++row) {
       std::vector<Eigen::Matrix3d> dense(pixels, Eigen::Matrix3d::Zero());
       std::vector<int> over(pixels, 0);
-      for (std::size_t e = transport.leaves().rowBegin(row); e < transport.leaves().rowBegin(row + 1); ++e) {
-        Node node = layout.node(transport.leaves().column(e));
+      for (std::size_t e = transport.ownLeaves().rowBegin(row); e < transport.ownLeaves().rowBegin(row + 1);
+           ++e) {
+        Node node = layout.node(transport.ownLeaves().column(e));
         Block block = layout.block(node);
         auto device = static_cast<std::size_t>(node.projector);
         for (int y = block.y0; y < block.y1; ++y)
           for (int x = block.x0; x < block.x1; ++x) {
             std::size_t pixel =
                 layout.projectors().offset(device) + indexOf(layout.projectors().size(device), {x, y});
-            dense[pixel] += transport.leaves().block(row, e).cast<double>() / block.count();
+            dense[pixel] += transport.ownLeaves().block(row, e).cast<double>() / block.count();
             ++over[pixel];
           }
       }

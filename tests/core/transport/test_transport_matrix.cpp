@@ -105,8 +105,9 @@ class TestTransportMatrix : public QObject {
     Stack sums = rescaled.floodlight();
     for (std::size_t i = 0; i < sums.size(); ++i) {
       std::size_t row = i / 3;
-      auto blocks = static_cast<float>(rescaled.leaves().rowBegin(row + 1) - rescaled.leaves().rowBegin(row));
-      float allowed = 3.0f * blocks * rescaled.leaves().scale(row) * 0.5f + 1e-5f * flood[i];
+      auto blocks =
+          static_cast<float>(rescaled.ownLeaves().rowBegin(row + 1) - rescaled.ownLeaves().rowBegin(row));
+      float allowed = 3.0f * blocks * rescaled.ownLeaves().scale(row) * 0.5f + 1e-5f * flood[i];
       QVERIFY2(std::abs(sums[i] - flood[i]) <= allowed,
                qPrintable(QString("%1: %2, flood %3").arg(i).arg(sums[i]).arg(flood[i])));
     }
@@ -117,7 +118,7 @@ class TestTransportMatrix : public QObject {
     Stack now = transport.floodlight();
     CameraStack flood(now.size(), 1.0f);
     TransportMatrix same = rescaledToFloodlight(transport, flood, *std::max_element(now.begin(), now.end()));
-    QVERIFY(same.leaves() == transport.leaves());
+    QVERIFY(same.ownLeaves() == transport.ownLeaves());
   }
 
   void thresholds_data() {
@@ -140,14 +141,14 @@ class TestTransportMatrix : public QObject {
     Stack sums = cut.floodlight();
     for (std::size_t i = 0; i < sums.size(); ++i) {
       std::size_t row = i / 3;
-      auto blocks = static_cast<float>(cut.leaves().rowBegin(row + 1) - cut.leaves().rowBegin(row));
+      auto blocks = static_cast<float>(cut.ownLeaves().rowBegin(row + 1) - cut.ownLeaves().rowBegin(row));
       QVERIFY(blocks > 0 || flood[i] == 0.0f);
-      float allowed = 3.0f * blocks * cut.leaves().scale(row) * 0.5f + 1e-5f * flood[i];
+      float allowed = 3.0f * blocks * cut.ownLeaves().scale(row) * 0.5f + 1e-5f * flood[i];
       QVERIFY2(std::abs(sums[i] - flood[i]) <= allowed,
                qPrintable(QString("%1: %2, flood %3").arg(i).arg(sums[i]).arg(flood[i])));
     }
-    QVERIFY(cut.leaves().blocks() <= transport.leaves().blocks());
-    if (absolute > 1e3) QCOMPARE(cut.leaves().blocks(), transport.cameras().count());
+    QVERIFY(cut.ownLeaves().blocks() <= transport.ownLeaves().blocks());
+    if (absolute > 1e3) QCOMPARE(cut.ownLeaves().blocks(), transport.cameras().count());
   }
 
   void leavesMustFitTheRig() {

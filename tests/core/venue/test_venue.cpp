@@ -75,7 +75,7 @@ class TestVenue : public QObject {
     QFETCH(QString, name);
     Progress progress;
     SimulatedVenue venue(smallVenue(name.toStdString()), {}, progress);
-    double perRow = static_cast<double>(venue.trueTransport().leaves().blocks()) /
+    double perRow = static_cast<double>(venue.trueTransport().ownLeaves().blocks()) /
                     static_cast<double>(venue.trueTransport().cameras().count());
     qInfo("%.1f blocks a row", perRow);
     QVERIFY(perRow < 100.0);
@@ -159,7 +159,7 @@ class TestVenue : public QObject {
     for (std::size_t camera = 0; camera < 3; ++camera)
       for (std::size_t pixel = 0; pixel < 1200; ++pixel) {
         const std::size_t row = transport.cameras().offset(camera) + pixel;
-        const BlockSparse& leaves = transport.leaves();
+        const BlockSparse& leaves = transport.ownLeaves();
         for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry) {
           const Node node = layout.node(leaves.column(entry));
           if (node.level == 0) seen[camera][leaves.column(entry)] += leaves.block(row, entry).sum();
@@ -183,7 +183,7 @@ class TestVenue : public QObject {
     Progress progress;
     SimulatedVenue venue(smallVenue("dome4"), {}, progress);
     const TransportMatrix& transport = venue.trueTransport();
-    const BlockSparse& leaves = transport.leaves();
+    const BlockSparse& leaves = transport.ownLeaves();
     std::array<int, 5> lit{};  // directly by so many
     std::array<int, 4> by{};
     for (std::size_t row = 0; row < leaves.rows(); ++row) {
@@ -228,7 +228,7 @@ class TestVenue : public QObject {
   void theReliefHasTwoSortsOfShadows() {
     Progress progress;
     SimulatedVenue venue(smallVenue("relief"), {}, progress);
-    const BlockSparse& leaves = venue.trueTransport().leaves();
+    const BlockSparse& leaves = venue.trueTransport().ownLeaves();
     const NodeLayout& layout = venue.trueTransport().layout();
     int lit[4] = {0, 0, 0, 0};  // by neither, the first, the second, both
     for (std::size_t row = 0; row < leaves.rows(); ++row) {
@@ -300,7 +300,7 @@ class TestVenue : public QObject {
     Stack truth = fresh.trueRadiance(flood(fresh));
     QVERIFY(truth == traced.trueRadiance(flood(traced)));
     QVERIFY(truth == cached.trueRadiance(flood(cached)));
-    QVERIFY(fresh.trueTransport().leaves() == cached.trueTransport().leaves());
+    QVERIFY(fresh.trueTransport().ownLeaves() == cached.trueTransport().ownLeaves());
     QVERIFY(fresh.trueBlack() == cached.trueBlack());
   }
 

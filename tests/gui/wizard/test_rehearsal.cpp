@@ -66,7 +66,7 @@ class TestRehearsal : public QObject {
     QCOMPARE(session_->progress(Stage::acquisition), StageProgress::done);
     QVERIFY(session_->surprises()->hasHappened(kind) && !session_->surprises()->lasts(kind));
     QVERIFY(told_->isEmpty());
-    QVERIFY(measured().leaves() == calm_->leaves());
+    QVERIFY(measured() == *calm_);
   }
 
  private slots:

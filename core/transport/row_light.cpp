@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/engine/row_light.h"
+#include "relucent/transport/row_light.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-namespace relucent::engine {
+namespace relucent::transport {
 namespace {
 
-using transport::ColourBlock;
-
-// As measurements share colours: see transport::nearAndFar().
+// As measurements share colours: see nearAndFar().
 constexpr int nearLevels = 2;
-// A part whose blocks, being noise, cancel to less than this of the row's light has the row's mixing.
-constexpr float cancelled = 0.05f;
+// A part whose blocks, being noise, cancel to less than this of their magnitudes has the row's mixing.
+constexpr float cancelled = 0.2f;
 
 struct Leaf {
   std::uint32_t node = 0;
@@ -39,8 +37,7 @@ void sortAndMerge(std::vector<Leaf>& leaves) {
 
 /// How far leaves within one node are from having its light evenly, as the cameras' channels receive it
 /// together.
-float unevenness(const transport::NodeLayout& layout, const transport::Node& around,
-                 std::span<const Leaf* const> leaves) {
+float unevenness(const NodeLayout& layout, const Node& around, std::span<const Leaf* const> leaves) {
   ColourBlock sum = ColourBlock::Zero();
   for (const Leaf* leaf : leaves) sum += leaf->light;
   const auto whole = static_cast<float>(layout.block(around).count());
@@ -55,12 +52,12 @@ float unevenness(const transport::NodeLayout& layout, const transport::Node& aro
 
 /// Of the leaves of one level, those that are alike within the node around them go on as one leaf of `wider`,
 /// the others to `kept`.
-void join(const transport::NodeLayout& layout, std::vector<Leaf>& leaves, float tolerance,
-          std::vector<Leaf>& wider, std::vector<Leaf>& kept) {
+void join(const NodeLayout& layout, std::vector<Leaf>& leaves, float tolerance, std::vector<Leaf>& wider,
+          std::vector<Leaf>& kept) {
   sortAndMerge(leaves);
   std::vector<std::pair<std::size_t, const Leaf*>> byParent;
   for (const Leaf& leaf : leaves) {
-    const transport::Node node = layout.node(leaf.node);
+    const Node node = layout.node(leaf.node);
     if (node.level + 1 < layout.levels(static_cast<std::size_t>(node.projector)))
       byParent.push_back({layout.index(layout.parent(node)), &leaf});
     else
@@ -87,9 +84,13 @@ void join(const transport::NodeLayout& layout, std::vector<Leaf>& leaves, float 
 LightPart partOf(std::vector<Leaf> leaves, const ColourBlock& all) {
   sortAndMerge(leaves);
   LightPart part;
-  for (const Leaf& leaf : leaves) part.mixing += leaf.light;
+  Eigen::Array3f magnitude = Eigen::Array3f::Zero();
+  for (const Leaf& leaf : leaves) {
+    part.mixing += leaf.light;
+    magnitude += leaf.light.colwise().norm().transpose().array();
+  }
   for (Eigen::Index k = 0; k < 3; ++k)
-    if (part.mixing.col(k).norm() < cancelled * all.col(k).norm()) part.mixing.col(k) = all.col(k);
+    if (part.mixing.col(k).norm() < cancelled * magnitude[k]) part.mixing.col(k) = all.col(k);
   const Eigen::RowVector3f square = part.mixing.colwise().squaredNorm();
   for (const Leaf& leaf : leaves) {
     NodeShare share{leaf.node, {}};
@@ -101,21 +102,29 @@ LightPart partOf(std::vector<Leaf> leaves, const ColourBlock& all) {
   return part;
 }
 
-}  // namespace
+std::vector<Leaf> leavesOf(const TransportMatrix& transport, std::size_t row) {
+  const LeafRow blocks = transport.row(row);
+  std::vector<Leaf> leaves;
+  for (std::size_t entry = 0; entry < blocks.size(); ++entry)
+    leaves.push_back({blocks.column(entry), blocks.block(entry)});
+  return leaves;
+}
 
-RowLight rowLight(const transport::TransportMatrix& transport, std::size_t row, float tolerance) {
-  const transport::BlockSparse& blocks = transport.leaves();
-  const transport::NodeLayout& layout = transport.layout();
+/// What a camera pixel receives of all leaves, in the channel that gives most.
+float lightOf(const std::vector<Leaf>& leaves) {
+  ColourBlock all = ColourBlock::Zero();
+  for (const Leaf& leaf : leaves) all += leaf.light;
+  return received(all).maxCoeff();
+}
+
+/// `light`: what tolerances and weights are shares of.
+RowLight divided(const NodeLayout& layout, const std::vector<Leaf>& leaves, float light, float tolerance) {
   std::array<std::vector<Leaf>, nearLevels + 1> levels;  // the last: all that is far
   ColourBlock all = ColourBlock::Zero();
-  for (std::size_t entry = blocks.rowBegin(row); entry < blocks.rowBegin(row + 1); ++entry) {
-    const std::uint32_t column = blocks.column(entry);
-    const int level = std::min(layout.node(column).level, nearLevels);
-    levels[static_cast<std::size_t>(level)].push_back({column, blocks.block(row, entry)});
-    all += levels[static_cast<std::size_t>(level)].back().light;
+  for (const Leaf& leaf : leaves) {
+    levels[static_cast<std::size_t>(std::min(layout.node(leaf.node).level, nearLevels))].push_back(leaf);
+    all += leaf.light;
   }
-
-  const float light = received(all).maxCoeff();
   std::vector<Leaf> near;
   for (std::size_t level = 0; level < nearLevels; ++level)
     join(layout, levels[level], tolerance * light, levels[level + 1], near);
@@ -127,4 +136,41 @@ RowLight rowLight(const transport::TransportMatrix& transport, std::size_t row, 
   return result;
 }
 
-}  // namespace relucent::engine
+}  // namespace
+
+RowLight rowLight(const TransportMatrix& transport, std::size_t row, float tolerance) {
+  const std::vector<Leaf> leaves = leavesOf(transport, row);
+  return divided(transport.layout(), leaves, lightOf(leaves), tolerance);
+}
+
+RowLight rowLightAsShared(const TransportMatrix& transport, std::size_t row) {
+  const SharedColourRow shared = transport.row(row).shared();
+  const ColumnKinds& kinds = *transport.ownLeaves().sharedColours();
+  RowLight result;
+  for (std::size_t j = 0; j < shared.column.size(); ++j) {
+    NodeShare share{shared.column[j], {}};
+    for (std::size_t c = 0; c < 3; ++c)
+      share.share[c] = LeafGroups::shareStep * static_cast<float>(shared.factor[j][c]);
+    const bool isNear = kinds.kindOf(share.node) == nearKind(0);
+    (isNear ? result.near : result.far).leaves.push_back(share);
+  }
+  result.near.mixing = shared.mixing[nearKind(0)] / LeafGroups::shareStep;
+  result.far.mixing = shared.mixing[farKind(0)] / LeafGroups::shareStep;
+  result.farWeight.fill(1.0f);
+  return result;
+}
+
+std::vector<RowLight> rowLights(const TransportMatrix& transport, std::size_t row, float tolerance) {
+  const NodeLayout& layout = transport.layout();
+  const std::vector<Leaf> leaves = leavesOf(transport, row);
+  const float light = lightOf(leaves);
+  std::vector<std::vector<Leaf>> of(layout.projectors().devices());
+  for (const Leaf& leaf : leaves)
+    of[static_cast<std::size_t>(layout.node(leaf.node).projector)].push_back(leaf);
+  std::vector<RowLight> result;
+  for (const std::vector<Leaf>& ofProjector : of)
+    result.push_back(divided(layout, ofProjector, light, tolerance));
+  return result;
+}
+
+}  // namespace relucent::transport

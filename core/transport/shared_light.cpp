@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/engine/shared_light.h"
+#include "relucent/transport/shared_light.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "relucent/base/error.h"
 
-namespace relucent::engine {
+namespace relucent::transport {
 namespace {
 
 constexpr std::size_t pixels = SharedLight::pixels;
@@ -36,7 +36,7 @@ std::uint64_t spread(std::uint32_t value) {
 class NodeTree {
  public:
   struct Entry {
-    transport::Node node;
+    Node node;
     std::uint32_t index = 0;   // of the NodeLayout
     std::uint32_t end = 0;     // its descendants are the entries up to here
     std::uint32_t parent = 0;  // itself: none
@@ -44,7 +44,7 @@ class NodeTree {
     bool hasChildren = false;
   };
 
-  NodeTree(const transport::NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves) {
+  NodeTree(const NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves) {
     std::vector<std::uint32_t> nodes;
     for (const std::vector<NodeShare>& pixel : leaves)
       for (const NodeShare& leaf : pixel) nodes.push_back(leaf.node);
@@ -57,14 +57,14 @@ class NodeTree {
     while (!finer.empty()) {
       std::vector<std::uint32_t> parents;
       for (std::uint32_t index : finer) {
-        const transport::Node node = layout.node(index);
+        const Node node = layout.node(index);
         if (node.level + 1 < layout.levels(static_cast<std::size_t>(node.projector)))
           parents.push_back(static_cast<std::uint32_t>(layout.index(layout.parent(node))));
       }
       unify(parents);
       for (std::uint32_t index : parents) {
         nodes.push_back(index);
-        for (const transport::Node& child : layout.children(layout.node(index)))
+        for (const Node& child : layout.children(layout.node(index)))
           nodes.push_back(static_cast<std::uint32_t>(layout.index(child)));
       }
       finer = std::move(parents);
@@ -92,7 +92,7 @@ class NodeTree {
 
  private:
   /// Projector, place in Z order, the wider node first.
-  static std::uint64_t keyOf(const transport::Node& node) {
+  static std::uint64_t keyOf(const Node& node) {
     const auto x = static_cast<std::uint32_t>(node.x) << node.level;
     const auto y = static_cast<std::uint32_t>(node.y) << node.level;
     const std::uint64_t z = spread(x) | (spread(y) << 1);
@@ -126,7 +126,7 @@ class NodeTree {
 /// Where leaves hold, and the least number of them.
 class Division {
  public:
-  Division(const transport::NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves,
+  Division(const NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves,
            std::span<const Channels> weight, float tolerance)
       : tree_(layout, leaves), light_(tree_.entries().size()) {
     for (std::size_t i = 0; i < pixels; ++i)
@@ -299,7 +299,7 @@ std::size_t SharedLight::placeOf(int x, int y) {
                                   (spread(static_cast<std::uint32_t>(y)) << 1));
 }
 
-SharedLight shareLight(const transport::NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves,
+SharedLight shareLight(const NodeLayout& layout, std::span<const std::vector<NodeShare>> leaves,
                        std::span<const Channels> weight, float tolerance) {
   require(leaves.size() == pixels && weight.size() == pixels, "{} rows and {} weights for {} pixels",
           leaves.size(), weight.size(), pixels);
@@ -307,4 +307,4 @@ SharedLight shareLight(const transport::NodeLayout& layout, std::span<const std:
   return Division(layout, leaves, weight, std::max(tolerance, rounding)).result();
 }
 
-}  // namespace relucent::engine
+}  // namespace relucent::transport

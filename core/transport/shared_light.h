@@ -9,7 +9,7 @@
 
 #include "relucent/transport/node_layout.h"
 
-namespace relucent::engine {
+namespace relucent::transport {
 
 /// A value for each projector channel.
 using Channels = std::array<float, 3>;
@@ -51,7 +51,7 @@ struct SharedLight {
 /// `pixels`: the leaves of each place, none where there is no camera pixel. `weight`: by how much errors
 /// count; what has weight 0 is taken to be as its neighbours.
 /// Source: block cluster trees of hierarchical matrices, Hackbusch 1999; core/engine/README.md.
-SharedLight shareLight(const transport::NodeLayout& layout, std::span<const std::vector<NodeShare>> pixels,
+SharedLight shareLight(const NodeLayout& layout, std::span<const std::vector<NodeShare>> pixels,
                        std::span<const Channels> weight, float tolerance);
 
-}  // namespace relucent::engine
+}  // namespace relucent::transport

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "relucent/engine/shared_light.h"
+#include "relucent/transport/shared_light.h"
 #include "relucent/transport/transport_matrix.h"
 
-namespace relucent::engine {
+namespace relucent::transport {
 
 /// The light of a camera pixel from some nodes: T_j = mixing diag(share_j).
 struct LightPart {
-  transport::ColourBlock mixing = transport::ColourBlock::Zero();
+  ColourBlock mixing = ColourBlock::Zero();
   std::vector<NodeShare> leaves;  // nodes ascending
 };
 
@@ -27,6 +27,11 @@ struct RowLight {
 /// the least-squares fit that keeps the sum. Near are the nodes of the two finest levels, unless four of them
 /// differ by no more than `tolerance` of the row's light from their mean: then the node around them stands
 /// for them.
-RowLight rowLight(const transport::TransportMatrix& transport, std::size_t row, float tolerance);
+RowLight rowLight(const TransportMatrix& transport, std::size_t row, float tolerance);
+/// The same for each projector alone; `tolerance` is of the whole row's light.
+std::vector<RowLight> rowLights(const TransportMatrix& transport, std::size_t row, float tolerance);
+/// The same for a T of one projector that has groups, as it divides near and far light itself: pixels of a
+/// group have the group's shares to the bit.
+RowLight rowLightAsShared(const TransportMatrix& transport, std::size_t row);
 
-}  // namespace relucent::engine
+}  // namespace relucent::transport

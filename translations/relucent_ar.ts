@@ -447,6 +447,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.leave-it-there</name>
+    <message>
+        <source>leave it where it is now, then try again: measuring begins again</source>
+        <translation>اترك الجهاز في موضعه الحالي، ثم أعد المحاولة: يبدأ القياس من جديد</translation>
+    </message>
+</context>
+<context>
     <name>alarm.light-flickers</name>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>

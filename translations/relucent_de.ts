@@ -431,6 +431,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.leave-it-there</name>
+    <message>
+        <source>leave it where it is now, then try again: measuring begins again</source>
+        <translation>lassen Sie das Gerät stehen, wo es jetzt ist, dann versuchen Sie es erneut: die Messung beginnt von vorn</translation>
+    </message>
+</context>
+<context>
     <name>alarm.light-flickers</name>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>

@@ -431,6 +431,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.leave-it-there</name>
+    <message>
+        <source>leave it where it is now, then try again: measuring begins again</source>
+        <translation>lasciarlo dove si trova ora, poi riprovare: la misura ricomincia da capo</translation>
+    </message>
+</context>
+<context>
     <name>alarm.light-flickers</name>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>

@@ -427,6 +427,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.leave-it-there</name>
+    <message>
+        <source>leave it where it is now, then try again: measuring begins again</source>
+        <translation>今の位置のまま動かさずに、再試行してください。測定は最初からやり直しになります</translation>
+    </message>
+</context>
+<context>
     <name>alarm.light-flickers</name>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>

@@ -427,6 +427,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.leave-it-there</name>
+    <message>
+        <source>leave it where it is now, then try again: measuring begins again</source>
+        <translation>请让它留在现在的位置，然后重试：测量将从头开始</translation>
+    </message>
+</context>
+<context>
     <name>alarm.light-flickers</name>
     <message>
         <source>the light flickers: photographs of one pattern differ by {} %</source>

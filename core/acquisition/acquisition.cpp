@@ -70,9 +70,9 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
                                                "{}: {} patterns from No. {} on were photographed again",
                                                "{}: {} pattern from No. {} on was photographed again")
                            .with(what, as::count(patterns), as::label(first + 1)));
-  for (const auto& [shot, what] : supervision.accepted)
+  for (const auto& [asked, what] : supervision.accepted)
     findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "accepted before pattern {}: {}")
-                           .with(as::label(shot + 1), what));
+                           .with(as::label(asked.first + 1), what));
   return findings;
 }
 

@@ -37,6 +37,21 @@ void addFlood(References& references, std::size_t projector, std::size_t channel
   });
 }
 
+/// One round's floods, summed.
+hdr::ProjectedLight sumOf(const std::vector<std::vector<hdr::HdrFrame>>& frames, std::size_t round,
+                          const hdr::BlackLevel& black) {
+  hdr::ProjectedLight sum(frames[1][round], black);
+  for (std::size_t i = 2; i < frames.size(); ++i) {
+    const hdr::ProjectedLight flood(frames[i][round], black);
+    parallelFor(0, sum.radiance.size(), 4096, [&](std::size_t value) {
+      sum.radiance[value] += flood.radiance[value];
+      sum.variance[value] += flood.variance[value];
+      if (!flood.valid[value]) sum.valid[value] = 0;
+    });
+  }
+  return sum;
+}
+
 /// Standard deviation of the floods' total light from round to round about a straight line, relative.
 double flickerIn(const std::vector<std::vector<hdr::HdrFrame>>& floods) {
   double squares = 0.0;
@@ -121,6 +136,7 @@ References measureReferences(Photographer& photographer, int rounds, double dimS
   references.root.assign(projectors.devices(), std::vector<transport::ColourBlock>(rows));
   references.rootVariance = references.root;
   for (std::size_t i = 0; i < floods; ++i) addFlood(references, i / 3, i % 3, hdr::meanOf(frames[1 + i]));
+  references.firstRound = sumOf(frames, 0, references.black);
   findScales(references, dimShare);
   references.flicker = flickerIn({frames.begin() + 1, frames.end()});
   return references;

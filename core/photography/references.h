@@ -16,7 +16,8 @@ struct References {
   std::vector<std::vector<transport::ColourBlock>>
       root;  // [projector][row]: flood less e, camera x projector channel
   std::vector<std::vector<transport::ColourBlock>> rootVariance;
-  CameraMask usable;  // per row: 0 where even the shortest exposure was saturated
+  hdr::ProjectedLight firstRound;  // the first of each flood, all summed: what moved later shows against it
+  CameraMask usable;               // per row: 0 where even the shortest exposure was saturated
   std::vector<float>
       strongest;         // F per row: the largest entry of the sum of all roots, not below the dimmest
   double flicker = 0.0;  // deviation of equal patterns' total light, relative, drift taken out

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "relucent/base/message.h"
 #include "relucent/base/random.h"
@@ -22,6 +23,8 @@ constexpr double darkShare = 0.2;     // of the light expected: less is no lamp'
 constexpr double localLimit = 0.25;   // of a pixel's own and the typical light: something is in the way
 constexpr double localShare = 0.003;  // of the camera pixels
 constexpr double sigmas = 6.0;
+constexpr double clearly = 4.0;        // squared difference in units of the noise's
+constexpr double movementLimit = 0.5;  // pixels: what alarms say that a camera may be off by
 
 struct Sum {
   double value = 0.0, variance = 0.0;
@@ -89,70 +92,145 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
                        "restore the light of the room, keep doors and curtains closed, then try again"));
 }
 
-/// One camera's view of the reference picture, at the first check and now, the lamp's power taken out.
+/// One camera's view of one picture, before and now, the lamp's power taken out.
 struct Views {
   image::Image before, after;
   double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
   std::size_t changed = 0;                       // pixels off by a share of their own light
 };
 
-Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, double power) {
-  const photography::References& references = baseline.references;
-  const Rasters& cameras = references.cameras;
-  const hdr::LampLight& first = baseline.first.light;
+/// The light of one picture at two times.
+struct Pictures {
+  const hdr::HdrFrame& first;
+  const hdr::HdrFrame& now;
+  const CameraMask& compared;  // rows
+  float typical;               // see References
+};
+
+/// The colours [begin, end), summed.
+struct Colours {
+  std::size_t begin = 0, end = 3;
+};
+
+Views viewsOf(const Rasters& cameras, std::size_t camera, const Pictures& pictures, double power,
+              const Colours& colours = {}) {
+  const auto& [first, now, compared, typical] = pictures;
   Size size = cameras.size(camera);
   Views views{image::Image(size, 1), image::Image(size, 1)};
   for (std::size_t i = 0; i < size.count(); ++i) {
     std::size_t row = cameras.offset(camera) + i;
-    if (!references.usable[row]) continue;
+    if (!compared[row]) continue;
     double was = 0.0, is = 0.0, variance = 0.0;
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = colours.begin; c < colours.end; ++c) {
       was += static_cast<double>(first.radiance[3 * row + c]);
-      is += static_cast<double>(now.light.radiance[3 * row + c]) / power;
-      variance += static_cast<double>(now.light.variance[3 * row + c] + first.variance[3 * row + c]);
+      is += static_cast<double>(now.radiance[3 * row + c]) / power;
+      variance += static_cast<double>(now.variance[3 * row + c] + first.variance[3 * row + c]);
     }
     views.before.data()[i] = static_cast<float>(was);
     views.after.data()[i] = static_cast<float>(is);
     views.apart += (is - was) * (is - was);
     views.whole += was * was;
     views.noise += variance;
-    double large = localLimit * std::max(was, static_cast<double>(references.typical));
+    double large = localLimit * std::max(was, static_cast<double>(typical));
     if (std::abs(is - was) > std::max(large, sigmas * std::sqrt(variance))) ++views.changed;
   }
   return views;
 }
 
+Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, double power) {
+  const photography::References& references = baseline.references;
+  return viewsOf(references.cameras, camera,
+                 {baseline.first.light, now.light, references.usable, references.typical}, power);
+}
+
+bool isLocal(const Views& views) {
+  return static_cast<double>(views.changed) > localShare * static_cast<double>(views.before.size().count());
+}
+
+Alarm movedAlarm(std::size_t camera, const Movement& movement, Message advice) {
+  return alarm(
+      AlarmKind::moved,
+      RELUCENT_MESSAGE("alarm.moved",
+                       "a camera or projector has moved: the view of camera {} is shifted by {}, {} "
+                       "pixels and turned by {} degrees")
+          .with(as::label(camera + 1), as::pixels(movement.x, as::decimals(1)),
+                as::pixels(movement.y, as::decimals(1)), as::degrees(movement.degrees, as::decimals(1))),
+      std::move(advice));
+}
+
+Alarm changedAlarm(std::size_t camera, const Views& views) {
+  const double share = static_cast<double>(views.changed) / static_cast<double>(views.before.size().count());
+  return alarm(
+      AlarmKind::localChange,
+      RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different from before")
+          .with(as::share(share, as::decimals(1)), as::label(camera + 1)),
+      RELUCENT_MESSAGE("alarm.clear-the-view",
+                       "take away what is in the light or in the view, then try again"));
+}
+
 std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, double power) {
   const Rasters& cameras = baseline.references.cameras;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    Size size = cameras.size(camera);
     Views views = viewsOf(camera, now, baseline, power);
     bool different = views.apart > reading_limit::view * reading_limit::view * views.whole &&
-                     views.apart > 4.0 * views.noise;
-    bool local = static_cast<double>(views.changed) > localShare * static_cast<double>(size.count());
-    if (!different && !local) continue;
+                     views.apart > clearly * views.noise;
+    if (!different && !isLocal(views)) continue;
 
     Movement movement = movementBetween(views.before, views.after);
     if (movement.explains)
-      return alarm(
-          AlarmKind::moved,
-          RELUCENT_MESSAGE("alarm.moved",
-                           "a camera or projector has moved: the view of camera {} is shifted by {}, {} "
-                           "pixels and turned by {} degrees")
-              .with(as::label(camera + 1), as::pixels(movement.x, as::decimals(1)),
-                    as::pixels(movement.y, as::decimals(1)), as::degrees(movement.degrees, as::decimals(1))),
+      return movedAlarm(
+          camera, movement,
           RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
-    if (local)
-      return alarm(
-          AlarmKind::localChange,
-          RELUCENT_MESSAGE("alarm.view-changed", "{} % of the view of camera {} look different from before")
-              .with(as::share(static_cast<double>(views.changed) / static_cast<double>(size.count()),
-                              as::decimals(1)),
-                    as::label(camera + 1)),
-          RELUCENT_MESSAGE("alarm.clear-the-view",
-                           "take away what is in the light or in the view, then try again"));
+    if (isLocal(views)) return changedAlarm(camera, views);
   }
   return std::nullopt;
+}
+
+/// Rows whose light neither picture saturates.
+CameraMask comparable(const hdr::HdrFrame& first, const hdr::HdrFrame& now, const CameraMask& usable) {
+  CameraMask rows = usable;
+  for (std::size_t i = 0; i < first.valid.size(); ++i)
+    if (!first.valid[i] || !now.valid[i]) rows[i / 3] = 0;
+  return rows;
+}
+
+/// One colour's light now, relative to before, in one camera's view.
+double colourPower(const Rasters& cameras, std::size_t camera, std::size_t colour, const Pictures& pictures) {
+  double was = 0.0, is = 0.0;
+  for (std::size_t i = 0; i < cameras.size(camera).count(); ++i) {
+    const std::size_t row = cameras.offset(camera) + i;
+    if (!pictures.compared[row]) continue;
+    was += static_cast<double>(pictures.first.radiance[3 * row + colour]);
+    is += static_cast<double>(pictures.now.radiance[3 * row + colour]);
+  }
+  return was > 0.0 && is > 0.0 ? is / was : 1.0;
+}
+
+/// The farthest that a movement takes a corner of the view.
+double reachOf(const Movement& movement, const Size& size) {
+  const double turn = std::abs(movement.degrees) * std::numbers::pi / 180.0;
+  return std::hypot(movement.x, movement.y) + 0.5 * turn * std::hypot(size.width, size.height);
+}
+
+/// One camera's view at full light.
+std::optional<Alarm> inspectFullLight(const Rasters& cameras, std::size_t camera, const Pictures& pictures) {
+  const Size size = cameras.size(camera);
+  Movement farthest;
+  std::optional<Alarm> changed;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double power = colourPower(cameras, camera, c, pictures);
+    const Views views = viewsOf(cameras, camera, pictures, power, {c, c + 1});
+    if (views.apart <= clearly * views.noise) continue;
+    const Movement movement = movementBetween(views.before, views.after);
+    const bool isFar = reachOf(movement, size) > movementLimit || isLocal(views);
+    if (movement.explains && isFar && reachOf(movement, size) > reachOf(farthest, size)) farthest = movement;
+    if (isLocal(views) && !changed) changed = changedAlarm(camera, views);
+  }
+  if (farthest.explains)
+    return movedAlarm(camera, farthest,
+                      RELUCENT_MESSAGE("alarm.leave-it-there",
+                                       "leave it where it is now, then try again: measuring begins again"));
+  return changed;
 }
 
 /// Light-weighted centres of what is lit in one colour of the reference picture, and of what is not.
@@ -239,6 +317,15 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
                  RELUCENT_MESSAGE(
                      "alarm.switch-off-eco-modes",
                      "switch off its automatic brightness and eco modes, let it warm up, then try again"));
+  return std::nullopt;
+}
+
+std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
+                                   const photography::References& references) {
+  const CameraMask compared = comparable(references.firstRound, white, references.usable);
+  const Pictures pictures{references.firstRound, white, compared, references.typical};
+  for (std::size_t camera = 0; camera < references.cameras.devices(); ++camera)
+    if (auto found = inspectFullLight(references.cameras, camera, pictures)) return found;
   return std::nullopt;
 }
 

@@ -48,4 +48,10 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,
                                         const photography::References& references, bool mayBeMirrored);
 
+/// Compares all projectors at full light with the first of their floods, colour by colour: what moved, or
+/// came into the view, since the first photograph. Each colour's brightness is taken out: lamps drift, and
+/// some projectors' white is brighter than their red, green and blue together.
+std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,
+                                   const photography::References& references);
+
 }  // namespace relucent::sentinels

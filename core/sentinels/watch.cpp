@@ -24,6 +24,10 @@ ProjectorStack black(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 0.0f);
 }
 
+ProjectorStack white(const Rasters& projectors) {
+  return ProjectorStack(3 * projectors.count(), 1.0f);
+}
+
 double deviation(const hdr::BlackLevel& a, const hdr::BlackLevel& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.radiance.size(); ++i) {
@@ -103,29 +107,49 @@ Interruptible<Check> Watch::photographCheck(const Progress& progress) {
   return Check{std::move(level), std::move(projected)};
 }
 
-std::optional<Interruption> Watch::inspectProjectors(const Progress& progress) {
-  for (std::size_t projector = 0; projector < references_.projectors.devices(); ++projector) {
-    ProjectorStack pattern = referencePattern(references_.projectors, projector);
-    hdr::ProjectedLight light(photographer_.takeAll(pattern, progress), black_);
-    std::optional<Alarm> alarm = inspectOrientation(light, projector, references_, settings_.mayBeMirrored);
-    if (!alarm) continue;
-    if (auto interrupted = handle(*alarm, 0)) return interrupted;
+std::optional<Interruption> Watch::inspectProjectors(const Check& check, const Progress& progress) {
+  const Rasters& projectors = references_.projectors;
+  // The only projector's reference picture is the check's.
+  if (projectors.devices() == 1) return inspectOrientation(check.light, 0);
+  for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
+    const ProjectorStack pattern = referencePattern(projectors, projector);
+    auto seen = photographed([&] { return photographer_.takeAll(pattern, progress); });
+    if (!seen) return seen.interruption();
+    const hdr::ProjectedLight light(*std::move(seen), check.black);
+    if (auto interrupted = inspectOrientation(light, projector)) return interrupted;
   }
   return std::nullopt;
 }
 
+std::optional<Interruption> Watch::inspectOrientation(const hdr::ProjectedLight& light,
+                                                      std::size_t projector) {
+  std::optional<Alarm> alarm =
+      sentinels::inspectOrientation(light, projector, references_, settings_.mayBeMirrored);
+  return alarm ? handle(*alarm, 0) : std::nullopt;
+}
+
+std::optional<Interruption> Watch::inspectReferences(const Check& check, const Progress& progress) {
+  const ProjectorStack pattern = white(references_.projectors);
+  auto seen = photographed([&] { return photographer_.takeAll(pattern, progress); });
+  if (!seen) return seen.interruption();
+  // Less the black just before: the room's light may have changed since the floods.
+  const hdr::ProjectedLight light(*std::move(seen), check.black);
+  std::optional<Alarm> alarm = inspectFloods(light, references_);
+  // What moved among the floods makes their sums differ too.
+  if (!alarm && references_.flicker > roundsLimit)
+    alarm = flickerAlarm(references_.flicker, safeBeforeTransport);
+  return alarm ? handle(*alarm, 0) : std::nullopt;
+}
+
 std::optional<Interruption> Watch::begin(const Progress& progress) {
   trusted_ = 0;
-  if (references_.flicker > roundsLimit) {
-    Alarm alarm = flickerAlarm(references_.flicker, safeBeforeTransport);
-    if (auto interrupted = handle(alarm, 0)) return interrupted;
-  }
-  if (auto interrupted = inspectProjectors(progress)) return interrupted;
   Interruptible<Check> check = photographCheck(progress);
   if (!check) return check.interruption();
+  if (auto interrupted = inspectProjectors(*check, progress)) return interrupted;
   first_ = {check->black, hdr::LampLight(check->light, 1.0)};
   last_ = beforeLast_ = {shots_.shots(), 1.0};
   if (auto interrupted = inspectCheck(*check, 1.0, 0)) return interrupted;
+  if (auto interrupted = inspectReferences(*check, progress)) return interrupted;
   follow(*check);
   trusted_ = shots_.shots();
   return std::nullopt;
@@ -167,15 +191,17 @@ std::optional<Interruption> Watch::handle(const Alarm& raised, int doubtful) {
   Alarm alarm = raised;
   alarm.first = doubtful;
   alarm.patterns = shot - doubtful;
-  std::map<int, Message>& accepted = supervision_.accepted;
-  if (accepted.contains(shot)) return std::nullopt;
+  if (doubtful == 0) alarm.safe = safeBeforeTransport;
+  auto& accepted = supervision_.accepted;
+  const std::pair asked{shot, alarm.kind};
+  if (accepted.contains(asked)) return std::nullopt;
   Answer answer = supervision_.handler ? supervision_.handler(alarm) : Answer::retry;
   if (answer == Answer::skip) {
-    accepted.emplace(shot, alarm.what);
+    accepted.emplace(asked, alarm.what);
     return std::nullopt;
   }
   shots_.forgetFrom(doubtful);
-  accepted.erase(accepted.upper_bound(doubtful), accepted.end());
+  accepted.erase(accepted.lower_bound({doubtful + 1, AlarmKind{}}), accepted.end());
   if (answer == Answer::keepAndStop) return Interruption::keepAndStop;
   if (!supervision_.handler)
     throw Error(ErrorKind::device, alarm.what,

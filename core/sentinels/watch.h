@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "relucent/base/message.h"
@@ -20,7 +21,8 @@ namespace relucent::sentinels {
 struct Supervision {
   AlarmHandler handler;
   AcquisitionObserver& observer;
-  std::map<int, Message> accepted{};  // what accepted alarms said, by the shot that they came before
+  // What accepted alarms said, by the shot that they came before.
+  std::map<std::pair<int, AlarmKind>, Message> accepted{};
   /// What was photographed again after an alarm.
   struct Again {
     Message what;
@@ -58,8 +60,8 @@ class Watch {
   /// Power of the lamp now, relative to the first check.
   double power() const;
 
-  /// The first look: which way round pictures appear, what the view is compared with later. Throws: as
-  /// check().
+  /// The first look: whether the view is still that of the floods, which way round pictures appear, what the
+  /// view is compared with later. Throws: as check().
   [[nodiscard]] std::optional<Interruption> begin(const Progress& progress);
   /// Nothing: the measurement goes on.  Throws: Error{device} if an alarm has nobody to handle it.
   [[nodiscard]] std::optional<Interruption> check(const Progress& progress);
@@ -94,7 +96,12 @@ class Watch {
   Interruptible<hdr::HdrFrame> photographed(const Photograph& photograph);
   Interruptible<hdr::LampLight> lightOf(const Photograph& photograph, const Progress& progress);
   Interruptible<Check> photographCheck(const Progress& progress);
-  std::optional<Interruption> inspectProjectors(const Progress& progress);
+  /// `check`: the first one.
+  std::optional<Interruption> inspectProjectors(const Check& check, const Progress& progress);
+  /// What the floods are worth. After the check, so that nothing goes unseen between the floods and what the
+  /// view is compared with later.
+  std::optional<Interruption> inspectReferences(const Check& check, const Progress& progress);
+  std::optional<Interruption> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector);
   /// Looks at a check, tells the observer, and handles what it found wrong with the shots from `doubtful` on.
   std::optional<Interruption> inspectCheck(const Check& now, double expectedPower, int doubtful);
   /// Asks what to do about an alarm of the shots from `doubtful` on. Nothing: it is accepted.

@@ -38,6 +38,14 @@ class TestSentinels : public QObject {
     QTest::newRow("flicker") << fault(FaultKind::flicker, 60, 0.1) << AlarmKind::flicker;
     QTest::newRow("ambient") << fault(FaultKind::ambient, 60, 0.05) << AlarmKind::ambientChanged;
     QTest::newRow("shifted camera") << fault(FaultKind::shiftedCamera, 60, 2.0) << AlarmKind::moved;
+    QTest::newRow("shifted camera among the floods")
+        << fault(FaultKind::shiftedCamera, 6, 2.0) << AlarmKind::moved;
+    QTest::newRow("shifted camera after the floods")
+        << fault(FaultKind::shiftedCamera, 12, 2.0) << AlarmKind::moved;
+    QTest::newRow("shifted camera amid the first look")
+        << fault(FaultKind::shiftedCamera, 14, 2.0) << AlarmKind::moved;
+    QTest::newRow("turned camera after the floods")
+        << fault(FaultKind::shiftedCamera, 12, 0.0, 4.0) << AlarmKind::moved;
     QTest::newRow("turned camera") << fault(FaultKind::shiftedCamera, 60, 0.0, 4.0) << AlarmKind::moved;
     QTest::newRow("mirrored screen") << fault(FaultKind::mirroredScreen, 0) << AlarmKind::mirroredScreen;
     QTest::newRow("covered lens") << fault(FaultKind::coveredLens, 60) << AlarmKind::coveredLens;
@@ -67,6 +75,37 @@ class TestSentinels : public QObject {
     QVERIFY(a.transport == venue_->sound().transport);
     QVERIFY(a.black == venue_->sound().black && a.flagged == venue_->sound().flagged);
     QCOMPARE(a.patterns, venue_->sound().patterns);
+  }
+
+  /// What is off before the first pattern of T need not go back: nothing has been measured yet that asks for
+  /// it. It says so, and that the light is sound.
+  void aBumpBeforeTheFirstLook_data() {
+    QTest::addColumn<int>("shot");
+    QTest::addColumn<double>("pixels");
+    for (int shot : {2, 5, 6, 9, 12, 13, 14})
+      for (double pixels : {1.0, 2.0, 5.0})
+        QTest::addRow("%g pixels before shot %d", pixels, shot) << shot << pixels;
+  }
+  void aBumpBeforeTheFirstLook() {
+    QFETCH(int, shot);
+    QFETCH(double, pixels);
+    venue_->faults->faults = {fault(FaultKind::shiftedCamera, shot, pixels)};
+    std::vector<Alarm> alarms;
+    NoShotLog log;
+    Acquisition a = venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
+          for (DeviceFault& bump : venue_->faults->faults) bump.first = 0;  // it is left there
+          return Answer::retry;
+        },
+        log);
+    QCOMPARE(alarms.size(), std::size_t{1});
+    QVERIFY2(alarms[0].kind == AlarmKind::moved, english(alarms[0].what).c_str());
+    QCOMPARE(alarms[0].first, 0);
+    QCOMPARE(alarms[0].patterns, 15);
+    QVERIFY(english(alarms[0].safe).find("before the light transport") != std::string::npos);
+    QVERIFY(english(alarms[0].advice).starts_with("leave it where it is now"));
+    QVERIFY(flaggedIn(a) <= flaggedIn(venue_->sound()) + 2);
   }
 
   /// With nobody to ask it stops; what is kept is safe, and running it again goes on from there.

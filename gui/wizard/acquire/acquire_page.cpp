@@ -178,7 +178,8 @@ void AcquirePage::updateCommands() {
   startNow_->show(tr("Start now"));
   stay_->show(tr("Not now"));
   next_->show(tr("Show threshold"), !isMeasuring());
-  pause_->show(tr("Pause"), !isStopping());
+  pause_->show(tr("Pause"), !isStopping() && !isAsking());
+  pause_->setToolTip(isAsking() ? tr("Waiting for your answer. Every photograph is saved.") : QString());
   resume_->show(tr("Resume"));
   keep_->show(tr("Stop and keep"), !isStopping());
   return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));

@@ -10,6 +10,7 @@
 
 #include "jobs/free_space.h"
 #include "output/window_projector.h"
+#include "relucent/calibration/patient_shot_log.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 
@@ -89,6 +90,13 @@ bool StatusStrip::isScreenThere() const {
 }
 
 /// Its size, and what it is; that it is not there where nobody waits for it, either.
+/// Amber where measuring pauses for want of room.
+void StatusStrip::showDisk(const QString& folder) {
+  const auto bytes = freeBytesAt(folder);
+  disk_->setWhole(tr("%1 free").arg(bytesText(bytes)));
+  setRole(disk_, static_cast<std::uint64_t>(bytes) < calibration::PatientShotLog::spare ? "amber" : "note");
+}
+
 QString StatusStrip::projectorText() const {
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
@@ -114,7 +122,7 @@ void StatusStrip::refresh() {
   if (!session_.isOpen()) {
     projector_->setWhole(tr("none chosen"));
     camera_->setWhole(tr("none chosen"));
-    disk_->setWhole(tr("%1 free").arg(bytesText(freeBytesAt(QDir::homePath()))));
+    showDisk(QDir::homePath());
     saved_->setWhole({});
     return;
   }
@@ -127,8 +135,7 @@ void StatusStrip::refresh() {
                     : session_.areDevicesFree() ? kind
                                                 : tr("%1, in use").arg(kind));
   setRole(camera_, session_.isCameraSilent() ? "amber" : "note");
-  const QString folder = QString::fromStdString(session_.path().string());
-  disk_->setWhole(tr("%1 free").arg(bytesText(freeBytesAt(folder))));
+  showDisk(QString::fromStdString(session_.path().string()));
   QString latest;
   for (calibration::Stage stage : allValues<calibration::Stage>())
     if (const auto& result = session_.result(stage))

@@ -25,6 +25,7 @@ class StatusStrip : public QFrame {
  private:
   void refresh();
   QString projectorText() const;
+  void showDisk(const QString& folder);
   bool isScreenThere() const;
   void showRoomLight();
   Session& session_;

@@ -198,7 +198,8 @@ PageCommand* OutputPage::primary() const {
     case OutputProof::Next::install:
       break;
   }
-  return install_;
+  // Once it is installed there is nothing left to do; again is for those who look for it.
+  return isInstalled() ? nullptr : install_;
 }
 
 /// What comes and goes stands first, so that the others keep their places.

@@ -309,12 +309,15 @@ class TestAcceptanceWalk : public QObject {
          seen.part(step(4)).more.startsWith("Paused") &&
          seen.part("hint").text == "Waiting for room on the disk. Nothing is being projected.");
     QVERIFY(amber("banner") > 0 && amber(step(4)) > 0);
+    TRY_SEEN(seen.part("strip-disk").role == "amber");
+    QVERIFY(amber("strip-disk") > 0);
     QTRY_VERIFY_WITH_TIMEOUT(isDark(), patience);
     const int paused = room_->photographs();
     SEEN(seen.dialog().isEmpty());
     disk_.makeRoom();
     TRY_SEEN(seen.part("banner-sentence").text.isEmpty() && seen.part(step(4)).more.startsWith("Measuring"));
     QTRY_VERIFY_WITH_TIMEOUT(room_->photographs() > paused + 2, patience);
+    TRY_SEEN(seen.part("strip-disk").role == "note");
   }
 
   /// Law: whatever was photographed before the program was killed is safe, and it says so.
@@ -402,6 +405,8 @@ class TestAcceptanceWalk : public QObject {
     TRY_DO(program_->click("primary"));
     TRY_SEEN(seen.part("hint").text.startsWith("Installed: the show starts at the next log-in."));
     QVERIFY(!installed().isEmpty());
+    // Done is done: doing it again is not what is offered first.
+    SEEN(seen.part("primary").text.isEmpty());
     TRY_DO(program_->clickText("Close output"));
     TRY_SEEN(seen.part(step(8)).spoken.endsWith("done") && seen.part(step(8)).more == "Show installed");
     QTRY_VERIFY_WITH_TIMEOUT(isDark(), patience);

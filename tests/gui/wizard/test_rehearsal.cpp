@@ -150,6 +150,8 @@ class TestRehearsal : public QObject {
       QVERIFY2(asked.failure.advice.contains("“" + answer->text() + "”"), qPrintable(asked.failure.advice));
     QVERIFY(asked.failure.advice.contains("try again") && asked.resume->text() == "Try again");
     QVERIFY(acquire_->isAsking() && acquire_->isHeldUp() && asked.reason != nullptr);
+    for (const PageCommand* command : acquire_->secondary())
+      QCOMPARE(command->isEnabled(), command->text() != "Pause");
     const std::optional<double> left = acquire_->secondsLeft();
     const int photographs = acquire_->photographs();
     QVERIFY(acquire_->banner() && acquire_->banner()->command);

@@ -79,13 +79,6 @@ ColourBlock scaledColumns(const ColourBlock& block, const Channels& factor) {
   return block * Eigen::Vector3f(factor[0], factor[1], factor[2]).asDiagonal();
 }
 
-Channels sumOf(const std::vector<NodeShare>& shares) {
-  Channels sum{};
-  for (const NodeShare& share : shares)
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += share.share[c];
-  return sum;
-}
-
 /// Mixings with which a row's shares have the row's sum:  own ownShares + shared groupShares = sum. That of
 /// the own leaves is changed, since there is most light, or the other one where they hardly have any.
 void keepSum(const ColourBlock& sum, const Channels& ownShares, const Channels& groupShares, ColourBlock& own,

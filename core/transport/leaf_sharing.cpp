@@ -53,13 +53,6 @@ void append(const std::vector<NodeShare>& leaves, ShareCodes& codes, SharedColou
   }
 }
 
-Channels sumOf(const std::vector<NodeShare>& leaves) {
-  Channels sum{};
-  for (const NodeShare& leaf : leaves)
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += leaf.share[c];
-  return sum;
-}
-
 /// The mixing of codes with the light of `shares` in `mixing`, unless hardly anything is left of them.
 ColourBlock mixingOfCodes(const ColourBlock& mixing, const Channels& shares, const Channels& codes,
                           const Channels& step) {
@@ -155,8 +148,10 @@ class Sharer {
         for (std::size_t c = 0; c < 3; ++c) codesOf.back()[c] += codesOf[group.parent][c];
     }
     for (std::size_t i = 0; i < light.size(); ++i) {
-      if (light[i].empty()) result.groupOf[i] = LightGroup::none;
-      if (light[i].empty()) continue;
+      if (light[i].empty()) {
+        result.groupOf[i] = LightGroup::none;
+        continue;
+      }
       const RowLight& of = light[i][projector];
       addNear(of.near, projector, rows[i]);
       Channels ofGroups = shared.groupOf[i] == LightGroup::none ? Channels{} : codesOf[shared.groupOf[i]];

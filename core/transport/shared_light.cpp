@@ -294,6 +294,13 @@ class Division {
 
 }  // namespace
 
+Channels sumOf(const std::vector<NodeShare>& shares) {
+  Channels sum{};
+  for (const NodeShare& share : shares)
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += share.share[c];
+  return sum;
+}
+
 std::size_t SharedLight::placeOf(int x, int y) {
   return static_cast<std::size_t>(spread(static_cast<std::uint32_t>(x)) |
                                   (spread(static_cast<std::uint32_t>(y)) << 1));

@@ -20,6 +20,8 @@ struct NodeShare {
   Channels share{};
 };
 
+Channels sumOf(const std::vector<NodeShare>& shares);
+
 /// Leaves that all camera pixels of a square block see alike, beside those of the wider block around it.
 struct LightGroup {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();

@@ -19,8 +19,8 @@ if(RELUCENT_SANITIZERS)
 endif()
 
 # Half of a build is reading the same headers again, so they are read once for all targets of a kind. Not where
-# ccache saves that anyway or warnings count: there a source that lacks an include is told so. Tried with GCC.
-if(CCACHE OR RELUCENT_WARNINGS_ARE_ERRORS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+# warnings count: there a source that lacks an include is told so. Tried with GCC.
+if(RELUCENT_WARNINGS_ARE_ERRORS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 

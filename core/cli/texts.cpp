@@ -111,11 +111,15 @@ std::string textOf(const pipeline::CompensateResult& result) {
 namespace {
 
 std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods) {
-  std::string text = fmt::format("\n{:<12} {:>14} {:>9} {:>7} {:>7} {:>9}\n", title, "reachable dB", "all dB",
-                                 "SSIM", "dE2000", "seconds");
+  std::string text =
+      fmt::format("\n{:<12} {:>14} {:>9} {:>10} {:>7} {:>8} {:>7} {:>9} {:>9}\n{:<12} {:>14} {:>9} {:>10}\n",
+                  title, "reachable dB", "all dB", "encoded dB", "SSIM", "MS-SSIM", "dE2000", "dE 95 %",
+                  "seconds", "", "linear", "linear", "all");
   for (const pipeline::MethodScore& score : methods)
-    text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>7.3f} {:>7.2f} {:>9.4f}\n", nameOf(score.method),
-                        score.psnrReachable, score.psnrAll, score.ssim, score.deltaE, score.seconds);
+    text +=
+        fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>10.2f} {:>7.3f} {:>8.3f} {:>7.2f} {:>9.2f} {:>9.4f}\n",
+                    nameOf(score.method), score.psnrReachable, score.psnrAll, score.encodedPsnrAll,
+                    score.ssim, score.multiScaleSsim, score.deltaE, score.deltaEPercentile, score.seconds);
   return text;
 }
 

@@ -53,6 +53,23 @@ Colour labOfEncoded(std::span<const float> pixel) {
   return labFromXyz(xyzFromLinearRgb({srgbDecode(pixel[0]), srgbDecode(pixel[1]), srgbDecode(pixel[2])}));
 }
 
+/// CIEDE2000 of the pixels that the mask selects, in their order.
+std::vector<double> differencesInside(const Image& encodedA, const Image& encodedB,
+                                      std::span<const std::uint8_t> mask) {
+  const std::size_t counted = detail::comparedPixels(encodedA, encodedB, mask);
+  require(encodedA.channels() == 3, "3 channels are needed, not {}", encodedA.channels());
+  std::vector<std::size_t> pixels;
+  pixels.reserve(counted);
+  for (std::size_t i = 0; i < encodedA.pixels(); ++i)
+    if (detail::inside(mask, i)) pixels.push_back(i);
+  std::vector<double> difference(pixels.size());
+  parallelFor(0, difference.size(), 1024, [&](std::size_t k) {
+    difference[k] =
+        ciede2000(labOfEncoded(encodedA.pixel(pixels[k])), labOfEncoded(encodedB.pixel(pixels[k])));
+  });
+  return difference;
+}
+
 }  // namespace
 
 double srgbEncode(double linear) {
@@ -152,17 +169,18 @@ Image viewed(const Image& linear, const std::array<float, 3>& white) {
   return result;
 }
 
-double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask) {
-  const std::size_t counted = detail::comparedPixels(encodedA, encodedB, mask);
-  require(encodedA.channels() == 3, "3 channels are needed, not {}", encodedA.channels());
-  std::vector<double> difference(encodedA.pixels());
-  parallelFor(0, difference.size(), 1024, [&](std::size_t i) {
-    if (detail::inside(mask, i))
-      difference[i] = ciede2000(labOfEncoded(encodedA.pixel(i)), labOfEncoded(encodedB.pixel(i)));
-  });
+ColourDifference colourDifference(const Image& encodedA, const Image& encodedB,
+                                  std::span<const std::uint8_t> mask) {
+  std::vector<double> differences = differencesInside(encodedA, encodedB, mask);
   double sum = 0.0;
-  for (double value : difference) sum += value;
-  return sum / static_cast<double>(counted);
+  for (double value : differences) sum += value;
+  const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(differences.size() - 1));
+  std::nth_element(differences.begin(), differences.begin() + rank, differences.end());
+  return {sum / static_cast<double>(differences.size()), differences[static_cast<std::size_t>(rank)]};
+}
+
+double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask) {
+  return colourDifference(encodedA, encodedB, mask).mean;
 }
 
 Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask) {

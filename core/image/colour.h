@@ -44,6 +44,15 @@ Image viewed(const Image& linear, const std::array<float, 3>& white);
 /// Throws: std::logic_error if shapes differ or no pixel is left.
 double meanDeltaE(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 
+/// CIEDE2000 between two sRGB-encoded images over the pixels where `mask` is not 0 (empty: all): the mean,
+/// and the value that 95 % of the pixels do not exceed.  Throws: as meanDeltaE().
+struct ColourDifference {
+  double mean = 0.0;
+  double percentile95 = 0.0;
+};
+ColourDifference colourDifference(const Image& encodedA, const Image& encodedB,
+                                  std::span<const std::uint8_t> mask = {});
+
 /// CIEDE2000 of every pixel of two sRGB-encoded images: one channel, NaN where `mask` is 0.
 /// Throws: std::logic_error if shapes differ.
 Image deltaEMap(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});

@@ -28,4 +28,11 @@ double psnr(const Image& a, const Image& b, const std::array<float, 3>& white,
 /// Source: Wang, Bovik, Sheikh & Simoncelli 2004.
 double ssim(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
 
+/// The same over several scales, each half as large as the one before, at most five:
+///   prod_k mean(cs_k)^(g_k / sum g),  at the coarsest scale with the term of luminance: mean(l cs),
+/// g = 0.0448, 0.2856, 0.3001, 0.2363, 0.1333; cs: contrast and structure, negative means count as 0. There
+/// are as many scales as hold a window. A pixel of a coarser scale is masked where one of its four is.
+/// Source: Wang, Simoncelli & Bovik 2003.
+double multiScaleSsim(const Image& encodedA, const Image& encodedB, std::span<const std::uint8_t> mask = {});
+
 }  // namespace relucent::image

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/evaluate.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "relucent/base/error.h"
@@ -115,12 +117,23 @@ class Judge {
 
     MethodScore result;
     result.method = method;
-    result.psnrReachable = psnr(is, wanted, target.white, mask);
     result.psnrAll = psnr(is, wanted, target.white, inside);
-    image::Image seenEncoded = image::viewed(is, target.white);
-    image::Image wantedEncoded = image::viewed(wanted, target.white);
+    const image::Image seenEncoded = image::viewed(is, target.white);
+    const image::Image wantedEncoded = image::viewed(wanted, target.white);
+    result.encodedPsnrAll = psnr(seenEncoded, wantedEncoded, 1.0, inside);
     result.ssim = ssim(seenEncoded, wantedEncoded, inside);
-    result.deltaE = meanDeltaE(seenEncoded, wantedEncoded, inside);
+    result.multiScaleSsim = multiScaleSsim(seenEncoded, wantedEncoded, inside);
+    const image::ColourDifference colour = colourDifference(seenEncoded, wantedEncoded, inside);
+    result.deltaE = colour.mean;
+    result.deltaEPercentile = colour.percentile95;
+    if (std::ranges::count(mask, 0) == std::ssize(mask)) {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      result.psnrReachable = result.encodedPsnrReachable = result.deltaEReachable = none;
+      return result;
+    }
+    result.psnrReachable = psnr(is, wanted, target.white, mask);
+    result.encodedPsnrReachable = psnr(seenEncoded, wantedEncoded, 1.0, mask);
+    result.deltaEReachable = meanDeltaE(seenEncoded, wantedEncoded, mask);
     return result;
   }
 
@@ -142,7 +155,7 @@ double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uin
 }
 
 std::vector<NamedImage> contentOf(const EvaluateSettings& settings) {
-  if (settings.images.empty()) return standardImages();
+  if (settings.images.empty()) return settings.fewImages ? standardImages() : judgedImages();
   std::vector<NamedImage> content;
   for (const fs::path& path : settings.images)
     content.push_back({path.stem().string(), image::readLinearContent(path)});

@@ -13,21 +13,28 @@
 namespace relucent::pipeline {
 
 struct EvaluateSettings {
-  std::vector<std::filesystem::path> images;  // none: the product's own test pictures
+  std::vector<std::filesystem::path> images;  // none: judgedImages()
+  bool fewImages = false;                     // without `images`: standardImages() alone
   std::vector<compensation::Method> methods;  // none: all of them
   compensation::TargetSettings target;
   compensation::CompensatorSettings compensator;
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
 
-/// How well one method did on one image, through the venue's true transport.
+/// How well one method did on one image, through the venue's true transport. Over all pixels that hold
+/// content, or over those of them that can be reached: NaN where there are none.
 struct MethodScore {
   compensation::Method method = compensation::Method::none;
   double psnrReachable = 0.0;  // dB, linear light, peak = the target's white
   double psnrAll = 0.0;
-  double ssim = 0.0;
-  double deltaE = 0.0;   // mean CIEDE2000
-  double seconds = 0.0;  // for one frame
+  double encodedPsnrReachable = 0.0;  // dB, of what viewed() gives
+  double encodedPsnrAll = 0.0;
+  double ssim = 0.0;  // all
+  double multiScaleSsim = 0.0;
+  double deltaEReachable = 0.0;   // mean CIEDE2000
+  double deltaE = 0.0;            // the same, of all
+  double deltaEPercentile = 0.0;  // what 95 % of all do not exceed
+  double seconds = 0.0;           // for one frame
 };
 
 /// What another camera sees of an image on the surface.

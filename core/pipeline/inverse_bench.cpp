@@ -76,6 +76,7 @@ double clusterQuality(const MeasuredCalibration& measured, inverse::ClusterSolve
                       inverse::ClusterColour colour, const std::filesystem::path& cache, Progress& progress) {
   const compensation::Method method = compensation::Method::clusters;
   EvaluateSettings settings;
+  settings.fewImages = true;
   settings.methods = {method};
   settings.compensator.clusterInverse.solver = solver;
   settings.compensator.clusterInverse.colour = colour;

@@ -29,8 +29,13 @@ calibration::Json methodsToJson(const std::vector<MethodScore>& scores) {
   for (const MethodScore& score : scores)
     methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
                                                   {"psnr_all", score.psnrAll},
+                                                  {"psnr_encoded_reachable", score.encodedPsnrReachable},
+                                                  {"psnr_encoded_all", score.encodedPsnrAll},
                                                   {"ssim", score.ssim},
+                                                  {"ms_ssim", score.multiScaleSsim},
                                                   {"delta_e", score.deltaE},
+                                                  {"delta_e_reachable", score.deltaEReachable},
+                                                  {"delta_e_p95", score.deltaEPercentile},
                                                   {"seconds", score.seconds}};
   return methods;
 }

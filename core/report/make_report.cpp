@@ -192,6 +192,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {
     pipeline::EvaluateSettings evaluation;
     evaluation.images = settings.images;
+    evaluation.fewImages = true;  // whose pictures are on the page
     pipeline::Evaluation judged = pipeline::evaluated(measured, evaluation, cache, comparing);
     for (const pipeline::EvaluatedPictures& pictures : judged.pictures)
       data.comparisons.push_back(comparisonOf(pictures));

@@ -111,19 +111,25 @@ Data comparison(const ReportComparison& shown) {
   return section;
 }
 
-/// Means over all images, in the order of the first.
+/// Means over all images, in the order of the first; over those of which anything can be reached, where that
+/// counts.
 std::vector<pipeline::MethodScore> meanScores(const pipeline::EvaluateResult& evaluation) {
   std::vector<pipeline::MethodScore> means;
+  const auto reached =
+      std::ranges::count_if(evaluation.images, [](const auto& image) { return image.reachable > 0.0; });
   for (const pipeline::ImageScore& image : evaluation.images)
     for (const pipeline::MethodScore& score : image.methods) {
       auto mean =
           std::find_if(means.begin(), means.end(), [&](const auto& m) { return m.method == score.method; });
       if (mean == means.end()) mean = means.insert(means.end(), pipeline::MethodScore{score.method});
       auto share = 1.0 / static_cast<double>(evaluation.images.size());
-      mean->psnrReachable += share * score.psnrReachable;
+      if (image.reachable > 0.0) mean->psnrReachable += score.psnrReachable / static_cast<double>(reached);
       mean->psnrAll += share * score.psnrAll;
+      mean->encodedPsnrAll += share * score.encodedPsnrAll;
       mean->ssim += share * score.ssim;
+      mean->multiScaleSsim += share * score.multiScaleSsim;
       mean->deltaE += share * score.deltaE;
+      mean->deltaEPercentile += share * score.deltaEPercentile;
       mean->seconds += share * score.seconds;
     }
   return means;
@@ -144,8 +150,11 @@ Data methods(const pipeline::EvaluateResult& evaluation) {
     row.set("method", std::string(nameOf(score.method)));
     row.set("psnrReachable", decibels(score.psnrReachable));
     row.set("psnrAll", decibels(score.psnrAll));
+    row.set("encodedPsnr", decibels(score.encodedPsnrAll));
     row.set("ssim", fmt::format("{:.3f}", score.ssim));
+    row.set("multiScaleSsim", fmt::format("{:.3f}", score.multiScaleSsim));
     row.set("deltaE", fmt::format("{:.1f}", score.deltaE));
+    row.set("deltaEPercentile", fmt::format("{:.1f}", score.deltaEPercentile));
     row.set("time", duration(score.seconds));
     row.set("description", std::string(descriptionOf(score.method)));
     rows << row;

@@ -140,6 +140,22 @@ class TestColour : public QObject {
     QVERIFY_THROWS_EXCEPTION(std::logic_error, meanDeltaE(a, b, none));
     QVERIFY_THROWS_EXCEPTION(std::logic_error, meanDeltaE(a, Image({1, 2}, 3)));
   }
+
+  void percentileIsWhatFewExceed() {
+    // Of twenty pixels one may be worse than what 95 % do not exceed, two may not.
+    Image a({20, 1}, 3, 0.5f), one = a;
+    one.at(3, 0, 0) = 0.7f;
+    Image two = one;
+    two.at(11, 0, 0) = 0.6f;
+    QCOMPARE(colourDifference(a, one).mean, meanDeltaE(a, one));
+    QCOMPARE(colourDifference(a, one).percentile95, 0.0);
+    const double lesser = colourDifference(a, two).percentile95;
+    QVERIFY(lesser > 0.0 && lesser < 20.0 * colourDifference(a, one).mean);
+    std::vector<std::uint8_t> only(20);
+    only[3] = 1;
+    QCOMPARE(colourDifference(a, two, only).percentile95, colourDifference(a, two, only).mean);
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, colourDifference(a, two, std::vector<std::uint8_t>(20)));
+  }
 };
 
 QTEST_APPLESS_MAIN(TestColour)

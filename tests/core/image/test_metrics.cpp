@@ -132,10 +132,66 @@ class TestMetrics : public QObject {
     }
   }
 
+  void multiScaleSsimIsOneForEqualAndSymmetric() {
+    const Image a = noise({100, 90}, 1), b = noise({100, 90}, 2);
+    QVERIFY(std::abs(multiScaleSsim(a, a) - 1.0) < 1e-12);
+    QCOMPARE(multiScaleSsim(a, b), multiScaleSsim(b, a));
+    QVERIFY(multiScaleSsim(a, b) >= 0.0);
+  }
+
+  void multiScaleSsimHasAsManyScalesAsHoldAWindow_data() {
+    QTest::addColumn<int>("side");
+    QTest::addColumn<double>("luminanceShare");  // the coarsest scale's exponent, of all that count
+    QTest::newRow("one") << 21 << 1.0;
+    QTest::newRow("two") << 22 << 0.2856 / 0.3304;
+    QTest::newRow("three") << 44 << 0.3001 / 0.6305;
+    QTest::newRow("five") << 176 << 0.1333 / 1.0001;
+    QTest::newRow("no more than five") << 400 << 0.1333 / 1.0001;
+  }
+  void multiScaleSsimHasAsManyScalesAsHoldAWindow() {
+    QFETCH(int, side);
+    QFETCH(double, luminanceShare);
+    // Flat images have the same structure; what is left is the term of luminance, at the coarsest scale.
+    const Image a({side, side}, 3, 0.25f), b({side, side}, 3, 0.5f);
+    QVERIFY(std::abs(multiScaleSsim(a, b) - std::pow(ssim(a, b), luminanceShare)) < 1e-9);
+    QVERIFY(std::abs(multiScaleSsim(noise({side, side}, 3), noise({side, side}, 3)) - 1.0) < 1e-12);
+  }
+
+  void multiScaleSsimOfOneScaleIsSsim() {
+    const Image a = noise({21, 15}, 3), b = noise({21, 15}, 4);
+    QVERIFY(std::abs(multiScaleSsim(a, b) - std::max(0.0, ssim(a, b))) < 1e-12);
+  }
+
+  void multiScaleSsimForgivesFineNoiseMoreThanCoarse() {
+    const Image a = noise({96, 96}, 5);
+    Image fine = a, coarse = a;
+    for (int y = 0; y < 96; ++y)
+      for (int x = 0; x < 96; ++x)
+        for (int c = 0; c < 3; ++c) {
+          fine.at(x, y, c) += (x + y) % 2 == 0 ? 0.1f : -0.1f;
+          coarse.at(x, y, c) += (x / 8 + y / 8) % 2 == 0 ? 0.1f : -0.1f;
+        }
+    QVERIFY(multiScaleSsim(a, fine) > multiScaleSsim(a, coarse));
+  }
+
+  void multiScaleSsimSeesWhatTheMaskSelects() {
+    const Image a = noise({64, 64}, 6);
+    Image b = a;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 40; x < 64; ++x)
+        for (int c = 0; c < 3; ++c) b.at(x, y, c) = 0.0f;
+    std::vector<std::uint8_t> mask(a.pixels());
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 20; ++x) mask[indexOf(a.size(), {x, y})] = 1;
+    QVERIFY(std::abs(multiScaleSsim(a, b, mask) - 1.0) < 1e-12);
+    QVERIFY(multiScaleSsim(a, b) < 0.99);
+  }
+
   void ssimTakesImagesSmallerThanItsWindow() {
     const Image a = noise({4, 1}, 8);
     QVERIFY(std::abs(ssim(a, a) - 1.0) < 1e-12);
     QVERIFY(std::isfinite(ssim(a, noise({4, 1}, 9))));
+    QVERIFY(std::abs(multiScaleSsim(a, a) - 1.0) < 1e-12);
   }
 };
 

@@ -70,14 +70,17 @@ class TestJson : public QObject {
 
   void evaluateDocument() {
     EvaluateResult result{"corner", {256, 192}, {160, 120}, 0.9, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {}};
-    result.images = {{"hills", 0.8, {{Method::none, 14.0, 13.0, 0.4, 18.0, 0.001}}}};
+    result.images = {
+        {"hills", 0.8, {{Method::none, 14.0, 13.0, 12.0, 11.0, 0.4, 0.5, 17.0, 18.0, 19.0, 0.001}}}};
     QCOMPARE(
         toJson(result).dump(),
         std::string(
             R"({"venue":"corner","projector":[256,192],"camera":[160,120],"reachable":0.9,)"
             R"("transport":{"frobenius":0.1,"row_median":0.2,"row_p95":0.3,"relight_natural":0.4,)"
             R"("relight_random":0.5,"energy":0.6},"images":[{"name":"hills","reachable":0.8,"methods":{"none":)"
-            R"({"psnr_reachable":14.0,"psnr_all":13.0,"ssim":0.4,"delta_e":18.0,"seconds":0.001}}}]})"));
+            R"({"psnr_reachable":14.0,"psnr_all":13.0,"psnr_encoded_reachable":12.0,"psnr_encoded_all":11.0,)"
+            R"("ssim":0.4,"ms_ssim":0.5,"delta_e":18.0,"delta_e_reachable":17.0,"delta_e_p95":19.0,)"
+            R"("seconds":0.001}}}]})"));
   }
 
   void compensateDocument() {

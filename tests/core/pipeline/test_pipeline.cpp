@@ -277,14 +277,22 @@ class TestPipeline : public QObject {
     EvaluateSettings settings;
     Progress silent;
     EvaluateResult result = evaluate(root() / "plain", settings, cache(), silent);
-    QCOMPARE(result.images.size(), std::size_t{3});
+    QCOMPARE(result.images.size(), std::size_t{6});
+    for (const ImageScore& image : result.images)
+      for (const MethodScore& score : image.methods) {
+        QVERIFY(score.ssim <= 1.0 && score.multiScaleSsim <= 1.0 && score.multiScaleSsim > 0.0);
+        QVERIFY(score.deltaEPercentile >= score.deltaE || score.deltaEPercentile > 0.0);
+        QVERIFY(std::isfinite(score.encodedPsnrAll) && std::isfinite(score.psnrAll));
+        QCOMPARE(std::isfinite(score.encodedPsnrReachable), image.reachable > 0.0);
+        QCOMPARE(std::isfinite(score.deltaEReachable), image.reachable > 0.0);
+      }
     // A flat textured wall is what per-pixel methods are made for: knowing more must not do worse there, up
     // to the noise of a measured T.
     auto mean = [&](Method method) {
       double sum = 0.0;
       for (const ImageScore& image : result.images)
         for (const MethodScore& score : image.methods)
-          if (score.method == method) sum += score.psnrReachable;
+          if (score.method == method) sum += score.encodedPsnrAll;
       return sum / static_cast<double>(result.images.size());
     };
     QVERIFY2(mean(Method::mix) > mean(Method::none),

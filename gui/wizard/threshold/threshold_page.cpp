@@ -209,8 +209,9 @@ void ThresholdPage::take(const Choice& choice) {
 void ThresholdPage::suggest(const transport::TransportStatistics& whole) {
   const double most = transport::cutKeeping(whole.histogram, suggestedShare),
                noise = adopted_ ? transport::noiseCut(*adopted_) : 0.0;
-  noiseSuggested_ = noise > 0.0 && noise <= most;
-  suggested_ = noiseSuggested_ ? noise : most;
+  noise_.reset();
+  if (noise > 0.0) noise_ = {noise, transport::estimatedAfterCut(whole, noise).energyKept};
+  suggested_ = noise > most ? 0.0 : noise > 0.0 ? noise : most;
 }
 
 std::optional<double> ThresholdPage::pickedLight() const {

@@ -223,7 +223,8 @@ int main(int argc, char** argv) {
   until([&] { return wizard.page<ThresholdPage>().kept() && wizard.page<ThresholdPage>().whole(); });
   wizard.page<ThresholdPage>().pick({82, 70});
   until([&] { return wizard.page<ThresholdPage>().footprint() != nullptr; });
-  wizard.page<ThresholdPage>().useSuggested();
+  wizard.page<ThresholdPage>().setAbsolute(
+      transport::cutKeeping(wizard.page<ThresholdPage>().whole()->histogram, 0.98));
   QTest::qWait(300);
   photographs.take("05-threshold");
   auto* matrix = wizard.window().findChild<PlaneView*>("matrix-view");

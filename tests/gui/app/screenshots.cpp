@@ -163,7 +163,8 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
         if (acquire.isMeasuring() && !acquire.isStopping() && acquire.trace().growth().levels.size() > 2)
           acquire.stopAndKeep();
       });
-  acquire.primary()->trigger();
+  // On a busy machine the one before may have ended by itself.
+  (acquire.isDone() ? acquire.secondary().front() : acquire.primary())->trigger();
   until([&] { return !acquire.isMeasuring(); });
   QObject::disconnect(stopping);
   photographs.take("04-stopped");

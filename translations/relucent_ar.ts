@@ -3597,6 +3597,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>الناقص: ⁨%1⁩. الكاميرا المحاكاة تبقى في موضعها: تابع، وما لا تراه يبقى كما هو.</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>تعريضات القياس</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

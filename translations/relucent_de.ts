@@ -3505,6 +3505,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Es fehlt: %1. Eine simulierte Kamera bleibt, wo sie steht: Machen Sie weiter, was sie nicht sieht, bleibt, wie es ist.</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Belichtungen wie gemessen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

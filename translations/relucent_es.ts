@@ -3505,6 +3505,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Falta: %1. Una cámara simulada se queda donde está: siga, lo que no ve queda como está.</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Exposiciones de la medición</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

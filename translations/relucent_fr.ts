@@ -3505,6 +3505,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Manque : %1. Une caméra simulée reste où elle est : continuez, ce qu’elle ne voit pas reste tel quel.</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Poses de la mesure</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>
@@ -5857,7 +5861,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
-        <translation>Au triple du bruit, %1, il ne resterait que %2 de la lumière : beaucoup de lumière faible s’additionne. Conseil : tout garder.</translation>
+        <translation>Au triple du bruit, %1, il ne resterait que %2 de la lumière&#x202f;: beaucoup de lumière faible s’additionne. Conseil&#x202f;: tout garder.</translation>
     </message>
     <message>
         <source>Keep everything</source>

@@ -3505,6 +3505,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Manca: %1. Una fotocamera simulata resta dov’è: proseguire, ciò che non vede resta com’è.</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Esposizioni della misura</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

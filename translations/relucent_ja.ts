@@ -3482,6 +3482,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>見えていない部分：%1。シミュレーションのカメラは動かせません。このまま進んでください。見えない部分はそのまま残ります。</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>測定時の露出</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

@@ -3482,6 +3482,10 @@
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>缺少：%1。模拟相机的位置不变：请继续，它看不到的部分保持原样。</translation>
     </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>按测量时的曝光</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::ClusterPage</name>

@@ -90,8 +90,11 @@ QWidget* stageOf(ThresholdPage& model) {
   column->setSpacing(space::gap);
   auto* row = new QHBoxLayout;
   row->setSpacing(space::gap);
+  constexpr int leastPicture = 250,
+                leastHistogram = 190;  // of their cards; where that is too much, it scrolls
   row->addWidget(deviceCard(model), 10);
   row->addWidget(matrixCard(model), 11);
+  for (int i : {0, 1}) row->itemAt(i)->widget()->setMinimumHeight(leastPicture);
   column->addLayout(row, 5);
   auto* card = new Card(ThresholdPage::tr("How much light flows through each connection"));
   card->setSubtitle(ThresholdPage::tr("drag the cut, or use the arrow keys"));
@@ -99,6 +102,7 @@ QWidget* stageOf(ThresholdPage& model) {
   histogram->setObjectName("cut-histogram");
   histogram->setAccessibleName(ThresholdPage::tr("Cut"));
   card->body()->addWidget(histogram, 1);
+  card->setMinimumHeight(leastHistogram);
   column->addWidget(card, 4);
   QObject::connect(histogram, &CutHistogram::cutMoved, &model, &ThresholdPage::setAbsolute);
   auto refresh = [&model, histogram] {

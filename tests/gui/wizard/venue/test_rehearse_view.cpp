@@ -9,6 +9,7 @@
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
+#include "wizard/venue/venue_view.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -31,10 +32,16 @@ class TestRehearseView : public QObject {
     QFETCH(int, across);
     SimulatedSession own;
     VenuePage page(own.session, RecentVenues(own.settings));
-    const std::unique_ptr<QScrollArea> scroll(stageScroll(rehearseStage(page)));
+    page.setMode(VenuePage::Mode::rehearse);
+    // Beside the page's other stages, which may be wider.
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> inspector(view.inspector);
+    const std::unique_ptr<QScrollArea> scroll(stageScroll(view.stage));
     scroll->resize(width, 560);
     scroll->show();
-    const QList<Tile*> tiles = scroll->findChildren<Tile*>();
+    QList<Tile*> tiles;
+    for (const RehearsalVenue& venue : page.venues())
+      tiles << scroll->findChild<Tile*>("venue-" + QString::fromStdString(venue.id));
     QCOMPARE(static_cast<std::size_t>(tiles.size()), page.venues().size());
     const auto columns = [&tiles] {
       std::set<int> lefts;

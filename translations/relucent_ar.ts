@@ -291,6 +291,22 @@
         <source>Go on at Acquire</source>
         <translation>المتابعة في «القياس»</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>ما قيس لا يتوافق بعضه مع بعض</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>المتوقع للصور المصحَّحة ⁨%1⁩: ليس ذلك أفضل من دون تصحيح. قِس من جديد.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>⁨%1 dB⁩</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>إلى «القياس»</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -372,6 +388,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>⁨{} %⁩ من بكسلات الكاميرا ترى في أنماط الاختبار غير المتوقَّع: تحقق من أن شيئًا لم يتحرك أو يرتعش؛ تُستثنى هذه البكسلات من التعويض</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>ما قيس لا يتوافق بعضه مع بعض: المتوقع للصور المصحَّحة ⁨{} dB⁩، أي ليس أفضل من دون تصحيح؛ تأكد من ثبات جهاز العرض والكاميرا والسطح ومن عدم تغيّر أي ضوء آخر، ثم قِس من جديد</translation>
     </message>
 </context>
 <context>
@@ -3054,6 +3077,14 @@
             <numerusform>قراءة %n لقطة محفوظة: ⁨%1⁩.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>المتوقع ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>للقياس من جديد أكّد أن القاعة خالية.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3565,6 +3596,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>الناقص: ⁨%1⁩. الكاميرا المحاكاة تبقى في موضعها: تابع، وما لا تراه يبقى كما هو.</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>تعريضات القياس</translation>
     </message>
 </context>
 <context>
@@ -5508,6 +5543,18 @@ projector %2</source>
         <source>recommended</source>
         <translation>موصى بها</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>مقارنة</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>إخفاء</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>يبلغ هذا المحتوى ⁨%1⁩. وكان «القياس» يتوقّع ⁨%2⁩ في متوسط ثلاث صور أخرى بالطريقة الموصى بها.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5709,6 +5756,10 @@ projector %2</source>
     <message>
         <source>under way</source>
         <translation>قيد التنفيذ</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>مشكوك فيه</translation>
     </message>
 </context>
 <context>
@@ -5943,6 +5994,14 @@ projector %2</source>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>«⁨%1⁩» ليس حد قطع: اكتب عددًا لا يقل عن 0. ما زال حد القطع ⁨%2⁩.</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>عند ثلاثة أمثال الضجيج، ⁨%1⁩، لن يبقى إلا ⁨%2⁩ من الضوء: فالضوء الضعيف الكثير يتراكم. المقترح: الاحتفاظ بكل شيء.</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>الاحتفاظ بكل شيء</translation>
     </message>
 </context>
 <context>

@@ -283,6 +283,22 @@
         <source>Go on at Acquire</source>
         <translation>Weiter bei „Erfassen“</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>Das Gemessene passt nicht zusammen</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>Korrigierte Bilder lassen %1 erwarten: Das ist nicht besser als unkorrigiert. Messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>Zu „Erfassen“</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -364,6 +380,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{} % der Kamerapixel sehen in den Testmustern etwas anderes als vorhergesagt: Prüfen Sie, dass sich nichts bewegt und nichts geflackert hat; diese Pixel bleiben bei der Kompensation außer Acht</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>Das Gemessene passt nicht zusammen: Korrigierte Bilder lassen {} dB erwarten, nicht besser als unkorrigierte; sorgen Sie dafür, dass Projektor, Kamera und Oberfläche stillstehen und kein anderes Licht sich ändert, und messen Sie dann neu</translation>
     </message>
 </context>
 <context>
@@ -2966,6 +2989,14 @@
             <numerusform>Liest die %n vorhandenen Fotos: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>%1 zu erwarten</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Um neu zu messen, bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3473,6 +3504,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Es fehlt: %1. Eine simulierte Kamera bleibt, wo sie steht: Machen Sie weiter, was sie nicht sieht, bleibt, wie es ist.</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Belichtungen wie gemessen</translation>
     </message>
 </context>
 <context>
@@ -5380,6 +5415,18 @@ Projektor %2</translation>
         <source>recommended</source>
         <translation>empfohlen</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>Vergleichen</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Ausblenden</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>Dieser Inhalt erreicht %1. „Erfassen“ erwartete %2, im Mittel von drei anderen Bildern, mit der empfohlenen Methode.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5577,6 +5624,10 @@ Projektor %2</translation>
     <message>
         <source>under way</source>
         <translation>läuft</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>zweifelhaft</translation>
     </message>
 </context>
 <context>
@@ -5807,6 +5858,14 @@ Projektor %2</translation>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>„%1“ ist kein Schnitt: Geben Sie eine Zahl ab 0 ein. Der Schnitt liegt weiter bei %2.</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>Beim Dreifachen des Rauschens, %1, blieben nur %2 des Lichts: Viel schwaches Licht summiert sich. Vorschlag: alles behalten.</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>Alles behalten</translation>
     </message>
 </context>
 <context>

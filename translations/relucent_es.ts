@@ -283,6 +283,22 @@
         <source>Go on at Acquire</source>
         <translation>Continuar en «Adquisición»</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>Lo medido no concuerda</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>De las imágenes corregidas se esperan %1: no es mejor que sin corregir. Mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>Ir a «Adquisición»</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -364,6 +380,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>el {} % de los píxeles de la cámara ve algo distinto de lo previsto en los patrones de prueba: compruebe que nada se movió ni parpadeó; estos píxeles quedan fuera de la compensación</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>Lo medido no concuerda: de las imágenes corregidas se esperan {} dB, no mejor que sin corregir; compruebe que el proyector, la cámara y la superficie no se muevan y que no cambie ninguna otra luz, y mida de nuevo</translation>
     </message>
 </context>
 <context>
@@ -2966,6 +2989,14 @@
             <numerusform>Leyendo las %n fotografías guardadas: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>se esperan %1</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Para medir de nuevo, confirme que la sala está despejada.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3473,6 +3504,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Falta: %1. Una cámara simulada se queda donde está: siga, lo que no ve queda como está.</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Exposiciones de la medición</translation>
     </message>
 </context>
 <context>
@@ -5380,6 +5415,18 @@ proyector %2</translation>
         <source>recommended</source>
         <translation>recomendado</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>Comparar</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Ocultar</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>Este contenido alcanza %1. «Adquisición» esperaba %2 de media en otras tres imágenes, con el método recomendado.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5577,6 +5624,10 @@ proyector %2</translation>
     <message>
         <source>under way</source>
         <translation>en curso</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>dudoso</translation>
     </message>
 </context>
 <context>
@@ -5807,6 +5858,14 @@ proyector %2</translation>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>«%1» no es un corte: escriba un número, 0 o más. El corte sigue en %2.</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>Con el triple del ruido, %1, solo quedaría el %2 de la luz: mucha luz débil se suma. Sugerencia: conservarlo todo.</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>Conservar todo</translation>
     </message>
 </context>
 <context>

@@ -283,6 +283,22 @@
         <source>Go on at Acquire</source>
         <translation>Continuer à « Acquisition »</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>Les mesures ne concordent pas</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>Les images corrigées devraient atteindre %1&#x202f;: pas mieux que sans correction. Mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>Aller à « Acquisition »</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -364,6 +380,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{}&#x202f;% des pixels de la caméra voient autre chose que prévu dans les motifs de test&#x202f;: vérifiez que rien n’a bougé ni scintillé&#x202f;; ces pixels sont exclus de la compensation</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>Les mesures ne concordent pas&#x202f;: les images corrigées devraient atteindre {} dB, pas mieux que sans correction&#x202f;; veillez à ce que projecteur, caméra et surface restent immobiles et qu&apos;aucune autre lumière ne change, puis mesurez à nouveau</translation>
     </message>
 </context>
 <context>
@@ -2966,6 +2989,14 @@
             <numerusform>Lecture des %n photos gardées : %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>%1 attendus</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Pour mesurer à nouveau, confirmez que la salle est évacuée.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3473,6 +3504,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Manque : %1. Une caméra simulée reste où elle est : continuez, ce qu’elle ne voit pas reste tel quel.</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Poses de la mesure</translation>
     </message>
 </context>
 <context>
@@ -5380,6 +5415,18 @@ projecteur %2</translation>
         <source>recommended</source>
         <translation>recommandée</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>Comparer</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Masquer</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>Ce contenu atteint %1. « Acquisition » prévoyait %2 en moyenne sur trois autres images, avec la méthode recommandée.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5577,6 +5624,10 @@ projecteur %2</translation>
     <message>
         <source>under way</source>
         <translation>en cours</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>douteux</translation>
     </message>
 </context>
 <context>
@@ -5807,6 +5858,14 @@ projecteur %2</translation>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>« %1 » n’est pas un seuil : tapez un nombre, 0 ou plus. Le seuil reste %2.</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>Au triple du bruit, %1, il ne resterait que %2 de la lumière&#x202f;: beaucoup de lumière faible s’additionne. Conseil&#x202f;: tout garder.</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>Tout garder</translation>
     </message>
 </context>
 <context>

@@ -283,6 +283,22 @@
         <source>Go on at Acquire</source>
         <translation>Continua in «Acquisizione»</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>Le misure non concordano</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>Per le immagini corrette si prevedono %1: non meglio che senza correzione. Misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>Vai a «Acquisizione»</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -364,6 +380,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>il {} % dei pixel della fotocamera vede qualcosa di diverso dal previsto nei pattern di prova: controllare che nulla si sia mosso o abbia sfarfallato; questi pixel sono esclusi dalla compensazione</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>Le misure non concordano: per le immagini corrette si prevedono {} dB, non meglio che senza correzione; verificare che proiettore, fotocamera e superficie stiano fermi e che nessun&apos;altra luce cambi, poi misurare di nuovo</translation>
     </message>
 </context>
 <context>
@@ -2966,6 +2989,14 @@
             <numerusform>Lettura delle %n foto conservate: %1.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>%1 previsti</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Per misurare di nuovo, confermare che la sala è sgombra.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3473,6 +3504,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>Manca: %1. Una fotocamera simulata resta dov’è: proseguire, ciò che non vede resta com’è.</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>Esposizioni della misura</translation>
     </message>
 </context>
 <context>
@@ -5380,6 +5415,18 @@ proiettore %2</translation>
         <source>recommended</source>
         <translation>consigliato</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>Confronta</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Nascondi</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>Questo contenuto raggiunge %1. «Acquisizione» prevedeva %2 in media su altre tre immagini, con il metodo consigliato.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5577,6 +5624,10 @@ proiettore %2</translation>
     <message>
         <source>under way</source>
         <translation>in corso</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>dubbio</translation>
     </message>
 </context>
 <context>
@@ -5807,6 +5858,14 @@ proiettore %2</translation>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>«%1» non è un taglio: scrivere un numero da 0 in su. Il taglio è ancora %2.</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>Al triplo del rumore, %1, resterebbe solo %2 della luce: molta luce debole si somma. Suggerimento: conservare tutto.</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>Conserva tutto</translation>
     </message>
 </context>
 <context>

@@ -281,6 +281,22 @@
         <source>Go on at Acquire</source>
         <translation>「光輸送測定」で続ける</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>測定結果がかみ合っていません</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>補正した映像の見込みは %1 で、補正しない場合と変わりません。測定し直してください。</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>「光輸送測定」へ</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -362,6 +378,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>カメラ画素の {} % がテストパターンで予測と異なるものを見ています：何も動いたりちらついたりしていないか確認してください。これらの画素は補償の対象外です</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>測定結果がかみ合っていません。補正した映像の見込みは {} dB で、補正しない場合と変わりません。プロジェクター、カメラ、投影面が動かず、ほかの光も変わらないことを確かめてから、測定し直してください</translation>
     </message>
 </context>
 <context>
@@ -2944,6 +2967,14 @@
             <numerusform>保存済みの写真 %n 枚を読み込み中：%1</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>見込み %1</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>測定し直すには、退避が完了したことを確認してください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3450,6 +3481,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>見えていない部分：%1。シミュレーションのカメラは動かせません。このまま進んでください。見えない部分はそのまま残ります。</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>測定時の露出</translation>
     </message>
 </context>
 <context>
@@ -5348,6 +5383,18 @@ projector %2</source>
         <source>recommended</source>
         <translation>推奨</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>比較</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>隠す</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>このコンテンツは %1 です。「光輸送測定」での見込みは、別の 3 枚の画像の平均で %2（推奨の方法）でした。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5544,6 +5591,10 @@ projector %2</source>
     <message>
         <source>under way</source>
         <translation>実行中</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>要確認</translation>
     </message>
 </context>
 <context>
@@ -5773,6 +5824,14 @@ projector %2</source>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>「%1」はカット位置になりません。0 以上の数を入力してください。カット位置は %2 のままです。</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>ノイズの 3 倍（%1）で切ると、光は %2 しか残りません。弱い光も合わされば大きくなります。推奨：すべて残す。</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>すべて残す</translation>
     </message>
 </context>
 <context>

@@ -281,6 +281,22 @@
         <source>Go on at Acquire</source>
         <translation>到“采集”继续</translation>
     </message>
+    <message>
+        <source>What was measured does not fit together</source>
+        <translation>测得的结果互不相符</translation>
+    </message>
+    <message>
+        <source>Corrected pictures are expected at %1: that is no better than uncorrected. Measure again.</source>
+        <translation>校正后的画面预计为 %1，不比未校正时好。请重新测量。</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Go to Acquire</source>
+        <translation>转到“采集”</translation>
+    </message>
 </context>
 <context>
     <name>ViewActions</name>
@@ -362,6 +378,13 @@
     <message>
         <source>{} % of the camera pixels do not see what was predicted for the test patterns: check that nothing moved or flickered; these pixels are left out of the compensation</source>
         <translation>{} % 的相机像素在测试图案中看到的与预测不符：请检查是否有东西移动或闪烁。这些像素不参与补偿</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.poor-quality</name>
+    <message>
+        <source>What was measured does not fit together: corrected pictures are expected at {} dB, no better than uncorrected; see that projector, camera and surface stand still and that no other light changes, then measure again</source>
+        <translation>测得的结果互不相符：校正后的画面预计只有 {} dB，不比未校正时好；请确认投影机、相机和表面都没有移动，也没有其他光线变化，然后重新测量</translation>
     </message>
 </context>
 <context>
@@ -2944,6 +2967,14 @@
             <numerusform>正在读取已保留的 %n 张照片：%1。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>%1 expected</source>
+        <translation>预计 %1</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>要重新测量，请确认已清场。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3450,6 +3481,10 @@
     <message>
         <source>Missing: %1. A simulated camera stays where it stands: go on, what it does not see is left as it is.</source>
         <translation>缺少：%1。模拟相机的位置不变：请继续，它看不到的部分保持原样。</translation>
+    </message>
+    <message>
+        <source>Exposures as measured</source>
+        <translation>按测量时的曝光</translation>
     </message>
 </context>
 <context>
@@ -5348,6 +5383,18 @@ projector %2</source>
         <source>recommended</source>
         <translation>推荐</translation>
     </message>
+    <message>
+        <source>Compare</source>
+        <translation>比较</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>隐藏</translation>
+    </message>
+    <message>
+        <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
+        <translation>此内容可达 %1。“采集”的预期是 %2：另外三张图片在推荐方法下的平均值。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5544,6 +5591,10 @@ projector %2</source>
     <message>
         <source>under way</source>
         <translation>进行中</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
     </message>
 </context>
 <context>
@@ -5773,6 +5824,14 @@ projector %2</source>
     <message>
         <source>“%1” is not a cut: type a number, 0 or more. The cut is still %2.</source>
         <translation>“%1”不是阈值：请输入 0 或更大的数。阈值仍为 %2。</translation>
+    </message>
+    <message>
+        <source>At three times the noise, %1, only %2 of the light would stay: much faint light adds up. Suggested: keep everything.</source>
+        <translation>按噪声的三倍（%1）截断，只剩 %2 的光：许多微弱的光合起来并不少。建议：全部保留。</translation>
+    </message>
+    <message>
+        <source>Keep everything</source>
+        <translation>全部保留</translation>
     </message>
 </context>
 <context>

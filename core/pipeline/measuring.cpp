@@ -133,6 +133,8 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   if (acquisition.stoppedAt > 0)
     acquisition.findings.insert(acquisition.findings.begin(),
                                 stoppedEarly(acquisition.stoppedAt, acquisition.expected));
+  if (std::optional<Message> poor = poorQuality(acquisition.expected))
+    acquisition.findings.insert(acquisition.findings.begin(), *std::move(poor));
   stage.waitForResult(bytesOf(acquisition));
   calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
   return acquisition;

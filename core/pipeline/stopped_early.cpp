@@ -23,4 +23,14 @@ Message stoppedEarly(int blocks, const std::optional<transport::ExpectedQuality>
             expectedDuration(expected->seconds));
 }
 
+std::optional<Message> poorQuality(const std::optional<transport::ExpectedQuality>& expected) {
+  if (!expected || !isPoor(*expected)) return std::nullopt;
+  return RELUCENT_MESSAGE(
+             "acquisition.poor-quality",
+             "What was measured does not fit together: corrected pictures are expected at {} dB, no better "
+             "than uncorrected; see that projector, camera and surface stand still and that no other light "
+             "changes, then measure again")
+      .with(as::decibels(expected->whole, as::decimals(0)));
+}
+
 }  // namespace relucent::pipeline

@@ -12,4 +12,8 @@ namespace relucent::pipeline {
 /// `blocks`: side of the finest, projector pixels. `expected`: none where nobody worked it out.
 Message stoppedEarly(int blocks, const std::optional<transport::ExpectedQuality>& expected);
 
+/// Says of a measurement by which pictures will be no better than uncorrected (transport::isPoor()) what to
+/// do; none: it is not one.
+std::optional<Message> poorQuality(const std::optional<transport::ExpectedQuality>& expected);
+
 }  // namespace relucent::pipeline

@@ -4,6 +4,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <iomanip>
@@ -33,7 +34,7 @@ std::string exposureTime(double seconds) {
 }
 
 std::string stageDuration(double seconds) {
-  return seconds < 10.0 ? "under 10 s" : duration(std::round(seconds));
+  return duration(std::max(1.0, std::round(seconds)));
 }
 
 std::string grouped(std::uint64_t number) {

@@ -12,4 +12,11 @@ struct ExpectedQuality {
   double seconds = 0.0;  // ... in about this time
 };
 
+/// Even to the end pictures will be no better than where nothing is corrected, which reaches 16 to 18 dB
+/// (core/compensation/README.md): what was measured does not fit together, as after a bump that nobody saw.
+inline bool isPoor(const ExpectedQuality& expected) {
+  constexpr double uncorrected = 16.0;  // dB
+  return expected.whole < uncorrected;
+}
+
 }  // namespace relucent::transport

@@ -48,10 +48,11 @@ int runWizardCommand(int argc, char** argv) {
   QSettings settings;
   QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/venues";
   WizardWindow wizard(settings, cache.toStdString());
-  QSize size = settings.value("window/size", QSize(1366, 768)).toSize();
-  wizard.window().resize(size);
-  if (settings.value("window/maximized").toBool() ||
-      !hasRoom(size, wizard.window().screen()->availableSize()))
+  const QSize size = settings.value("window/size", QSize(1366, 768)).toSize();
+  const QSize screen = wizard.window().screen()->availableSize();
+  // Where nobody manages windows, none is maximized by asking for it.
+  wizard.window().resize(size.boundedTo(screen));
+  if (settings.value("window/maximized").toBool() || !hasRoom(size, screen))
     wizard.window().showMaximized();
   else
     wizard.window().show();
@@ -60,7 +61,9 @@ int runWizardCommand(int argc, char** argv) {
   QObject::connect(&termination, &Termination::requested, qApp,
                    [&wizard] { wizard.window().closeWithoutAsking(); });
   int status = QApplication::exec();
-  settings.setValue("window/size", wizard.window().normalGeometry().size());
+  // The next screen may have room for it again.
+  settings.setValue("window/size",
+                    wizard.window().isMaximized() ? size : wizard.window().normalGeometry().size());
   settings.setValue("window/maximized", wizard.window().isMaximized());
   return status;
 }

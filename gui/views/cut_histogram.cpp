@@ -117,14 +117,22 @@ void CutHistogram::paintCut(QPainter& painter) const {
   }
   if (cutText_.isEmpty()) return;
   painter.setFont(typeOf(type::note, QFont::DemiBold));
-  double width = painter.fontMetrics().horizontalAdvance(cutText_) + 20.0;
-  double left = x + 14.0 + width > plot_.right() ? x - 14.0 - width : x + 14.0;
-  QRectF box(left, plot_.top() + 2.0, width, 26.0);
+  const QRectF box = cutTag();
   painter.setPen(colours().line);
   painter.setBrush(colours().input);
   painter.drawRoundedRect(box, 6.0, 6.0);
   painter.setPen(colours().text);
   painter.drawText(box, Qt::AlignCenter, cutText_);
+}
+
+QRectF CutHistogram::cutTag() const {
+  constexpr double beside = 14.0, padding = 20.0, height = 26.0;
+  const double x = plot_.left() + std::clamp(chart_.x.place(cut_), 0.0, 1.0) * plot_.width();
+  const double wide =
+      QFontMetricsF(typeOf(type::note, QFont::DemiBold)).horizontalAdvance(cutText_) + padding;
+  const double left = x + beside + wide > plot_.right() ? x - beside - wide : x + beside;
+  // Rather over the bars than cut.
+  return {std::max(0.0, std::min(left, width() - wide)), plot_.top() + 2.0, wide, height};
 }
 
 }  // namespace relucent::gui

@@ -32,6 +32,8 @@ class CutHistogram : public QWidget {
   double cut() const { return cut_; }
   /// Emits no signal. NaN: none.
   void setCut(double cut);
+  /// Where the cut's text stands, once it was painted: beside the cut, and whole.
+  QRectF cutTag() const;
   QSize minimumSizeHint() const override;
 
  Q_SIGNALS:

@@ -40,10 +40,12 @@ double until(PageModel& page, const Condition& condition) {
 nlohmann::json thresholds(ThresholdPage& page) {
   nlohmann::json seconds;
   seconds["until_it_can_be_cut"] = until(page, [&] { return page.whole() && page.kept() && page.matrix(); });
+  // Keeps nearly all of the light.
+  const double cut = transport::cutKeeping(page.whole()->histogram, 0.995);
   for (double share : {0.5, 2.0}) {
     auto matrix = page.matrix();
     auto energy = page.kept()->energyKept;
-    page.setAbsolute(share * page.suggested());
+    page.setAbsolute(share * cut);
     double picture = until(page, [&] { return page.matrix() != matrix; });
     double exact = until(page, [&] { return page.kept()->energyKept != energy && page.isExact(); });
     seconds["cuts"].push_back({{"matrix", picture}, {"exact", picture + exact}});

@@ -15,7 +15,7 @@
 #include "views/number_text.h"
 #include "wizard/acquire/retrying_observer.h"
 #include "wizard/devices/full_disk.h"
-#include "wizard/devices/stopped_early.h"
+#include "wizard/devices/on_measurement.h"
 
 namespace relucent::gui {
 namespace {
@@ -120,6 +120,8 @@ StepStatus AcquirePage::status() const {
     case calibration::StageProgress::done:
       if (const int blocks = stoppedAt(); blocks > 0)
         return {StepState::coarse, tr("Stopped at %1 px").arg(blocks)};
+      if (const auto poor = session_.poorQuality())
+        return {StepState::doubtful, tr("%1 expected").arg(isolated(tr("%1 dB").arg(decimalText(*poor, 0))))};
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
@@ -155,6 +157,7 @@ QString AcquirePage::hint() const {
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (isDone() && stoppedAt() > 0 && !session_.mayMeasure())
     return tr("To go on measuring, confirm that the room is clear.");
+  if (isDoubtful() && !session_.mayMeasure()) return tr("To measure again, confirm that the room is clear.");
   if (isDone())
     return tr("Measured in %1").arg(text(spentDuration(cost().value_or(calibration::StageCost()).seconds)));
   if (!session_.mayMeasure()) return tr("Confirm that the room is clear.");
@@ -197,11 +200,13 @@ void AcquirePage::updateCommands() {
 
 PageCommand* AcquirePage::primary() const {
   if (isCountingDown()) return startNow_;
+  if (isDoubtful()) return measureAnew_;
   return isMeasuring() || isDone() ? next_ : start_;
 }
 
 std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
+  if (isDoubtful()) return {next_};
   if (isDone()) return {measureAnew_};
   PageCommand* const pause = isPaused() ? resume_ : pause_;
   if (isMeasuringAgain()) return {return_, pause, keep_};
@@ -217,6 +222,7 @@ std::optional<Banner> AcquirePage::banner() const {
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
   if (progress == calibration::StageProgress::done && stoppedAt() > 0) return stoppedBanner();
+  if (isDoubtful()) return onMeasurement(session_, nullptr);
   if (progress == calibration::StageProgress::open && kept_ > 0)
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
@@ -238,7 +244,11 @@ bool AcquirePage::isStale() const {
 }
 
 bool AcquirePage::needsConsentNow() const {
-  return !session_.mayMeasure() && (!isDone() || stoppedAt() > 0);
+  return !session_.mayMeasure() && (!isDone() || stoppedAt() > 0 || isDoubtful());
+}
+
+bool AcquirePage::isDoubtful() const {
+  return isDone() && stoppedAt() == 0 && session_.poorQuality().has_value();
 }
 
 QString AcquirePage::whyLocked() const {

@@ -175,6 +175,8 @@ class AcquirePage : public DevicePage {
   void makeCommands();
   bool isStale() const;
   bool needsConsentNow() const;
+  /// It is whole, and yet nothing would be corrected by it.
+  bool isDoubtful() const;
   Banner staleBanner() const;
   void countKept();
   void start(bool anew);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/acquire/acquire_view.h"
 
+#include <QLabel>
 #include <QLocale>
 #include <QTime>
 #include <cmath>
+#include <vector>
 
 #include "relucent/base/time_left.h"
 #include "text/message_text.h"
@@ -22,12 +24,41 @@
 namespace relucent::gui {
 namespace {
 
+/// Cards beside each other, whose titles take two lines where one is too long.
+class PictureRow : public QWidget {
+ public:
+  PictureRow() : row_(new QHBoxLayout(this)) {
+    row_->setContentsMargins(0, 0, 0, 0);
+    row_->setSpacing(space::gap);
+  }
+  void add(QWidget* card) {
+    row_->addWidget(card, 1);
+    // The first in it is its title.
+    titles_.push_back(card->findChild<QLabel*>());
+  }
+  QSize minimumSizeHint() const override {
+    constexpr int leastCard = 150;
+    const int cards = static_cast<int>(titles_.size());
+    return {cards * leastCard + (cards - 1) * space::gap, row_->totalMinimumSize().height()};
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    const int cards = static_cast<int>(titles_.size());
+    const int room = (width() - (cards - 1) * space::gap) / cards - 2 * (space::card + space::small);
+    for (QLabel* title : titles_)
+      title->setWordWrap(title->fontMetrics().horizontalAdvance(title->text()) > room);
+  }
+
+ private:
+  QHBoxLayout* row_;
+  std::vector<QLabel*> titles_;
+};
+
 /// What goes out and what comes back while it measures.
 QWidget* livePart(AcquirePage& model) {
-  auto* part = new QWidget;
-  auto* row = new QHBoxLayout(part);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(space::gap);
+  auto* part = new PictureRow;
   auto* sent = new Card(AcquirePage::tr("Sent to the projector"));
   auto* seen = new Card(AcquirePage::tr("Seen by the camera"));
   auto* pattern = new ImageView;
@@ -36,13 +67,12 @@ QWidget* livePart(AcquirePage& model) {
   photograph->setObjectName("photograph-view");
   pattern->setAccessibleName(AcquirePage::tr("Pattern that the projector shows"));
   photograph->setAccessibleName(AcquirePage::tr("Last photograph"));
+  for (ImageView* view : {pattern, photograph}) view->setMinimumHeight(leastPictureHeight);
   sent->body()->addWidget(pattern, 1);
   seen->body()->addWidget(photograph, 1);
   sent->addAction(new DeviceSelector(DeviceSelector::Kind::projector, model, sent));
   seen->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, seen));
-  row->addWidget(sent, 1);
-  row->addWidget(seen, 1);
-  row->addWidget(outlookCard(model), 1);
+  for (QWidget* card : std::initializer_list<QWidget*>{sent, seen, outlookCard(model)}) part->add(card);
   auto refresh = [&model, part, pattern, photograph, seen] {
     part->setVisible(model.isMeasuring());
     LivePictures live = model.pictures();

@@ -42,6 +42,7 @@ QWidget* outlookCard(AcquirePage& model) {
   auto* card = new Card(AcquirePage::tr("Compensated so far"));
   auto* picture = new ImageView;
   picture->setObjectName("outlook-view");
+  picture->setMinimumHeight(leastPictureHeight);
   picture->setAccessibleName(AcquirePage::tr("A picture, compensated with what is measured so far"));
   picture->setEmptyText(AcquirePage::tr("Appears after the first patterns, and grows sharper."));
   card->setToolTip(qualityMeaning());

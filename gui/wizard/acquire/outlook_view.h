@@ -5,6 +5,9 @@
 
 namespace relucent::gui {
 
+/// Of the pictures beside it, too: what stands in them before there are any is read whole.
+constexpr int leastPictureHeight = 120;
+
 /// "31 dB, good".
 QString qualityText(double decibels);
 /// What dB means, a sentence or two.

@@ -9,7 +9,7 @@
 #include "relucent/pipeline/pictures.h"
 #include "views/number_text.h"
 #include "wizard/cluster/cluster_picture.h"
-#include "wizard/devices/stopped_early.h"
+#include "wizard/devices/on_measurement.h"
 
 namespace relucent::gui {
 namespace {
@@ -257,14 +257,14 @@ QString ClusterPage::sizesText() const {
 }
 
 void ClusterPage::updateCommands() {
-  goOnMeasuring_->show(goOnMeasuringText());
+  goOnMeasuring_->show(toAcquireText(session_));
   accept_->show(tr("Preview content"), result_ && result_->exact && !isComputing() && whyLocked().isEmpty());
 }
 
 std::optional<Banner> ClusterPage::banner() const {
   using calibration::Stage;
   if (session_.progress(Stage::clustering) != calibration::StageProgress::stale)
-    return stoppedEarly(session_, goOnMeasuring_);
+    return onMeasurement(session_, goOnMeasuring_);
   const auto& measured = session_.result(Stage::acquisition);
   const bool isMeasuredSince = measured && measured->stored > session_.result(Stage::clustering)->stored;
   return Banner{Banner::Kind::amber,

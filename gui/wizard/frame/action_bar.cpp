@@ -147,12 +147,13 @@ void ActionBar::resizeEvent(QResizeEvent* event) {
 void ActionBar::arrange() {
   int buttons = 0;
   for (QWidget* widget : {static_cast<QWidget*>(back_), secondary_, static_cast<QWidget*>(primary_)})
-    if (!widget->isHidden()) buttons += spacing + widget->sizeHint().width();
+    if (!widget->isHidden())
+      buttons += spacing + std::max(widget->sizeHint().width(), widget->minimumWidth());
   const int icon = 18 + spacing;
   const int whole = width() - 2 * space::page - icon;
   const int beside = whole - buttons;
-  const bool isOneRow =
-      beside >= hint_->minimumSizeHint().width() && hint_->heightForWidth(beside) <= rowHeight - space::small;
+  const int free = rowHeight - std::max(progress_->sizeHint().height(), +space::small);
+  const bool isOneRow = beside >= hint_->minimumSizeHint().width() && hint_->heightForWidth(beside) <= free;
   grid_->removeWidget(reason_);
   if (isOneRow)
     grid_->addWidget(reason_, 1, 1);

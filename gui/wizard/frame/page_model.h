@@ -20,7 +20,8 @@ enum class StepState {
   open,
   busy,
   outOfDate,
-  coarse,  // done, on a measurement that was stopped early
+  coarse,    // done, on a measurement that was stopped early
+  doubtful,  // done, on a measurement by which nothing would be corrected
   done,
   failed
 };
@@ -34,7 +35,8 @@ struct StepStatus {
 /// Later steps can use what this one came to.
 inline bool isUsable(const StepStatus& status) {
   return status.state == StepState::done || status.state == StepState::coarse ||
-         status.state == StepState::outOfDate || (status.state == StepState::busy && status.hasResult);
+         status.state == StepState::doubtful || status.state == StepState::outOfDate ||
+         (status.state == StepState::busy && status.hasResult);
 }
 
 /// What stands above the stage. At most one.

@@ -43,6 +43,8 @@ QString stateText(const StepStatus& status, bool current, bool locked) {
       return StepRail::tr("out of date");
     case StepState::coarse:
       return StepRail::tr("stopped early");
+    case StepState::doubtful:
+      return StepRail::tr("doubtful");
     case StepState::failed:
       return StepRail::tr("failed");
     case StepState::busy:
@@ -100,7 +102,8 @@ void StepButton::keyPressEvent(QKeyEvent* event) {
 
 void StepButton::paintBadge(QPainter& painter, QRectF circle) const {
   const Colours& c = colours();
-  bool coarse = status_.state == StepState::coarse, held = status_.isHeldUp;
+  bool coarse = status_.state == StepState::coarse;
+  bool held = status_.isHeldUp || status_.state == StepState::doubtful;
   bool stale = status_.state == StepState::outOfDate, failed = status_.state == StepState::failed;
   bool done = status_.state == StepState::done && !locked_;
   QColor colour = stale || coarse || held ? c.amber
@@ -168,7 +171,8 @@ void StepButton::paintEvent(QPaintEvent*) {
   if (two) {
     QFont small = typeOf(type::note);
     painter.setFont(small);
-    const bool amber = status_.state == StepState::outOfDate || status_.state == StepState::coarse;
+    const bool amber = status_.state == StepState::outOfDate || status_.state == StepState::coarse ||
+                       status_.state == StepState::doubtful;
     painter.setPen(amber || status_.isHeldUp            ? c.amber
                    : status_.state == StepState::failed ? c.error
                                                         : c.secondary);

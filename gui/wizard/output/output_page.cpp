@@ -13,7 +13,7 @@
 #include "output/installation.h"
 #include "relucent/base/error.h"
 #include "views/number_text.h"
-#include "wizard/devices/stopped_early.h"
+#include "wizard/devices/on_measurement.h"
 #include "wizard/session/method_name.h"
 
 namespace relucent::gui {
@@ -175,7 +175,7 @@ void OutputPage::updateCommands() {
   pushBack_->show(tr("Put the camera back"), proof_.isPossible());
   measureAgain_->show(tr("Measure again"));
   aimAgain_->show(tr("Aim again"));
-  goOnMeasuring_->show(goOnMeasuringText());
+  goOnMeasuring_->show(toAcquireText(session_));
   freeze_->setGlyph(isFrozen() ? Icon::play : Icon::pause);
   freeze_->show(isFrozen() ? tr("Play") : tr("Freeze"));
   black_->show(isBlack() ? tr("Show again") : tr("Black"));
@@ -230,7 +230,7 @@ std::optional<Banner> OutputPage::banner() const {
                                   "are out of date count with what was chosen there before."),
                   isReviewed ? nullptr : review_};
   }
-  if (const auto stopped = stoppedEarly(session_, goOnMeasuring_)) return stopped;
+  if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The verification photograph is out of date"),
                 tr("What it was taken of has been measured or chosen anew since. Take it again to prove what "

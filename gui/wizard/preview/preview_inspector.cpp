@@ -12,6 +12,23 @@
 #include "wizard/preview/preview_page.h"
 
 namespace relucent::gui {
+namespace {
+
+/// Acquire and this page speak of different pictures; empty: one of the two is not known.
+QString expectationText(const PreviewPage& page) {
+  const std::optional<MethodPreview> chosen = page.chosenRow();
+  const std::optional<double> expected = page.expectedOfOthers();
+  if (!chosen || !expected) return {};
+  const auto decibels = [](double value) {
+    return isolated(PreviewPage::tr("%1 dB").arg(decimalText(value, 1)));
+  };
+  return PreviewPage::tr(
+             "This content comes to %1. Acquire expected %2 on average of three other pictures, by the "
+             "recommended method.")
+      .arg(decibels(chosen->psnr), decibels(*expected));
+}
+
+}  // namespace
 
 QWidget* previewInspector(PreviewPage& page) {
   QVBoxLayout* column = nullptr;
@@ -59,6 +76,9 @@ QWidget* previewInspector(PreviewPage& page) {
   auto* never = new ValueRow(PreviewPage::tr("Never black enough"));
   auto* error = new ValueRow(PreviewPage::tr("Colour error"));
   for (ValueRow* value : {reach, dark, never, error}) column->addWidget(value);
+  QLabel* others = labelOf({}, "note");
+  others->setObjectName("expected-of-others");
+  column->addWidget(others);
   auto* shadow = new Note(Note::Kind::information);
   column->addWidget(shadow);
   column->addStretch(1);
@@ -108,6 +128,9 @@ QWidget* previewInspector(PreviewPage& page) {
     else
       shadow->setText(PreviewPage::tr("Part of the picture gets no light from any projector."),
                       PreviewPage::tr("Another one could fill it."));
+    const QString expected = expectationText(page);
+    others->setText(expected);
+    others->setVisible(!expected.isEmpty());
     if (const auto& preview = page.preview()) {
       reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
       dark->setValue(percentText(preview->tooDark));

@@ -241,6 +241,16 @@ void PreviewPage::forgetTable() {
   table_.clear();
 }
 
+std::optional<MethodPreview> PreviewPage::chosenRow() const {
+  const auto row = std::ranges::find(table_, settings_.method, &MethodPreview::method);
+  return row == table_.end() ? std::nullopt : std::optional(*row);
+}
+
+std::optional<double> PreviewPage::expectedOfOthers() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  return measured && measured->expected ? std::optional(measured->expected->now) : std::nullopt;
+}
+
 /// The table fills row by row while the pictures are there already.
 void PreviewPage::compareNext() {
   if (!engine_ || !content_ || comparing_.isBusy() || computing_.isBusy() ||
@@ -258,7 +268,7 @@ std::optional<Banner> PreviewPage::banner() const {
     return Banner{Banner::Kind::amber, tr("What was measured is out of date: it belongs to earlier settings"),
                   tr("It still works, and what you see follows from it, until it is measured again.")};
   if (session_.progress(Stage::content) != calibration::StageProgress::stale)
-    return stoppedEarly(session_, goOnMeasuring_);
+    return onMeasurement(session_, goOnMeasuring_);
   const bool isMeasuredSince =
       session_.result(Stage::acquisition)->stored > session_.result(Stage::content)->stored;
   return Banner{Banner::Kind::amber,
@@ -303,7 +313,7 @@ QString PreviewPage::hint() const {
 }
 
 void PreviewPage::updateCommands() {
-  goOnMeasuring_->show(goOnMeasuringText());
+  goOnMeasuring_->show(toAcquireText(session_));
   accept_->show(tr("Go to output"), preview_ != nullptr && engine_ != nullptr && whyLocked().isEmpty());
   const QString why = whyNotShining();
   shine_->setGlyph(isShining() ? Icon::stop : Icon::projector);

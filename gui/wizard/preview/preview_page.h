@@ -4,7 +4,7 @@
 #include "jobs/job.h"
 #include "jobs/latest.h"
 #include "output/surface_pictures.h"
-#include "wizard/devices/stopped_early.h"
+#include "wizard/devices/on_measurement.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/preview/content_preview.h"
 #include "wizard/session/session.h"
@@ -58,6 +58,10 @@ class PreviewPage : public PageModel {
   const std::shared_ptr<const ContentPreview>& preview() const { return preview_; }
   /// One row a method that has been tried with this content, in the order of the methods.
   const std::vector<MethodPreview>& table() const { return table_; }
+  /// That of the method in use; none yet.
+  std::optional<MethodPreview> chosenRow() const;
+  /// dB that Acquire expected, of its own three pictures; none if nobody worked it out.
+  std::optional<double> expectedOfOthers() const;
   bool isComputing() const { return computing_.isBusy(); }
 
   /// The picture is on the surface, from shine() until stopShining() or until the page is left.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/preview/preview_view.h"
 
-#include <QHeaderView>
 #include <QPainter>
-#include <QTableWidget>
-#include <cmath>
+#include <QPointer>
+#include <QScrollArea>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -12,8 +11,8 @@
 #include "views/number_text.h"
 #include "views/view_actions.h"
 #include "wizard/preview/corner_view.h"
+#include "wizard/preview/methods_card.h"
 #include "wizard/preview/preview_inspector.h"
-#include "wizard/session/method_name.h"
 
 namespace relucent::gui {
 namespace {
@@ -42,35 +41,9 @@ QImage hatchesOf(const ContentPreview& preview) {
   return overlay;
 }
 
+constexpr int leastHeight = 260;  // of its card: a picture that can be judged
+
 enum Shown { picture, reachable, difference };
-
-/// Nobody has to scroll across: what does not fit is left out, the least important first.
-class MethodsTable : public QTableWidget {
- public:
-  enum Column { method, note, deltaE, time, psnr, ssim, columns };
-
-  MethodsTable() : QTableWidget(0, columns) {
-    horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    horizontalHeader()->setSectionResizeMode(note, QHeaderView::Stretch);
-    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  }
-  void fit() {
-    int needed = 0;
-    for (int column = 0; column < columns; ++column) {
-      needed += std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
-      if (column >= psnr) setColumnHidden(column, needed > viewport()->width());
-    }
-  }
-
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QTableWidget::resizeEvent(event);
-    fit();
-  }
-
- private:
-  static constexpr int cellMargin = 2;
-};
 
 class PreviewStage : public QWidget {
  public:
@@ -80,6 +53,7 @@ class PreviewStage : public QWidget {
     column->setSpacing(space::gap);
     card_ = new Card(PreviewPage::tr("Audience view"));
     card_->setSubtitle(PreviewPage::tr("predicted from the measurement"));
+    card_->setMinimumHeight(leastHeight);
     kind_ = new Segmented(
         {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference")});
     card_->addAction(kind_);
@@ -106,7 +80,7 @@ class PreviewStage : public QWidget {
         });
     connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
     column->addWidget(card_, 1);
-    column->addWidget(tableCard());
+    column->addWidget(methods_ = new MethodsCard(page_));
     connect(kind_, &Segmented::chosen, this, [this](int index) {
       for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
     });
@@ -114,7 +88,29 @@ class PreviewStage : public QWidget {
         page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
+ protected:
+  void showEvent(QShowEvent* event) override {
+    QWidget::showEvent(event);
+    for (QWidget* around = parentWidget(); around != nullptr && !room_; around = around->parentWidget())
+      if (const auto* scroll = qobject_cast<const QScrollArea*>(around)) room_ = scroll->viewport();
+    if (room_) room_->installEventFilter(this);
+    leaveRoomForThePicture();
+  }
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    leaveRoomForThePicture();
+  }
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize) leaveRoomForThePicture();
+    return QWidget::eventFilter(watched, event);
+  }
+
  private:
+  /// By what is in sight of the stage, which is higher where it scrolls.
+  void leaveRoomForThePicture() {
+    constexpr int roomForBoth = 540;  // 300 for the picture
+    methods_->setFoldable((room_ ? room_->height() : height()) < roomForBoth);
+  }
   /// What is looked at, and its numbers.
   ShownView shownView() const {
     const auto index = static_cast<std::size_t>(kind_->current());
@@ -132,87 +128,7 @@ class PreviewStage : public QWidget {
     return missing < 0.0005 ? PreviewPage::tr("All of it can be reached")
                             : PreviewPage::tr("Hatched: %1 cannot be reached").arg(percentText(missing));
   }
-  Card* tableCard() {
-    auto* card = new Card(PreviewPage::tr("Methods"));
-    card->setSubtitle(PreviewPage::tr("predicted for this content; click one to use it"));
-    table_ = new MethodsTable;
-    table_->setObjectName("methods");
-    table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
-    table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("Notes"),
-                                       PreviewPage::tr("Colour error"), PreviewPage::tr("Still picture"),
-                                       PreviewPage::tr("PSNR"), PreviewPage::tr("SSIM")});
-    table_->horizontalHeaderItem(MethodsTable::time)
-        ->setToolTip(
-            PreviewPage::tr("How long a still picture takes to be solved, once. Films always play by “All "
-                            "bounces, for films” in the quicker show engine: how fast is said at Cluster."));
-    table_->horizontalHeaderItem(MethodsTable::psnr)
-        ->setToolTip(
-            PreviewPage::tr("Of this content, where it can be reached. What Acquire expects is a mean of "
-                            "other pictures: the two may differ by some dB."));
-    table_->verticalHeader()->hide();
-    table_->verticalHeader()->setDefaultSectionSize(26);
-    table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::SingleSelection);
-    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    table_->setShowGrid(false);
-    // As high as the methods, the rest is the picture's.
-    constexpr int header = 34, rowHeight = 26, methods = 5;
-    table_->setFixedHeight(header + methods * rowHeight);
-    connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
-    connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
-    card->body()->addWidget(table_);
-    return card;
-  }
-  void choose(int row) {
-    if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
-    pipeline::ContentSettings settings = page_.settings();
-    settings.method = page_.table()[static_cast<std::size_t>(row)].method;
-    page_.setSettings(settings, PreviewPage::tr("Method"));
-  }
-  static QString noteOf(compensation::Method method) {
-    switch (method) {
-      case compensation::Method::mix:
-        return PreviewPage::tr("blind to bounces");
-      case compensation::Method::clusters:
-        return PreviewPage::tr("blind to light between clusters");
-      case compensation::Method::refined:
-        return PreviewPage::tr("recommended");
-      case compensation::Method::optimum:
-        return PreviewPage::tr("limit of this venue");
-      default:
-        return {};
-    }
-  }
-  void fillTable() {
-    const std::vector<MethodPreview>& rows = page_.table();
-    table_->setRowCount(static_cast<int>(rows.size()));
-    for (int row = 0; row < table_->rowCount(); ++row) {
-      const MethodPreview& method = rows[static_cast<std::size_t>(row)];
-      const QString time = method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
-                           : method.seconds < 1.0
-                               ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
-                               : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1));
-      QStringList cells{methodName(method.method),
-                        noteOf(method.method),
-                        isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
-                        time,
-                        PreviewPage::tr("%1 dB").arg(decimalText(method.psnr, 1)),
-                        decimalText(method.ssim, 3)};
-      bool chosen = method.method == page_.settings().method;
-      for (int cell = 0; cell < cells.size(); ++cell) {
-        auto* item = new QTableWidgetItem(cells[cell]);
-        item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
-        if (cell == MethodsTable::note) item->setToolTip(cells[cell]);
-        if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
-        table_->setItem(row, cell, item);
-      }
-      if (chosen) table_->selectRow(row);
-    }
-    table_->fit();
-  }
   void refresh() {
-    fillTable();
     place_->setWrong(!page_.problem().isEmpty());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
@@ -249,7 +165,8 @@ class PreviewStage : public QWidget {
   Segmented* kind_;
   CornerView* place_;
   std::array<ImageView*, 3> views_{};
-  MethodsTable* table_;
+  MethodsCard* methods_;
+  QPointer<QWidget> room_;
   std::shared_ptr<const ContentPreview> shown_;
 };
 

@@ -243,6 +243,12 @@ int Session::stoppedAt() const {
   return measured ? measured->stoppedAt : 0;
 }
 
+std::optional<double> Session::poorQuality() const {
+  const auto& measured = figures<calibration::Stage::acquisition>();
+  if (!measured || !measured->expected || !transport::isPoor(*measured->expected)) return std::nullopt;
+  return measured->expected->whole;
+}
+
 void Session::change(const std::function<void(calibration::CalibrationFolder&)>& write) {
   {
     calibration::CalibrationFolder folder =

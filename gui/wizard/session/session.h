@@ -173,6 +173,9 @@ class Session : public QObject {
   const std::string& correction() const { return correction_; }
   /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
+  /// dB that are expected of corrected pictures where they will be no better than uncorrected; see
+  /// transport::isPoor(). None: they will be.
+  std::optional<double> poorQuality() const;
 
   /// Throws: Error{disk}.
   void changeSettings(const pipeline::CalibrateSettings& settings);

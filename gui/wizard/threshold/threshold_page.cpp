@@ -7,7 +7,7 @@
 #include "relucent/transport/cut_estimate.h"
 #include "relucent/transport/noise_cut.h"
 #include "views/number_text.h"
-#include "wizard/devices/stopped_early.h"
+#include "wizard/devices/on_measurement.h"
 
 namespace relucent::gui {
 namespace {
@@ -160,13 +160,13 @@ QString ThresholdPage::hint() const {
 }
 
 void ThresholdPage::updateCommands() {
-  goOnMeasuring_->show(goOnMeasuringText());
+  goOnMeasuring_->show(toAcquireText(session_));
   accept_->show(tr("Group into clusters"), kept_.has_value() && whyLocked().isEmpty());
 }
 
 std::optional<Banner> ThresholdPage::banner() const {
   if (session_.progress(calibration::Stage::threshold) != calibration::StageProgress::stale)
-    return stoppedEarly(session_, goOnMeasuring_);
+    return onMeasurement(session_, goOnMeasuring_);
   return Banner{Banner::Kind::amber, tr("The threshold was chosen for an earlier measurement"),
                 tr("Look at it again, then go on.")};
 }
@@ -209,8 +209,9 @@ void ThresholdPage::take(const Choice& choice) {
 void ThresholdPage::suggest(const transport::TransportStatistics& whole) {
   const double most = transport::cutKeeping(whole.histogram, suggestedShare),
                noise = adopted_ ? transport::noiseCut(*adopted_) : 0.0;
-  noiseSuggested_ = noise > 0.0 && noise <= most;
-  suggested_ = noiseSuggested_ ? noise : most;
+  noise_.reset();
+  if (noise > 0.0) noise_ = {noise, transport::estimatedAfterCut(whole, noise).energyKept};
+  suggested_ = noise > most ? 0.0 : noise > 0.0 ? noise : most;
 }
 
 std::optional<double> ThresholdPage::pickedLight() const {

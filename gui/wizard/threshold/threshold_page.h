@@ -40,10 +40,17 @@ class ThresholdPage : public DevicePage {
   bool isExact() const { return kept_.has_value() && !statistics_.isBusy(); }
   /// Connections below the cut stay, as they are the strongest of their camera pixel.
   bool isStrongestKept() const;
-  /// Three times the noise of the measurement; less where that would cost light.
+  /// Three times the noise of the measurement, where that costs no light. Else nothing is cut: faint light
+  /// adds up (core/transport/README.md, "What a cut costs").
   double suggested() const { return suggested_; }
   /// suggested() is what the noise says.
-  bool isNoiseSuggested() const { return noiseSuggested_; }
+  bool isNoiseSuggested() const { return suggested_ > 0.0 && noise_.has_value(); }
+  /// A cut at three times the noise, and the share of the light that it would keep.
+  struct NoiseCut {
+    double cut = 0.0, keeps = 1.0;
+  };
+  /// None: the measurement does not know its noise.
+  const std::optional<NoiseCut>& noise() const { return noise_; }
 
   const transport::ThresholdSettings& cut() const { return cut_; }
   bool isShareOfPixel() const { return shareOfPixel_; }
@@ -103,7 +110,7 @@ class ThresholdPage : public DevicePage {
   float absoluteBefore_ = 0.0f, shareBefore_ = 0.0f;  // of the way that is not used now
   std::optional<transport::TransportStatistics> whole_, kept_;
   double suggested_ = 0.0;
-  bool noiseSuggested_ = false;
+  std::optional<NoiseCut> noise_;
   std::optional<Pixel> picked_, pickedProjector_;
   std::shared_ptr<const transport::PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;

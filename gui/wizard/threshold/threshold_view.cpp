@@ -52,6 +52,18 @@ QString typedText(double cut) {
   return text;
 }
 
+/// Why that cut is suggested.
+QString reasonText(const ThresholdPage& model) {
+  const std::optional<ThresholdPage::NoiseCut>& noise = model.noise();
+  if (!noise) return ThresholdPage::tr("Suggested: keeps nearly all of the light.");
+  if (model.isNoiseSuggested())
+    return ThresholdPage::tr("Suggested: three times the noise of the measurement.");
+  return ThresholdPage::tr(
+             "At three times the noise, %1, only %2 of the light would stay: much faint light adds up. "
+             "Suggested: keep everything.")
+      .arg(numberText(noise->cut), percentText(noise->keeps));
+}
+
 /// A field in which nothing is being typed has nothing of its own to take back.
 class LeavesUndoToThePage : public QObject {
  public:
@@ -78,8 +90,11 @@ QWidget* stageOf(ThresholdPage& model) {
   column->setSpacing(space::gap);
   auto* row = new QHBoxLayout;
   row->setSpacing(space::gap);
+  constexpr int leastPicture = 250,
+                leastHistogram = 190;  // of their cards; where that is too much, it scrolls
   row->addWidget(deviceCard(model), 10);
   row->addWidget(matrixCard(model), 11);
+  for (int i : {0, 1}) row->itemAt(i)->widget()->setMinimumHeight(leastPicture);
   column->addLayout(row, 5);
   auto* card = new Card(ThresholdPage::tr("How much light flows through each connection"));
   card->setSubtitle(ThresholdPage::tr("drag the cut, or use the arrow keys"));
@@ -87,6 +102,7 @@ QWidget* stageOf(ThresholdPage& model) {
   histogram->setObjectName("cut-histogram");
   histogram->setAccessibleName(ThresholdPage::tr("Cut"));
   card->body()->addWidget(histogram, 1);
+  card->setMinimumHeight(leastHistogram);
   column->addWidget(card, 4);
   QObject::connect(histogram, &CutHistogram::cutMoved, &model, &ThresholdPage::setAbsolute);
   auto refresh = [&model, histogram] {
@@ -139,6 +155,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
   suggest->setObjectName("use-suggested");
   column->addWidget(suggest);
   QLabel* why = labelOf({}, "note");
+  why->setObjectName("why-suggested");
   column->addWidget(why);
   column->addWidget(lineOf());
   column->addWidget(labelOf(ThresholdPage::tr("What stays"), "section"));
@@ -194,9 +211,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     }
     typed->setEnabled(model.whole().has_value());
     usePicked->setEnabled(model.pickedLight().has_value());
-    why->setText(model.isNoiseSuggested()
-                     ? ThresholdPage::tr("Suggested: three times the noise of the measurement.")
-                     : ThresholdPage::tr("Suggested: keeps nearly all of the light."));
+    why->setText(reasonText(model));
     strongestStay->setVisible(model.isStrongestKept());
     const QString wrong = refused->property("typed").toString();
     refused->setText(ThresholdPage::tr("“%1” is not a cut: type a number, 0 or more. The cut is still %2.")
@@ -206,8 +221,11 @@ QWidget* inspectorOf(ThresholdPage& model) {
     share->setValue(static_cast<int>(std::lround(1000.0 * static_cast<double>(model.cut().shareOfRowMax))));
     shareText->setText(ThresholdPage::tr("Below %1 of the strongest light that each camera pixel gets")
                            .arg(percentText(static_cast<double>(model.cut().shareOfRowMax))));
-    suggest->setEnabled(model.whole().has_value());
-    suggest->setText(ThresholdPage::tr("Use suggested, %1").arg(numberText(model.suggested())));
+    const bool isUsed = static_cast<float>(model.suggested()) == model.cut().absolute;
+    suggest->setEnabled(model.whole().has_value() && !isUsed);
+    suggest->setText(model.suggested() > 0.0
+                         ? ThresholdPage::tr("Use suggested, %1").arg(numberText(model.suggested()))
+                         : ThresholdPage::tr("Keep everything"));
     if (model.kept() && model.whole()) {
       const transport::TransportStatistics& kept = *model.kept();
       light->setValue(percentText(kept.energyKept), kept.energyKept < 0.95 ? "amber" : "good");

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <QButtonGroup>
 #include <QComboBox>
+#include <QGridLayout>
+#include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -52,15 +56,57 @@ QWidget* surprisesPart(VenuePage& model) {
   return part;
 }
 
+/// As many tiles beside each other as have room, so that nobody has to scroll across.
+class TileGrid : public QWidget {
+ public:
+  TileGrid() : grid_(new QGridLayout(this)) {
+    grid_->setContentsMargins(0, 0, 0, 0);
+    grid_->setSpacing(space::gap);
+    grid_->setSizeConstraint(QLayout::SetNoConstraint);
+  }
+  void add(QWidget* tile) {
+    tiles_.push_back(tile);
+    arrange(mostAcross);
+  }
+  /// Of one below the other.
+  QSize minimumSizeHint() const override { return {widthOf(1), grid_->totalMinimumSize().height()}; }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QWidget::resizeEvent(event);
+    int across = mostAcross;
+    while (across > 1 && widthOf(across) > width()) --across;
+    if (across != across_) arrange(across);
+  }
+
+ private:
+  static constexpr int mostAcross = 4;
+
+  int widthOf(int across) const {
+    std::vector<int> columns(static_cast<std::size_t>(across), 0);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      int& column = columns[i % columns.size()];
+      column = std::max(column, tiles_[i]->minimumSizeHint().width());
+    }
+    return std::accumulate(columns.begin(), columns.end(), (across - 1) * space::gap);
+  }
+  void arrange(int across) {
+    across_ = across;
+    for (QWidget* tile : tiles_) grid_->removeWidget(tile);
+    for (int i = 0; i < static_cast<int>(tiles_.size()); ++i)
+      grid_->addWidget(tiles_[static_cast<std::size_t>(i)], i / across, i % across);
+  }
+
+  QGridLayout* grid_;
+  std::vector<QWidget*> tiles_;
+  int across_ = mostAcross;
+};
+
 }  // namespace
 
 QWidget* rehearseStage(VenuePage& model) {
-  auto* stage = new QWidget;
-  auto* grid = new QGridLayout(stage);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(space::gap);
+  auto* stage = new TileGrid;
   auto* group = new QButtonGroup(stage);
-  constexpr int across = 4;
   for (std::size_t i = 0; i < model.venues().size(); ++i) {
     const RehearsalVenue& venue = model.venues()[i];
     auto* tile = new Tile(QImage(venue.picture), VenuePage::tr(venue.name), VenuePage::tr(venue.sentence));
@@ -68,7 +114,7 @@ QWidget* rehearseStage(VenuePage& model) {
     tile->setCheckable(true);
     tile->setChecked(i == model.venue());
     group->addButton(tile, static_cast<int>(i));
-    grid->addWidget(tile, static_cast<int>(i) / across, static_cast<int>(i) % across);
+    stage->add(tile);
   }
   const auto refresh = [&model, group] {
     for (std::size_t i = 0; i < model.venues().size(); ++i) {

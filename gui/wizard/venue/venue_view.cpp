@@ -91,17 +91,22 @@ QWidget* keepingPart(VenuePage& model) {
 }
 
 PageView viewOf(VenuePage& model) {
-  auto* stages = new QStackedWidget;
+  // No QStackedWidget, which needs as much room as the largest of them.
+  auto* stages = new QWidget;
+  auto* column = new QVBoxLayout(stages);
+  column->setContentsMargins(0, 0, 0, 0);
+  const QList<QWidget*> each{startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model),
+                             screenStage(model)};
+  for (QWidget* stage : each) column->addWidget(stage);
   auto* inspectors = new QStackedWidget;
-  for (QWidget* stage :
-       {startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model), screenStage(model)})
-    stages->addWidget(stage);
   for (QWidget* inspector : {new QWidget, rehearseInspector(model), scriptInspector(model),
                              devicesInspector(model), screenInspector(model)})
     inspectors->addWidget(inspector);
-  auto refresh = [&model, stages, inspectors] {
+  auto refresh = [&model, each, inspectors] {
     int mode = static_cast<int>(model.mode());
-    stages->setCurrentIndex(mode);
+    for (QWidget* stage : each)
+      if (stage != each[mode]) stage->hide();
+    each[mode]->show();
     inspectors->setCurrentIndex(mode);
   };
   refreshOn(model, stages, refresh, &VenuePage::settingsChanged);

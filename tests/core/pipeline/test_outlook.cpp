@@ -6,6 +6,7 @@
 
 #include "relucent/pipeline/expected_transport.h"
 #include "relucent/pipeline/outlook_observer.h"
+#include "relucent/pipeline/stopped_early.h"
 #include "relucent/transport/coarsening.h"
 #include "relucent/transport/difference.h"
 #include "relucent/transport/statistics.h"
@@ -184,6 +185,32 @@ class TestOutlook : public QObject {
     const double expected = -10.0 * std::log10(std::pow(10.0, -0.1 * without) + 1e-4 * light);
     QVERIFY2(std::abs(some - expected) < 0.3, qPrintable(QString("%1, %2").arg(some).arg(expected)));
   }
+
+  /// Law: what is expected to be no better than uncorrected is said, with its figure and what to do, of a
+  /// measurement to the end and of one that going on with would not help; nothing is said of any other.
+  void whatFitsNothingIsSaid_data() {
+    QTest::addColumn<double>("now");
+    QTest::addColumn<double>("whole");
+    QTest::addColumn<bool>("isPoor");
+    QTest::newRow("bumped unseen") << -10.0 << -10.0 << true;
+    QTest::newRow("as uncorrected") << 15.9 << 15.9 << true;
+    QTest::newRow("the wine glass") << 24.6 << 24.6 << false;
+    QTest::newRow("stopped early") << 2.0 << 31.0 << false;
+    QTest::newRow("stopped early, in vain") << 2.0 << 8.0 << true;
+  }
+  void whatFitsNothingIsSaid() {
+    QFETCH(double, now);
+    QFETCH(double, whole);
+    QFETCH(bool, isPoor);
+    const std::optional<Message> said = poorQuality(ExpectedQuality{now, whole});
+    QCOMPARE(said.has_value(), isPoor);
+    if (!said) return;
+    const QString sentence = QString::fromStdString(english(*said));
+    const QString figure = QString("%1 dB").arg(std::lround(whole));
+    QVERIFY2(sentence.contains(figure) && sentence.contains("measure again"), qPrintable(sentence));
+  }
+
+  void nothingIsSaidOfWhatNobodyWorkedOut() { QVERIFY(!poorQuality(std::nullopt)); }
 
   void nothingIsSaidWhereNothingIsLit() {
     Acquisition dark = venueOf(0.0);

@@ -134,7 +134,9 @@ class TestReport : public QObject {
     QCOMPARE(smallPercent(3.16e-5), std::string("0.0032 %"));
     QCOMPARE(exposureTime(0.00559), std::string("1/179 s"));
     QCOMPARE(exposureTime(0.5), std::string("0.5 s"));
-    QCOMPARE(stageDuration(1.38), std::string("under 10 s"));
+    QCOMPARE(stageDuration(1.38), std::string("1 s"));
+    QCOMPARE(stageDuration(0.2), std::string("1 s"));
+    QCOMPARE(stageDuration(75.4), std::string("1 min 15 s"));
     QCOMPARE(stageDuration(16.1), std::string("16 s"));
     QCOMPARE(percent(-0.012), std::string("-1.2 %"));
     qputenv("TZ", "Etc/GMT-1");

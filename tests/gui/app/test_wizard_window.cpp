@@ -133,6 +133,7 @@ class TestWizardWindow : public QObject {
     QVERIFY(threshold.pickedLight().has_value());
     click("use-picked");
     QCOMPARE(threshold.cut().absolute, static_cast<float>(*threshold.pickedLight()));
+    threshold.setAbsolute(2.0 * threshold.suggested() + 1e-3);
     click("use-suggested");
     QCOMPARE(threshold.cut().absolute, static_cast<float>(threshold.suggested()));
     threshold.setAbsolute(before);

@@ -2,10 +2,13 @@
 // What pages say of a measurement: of one measurement only, and the same wherever it is said.
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QtTest>
 
 #include "gui/wizard/simulated_session.h"
+#include "relucent/calibration/results.h"
 #include "views/cut_histogram.h"
+#include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/frame/step_rail.h"
 #include "wizard/frame/wizard.h"
@@ -103,6 +106,54 @@ class TestReadouts : public QObject {
     QVERIFY(strongest->isVisibleTo(inspector.get()) && !strongest->text().isEmpty());
     page.setAbsolute(0.0);
     QTRY_VERIFY_WITH_TIMEOUT(!strongest->isVisibleTo(inspector.get()), patience);
+  }
+
+  /// Law: nothing is cut unasked; what is suggested keeps 99.5 % of the light; three times the noise is
+  /// suggested where it does, and where it does not, what it would keep is said.
+  void whatIsSuggestedCostsNoLight_data() {
+    QTest::addColumn<double>("noise");  // of what was measured
+    QTest::newRow("as measured") << 1.0;
+    QTest::newRow("little") << 1e-6;
+    QTest::newRow("not known") << 0.0;
+  }
+  void whatIsSuggestedCostsNoLight() {
+    QFETCH(double, noise);
+    measure();
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      const StageResult stored = *folder.latest(Stage::acquisition);
+      transport::Acquisition measured = loadAcquisition(stored);
+      std::vector<float> variance;
+      for (std::size_t i = 0; noise > 0.0 && i < measured.leafVariance.size(); ++i)
+        variance.push_back(measured.leafVariance[i] * static_cast<float>(noise * noise));
+      measured.leafVariance = CameraStack(std::move(variance));
+      storeAcquisition(folder, stored.inputs, measured, resultFrom<Stage::acquisition>(stored).cost.value());
+    }
+    session_->reload();
+    ThresholdPage page(*session_);
+    page.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(page.whole().has_value() && page.isExact(), patience);
+    QCOMPARE(page.cut().absolute, 0.0f);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    auto* suggest = inspector->findChild<QPushButton*>("use-suggested");
+    const QString why = inspector->findChild<QLabel*>("why-suggested")->text();
+    QCOMPARE(page.noise().has_value(), noise > 0.0);
+    const bool isCostly = page.noise() && page.noise()->keeps < 0.995;
+    QCOMPARE(isCostly, noise == 1.0);
+    QCOMPARE(page.isNoiseSuggested(), noise > 0.0 && !isCostly);
+    QCOMPARE(page.suggested() > 0.0, !isCostly);
+    QCOMPARE(suggest->isEnabled(), !isCostly);
+    if (isCostly)
+      QVERIFY2(why.contains(percentText(page.noise()->keeps)) && why.contains(numberText(page.noise()->cut)),
+               qPrintable(why));
+    if (page.isNoiseSuggested()) QCOMPARE(page.suggested(), page.noise()->cut);
+    page.setAbsolute(1e-3);
+    QVERIFY(suggest->isEnabled());
+    suggest->click();
+    QTRY_VERIFY_WITH_TIMEOUT(page.isExact(), patience);
+    QCOMPARE(page.cut().absolute, static_cast<float>(page.suggested()));
+    QVERIFY2(page.kept()->energyKept > 0.99, qPrintable(QString::number(page.kept()->energyKept)));
   }
 
   /// Law: what is no cut changes nothing and is said; what was typed is taken back by the page's undo.

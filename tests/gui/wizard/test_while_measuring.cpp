@@ -4,6 +4,8 @@
 #include <QtTest>
 
 #include "gui/wizard/simulated_session.h"
+#include "relucent/calibration/results.h"
+#include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
@@ -173,6 +175,56 @@ class TestWhileMeasuring : public QObject {
     QVERIFY(wizard.go(1));
     threshold.primary()->trigger();
     QCOMPARE(threshold.status().state, StepState::done);
+  }
+
+  /// Law: a measurement by which pictures would be no better than uncorrected has no tick anywhere: it is
+  /// amber in the rail and above every page, with its figure, and measuring again is the primary way on; the
+  /// other stays open.
+  void whatFitsNothingIsDoubtfulEverywhere() {
+    own_->begin();
+    AcquirePage acquire(*session_);
+    ThresholdPage threshold(*session_);
+    ClusterPage cluster(*session_);
+    PreviewPage preview(*session_);
+    Wizard wizard(*session_);
+    const std::vector<PageModel*> pages{&acquire, &threshold, &cluster, &preview};
+    for (PageModel* page : pages) wizard.add(*page);
+    StepRail rail(wizard, *session_);
+    acquire.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    QCOMPARE(acquire.status().state, StepState::done);
+    QVERIFY(!acquire.banner() && acquire.primary()->text() == "Show threshold");
+    {
+      CalibrationFolder folder = CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      const StageResult stored = *folder.latest(Stage::acquisition);
+      transport::Acquisition measured = loadAcquisition(stored);
+      measured.expected = transport::ExpectedQuality{-10.0, -10.0};
+      storeAcquisition(folder, stored.inputs, measured, resultFrom<Stage::acquisition>(stored).cost.value());
+    }
+    session_->reload();
+    session_->decide(ThresholdResult{.energyKept = 0.98});
+    session_->decide(ClusteringResult{.clusters = 12});
+    session_->decide(ContentResult{.reachable = 0.5});
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+      QCOMPARE(pages[i]->status().state, StepState::doubtful);
+      const auto* step = rail.findChild<QAbstractButton*>(QString("step-%1").arg(i + 1));
+      QVERIFY2(step->accessibleName().contains(StepRail::tr("doubtful")), qPrintable(step->accessibleName()));
+      const std::optional<Banner> banner = pages[i]->banner();
+      QVERIFY(banner && banner->kind == Banner::Kind::amber);
+      QVERIFY2(banner->more.contains(decimalText(-10.0, 0) + " dB"), qPrintable(banner->more));
+      QCOMPARE(banner->command == nullptr, pages[i] == &acquire);
+    }
+    QVERIFY(acquire.status().result.contains("dB"));
+    QCOMPARE(acquire.primary()->text(), QString("Measure again"));
+    QCOMPARE(acquire.secondary().size(), std::size_t{1});
+    QVERIFY(wizard.go(1));
+    threshold.banner()->command->trigger();
+    QCOMPARE(wizard.current(), std::size_t{0});
+    acquire.primary()->trigger();
+    QVERIFY(acquire.isMeasuring());
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire.isMeasuring(), patience);
+    QCOMPARE(acquire.status().state, StepState::done);
+    QVERIFY(!acquire.banner());
   }
 
   /// Law: while it is measured again, what the earlier measurement came to is looked at on every page that

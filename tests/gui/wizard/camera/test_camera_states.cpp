@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gui/wizard/simulated_session.h"
+#include "relucent/pipeline/calibrate.h"
 #include "theme/controls.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/camera/checks_view.h"
@@ -49,6 +50,18 @@ class TestCameraStates : public QObject {
   void cleanup() {
     checks_.reset();
     page_.reset();
+  }
+
+  /// Law: what was measured by the command line, where nobody looks first, is not locked behind a look.
+  void whatIsMeasuredNeedsNoLook() {
+    QCOMPARE(page_->status().state, StepState::open);
+    Progress silent;
+    pipeline::calibrate(own_->path("elsewhere"), smallVenue({48, 36}, {40, 30}, 5), own_->path("cache"),
+                        silent);
+    own_->session.open(own_->path("elsewhere"));
+    QCOMPARE(page_->status().state, StepState::done);
+    QVERIFY(!own_->session.result(calibration::Stage::camera));
+    QCOMPARE(page_->status().result, CameraPage::tr("Exposures as measured"));
   }
 
   /// Law: nothing is said to be looked for while nobody looks; what was kept is shown as kept.

@@ -3,6 +3,7 @@
 #include "wizard/frame/action_bar.h"
 
 #include <QGuiApplication>
+#include <QLabel>
 #include <QStyleHints>
 #include <QtTest>
 
@@ -38,6 +39,7 @@ class ScriptedPage : public PageModel {
   }
   QString subtitle() const override { return {}; }
   StepStatus status() const override { return {}; }
+  QString hint() const override { return sentence; }
   PageCommand* primary() const override { return primaries_[static_cast<std::size_t>(step)]; }
   std::vector<PageCommand*> secondary() const override { return {hold_, dark_, end_}; }
   void updateCommands() override {
@@ -47,6 +49,7 @@ class ScriptedPage : public PageModel {
   }
 
   QStringList done;
+  QString sentence;
   int step = 0;
   bool isHeld = false, isDark = false;
 
@@ -131,6 +134,26 @@ class TestActionBar : public QObject {
     click("secondary-1", 10'000);
     click("secondary-1", 10, QEvent::MouseButtonDblClick);
     QVERIFY(!page_->isDark);
+  }
+
+  /// Law: no word of the reason is cut, whatever the width, and however wide the buttons have become.
+  void theReasonIsNeverCut() {
+    page_->sentence = "Rehearsed to the end. A simulated venue is not installed. Hold A to compare.";
+    // Wide once, and kept as wide since.
+    click("primary", 1000);
+    click("primary", 1000);
+    QCOMPARE(button("primary")->text(), QString("Install"));
+    const auto* hint = bar_->findChild<QLabel*>("hint");
+    for (int width = 560; width <= 1400; width += 20) {
+      bar_->resize(width, bar_->height());
+      bar_->layout()->activate();
+      QCoreApplication::sendPostedEvents();
+      QVERIFY2(hint->height() >= hint->heightForWidth(hint->width()),
+               qPrintable(QString("%1: %2 of %3")
+                              .arg(width)
+                              .arg(hint->height())
+                              .arg(hint->heightForWidth(hint->width()))));
+    }
   }
 
   /// Law: once all was shown, nothing moves under the pointer.

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The comparison of methods follows all that it is computed from.
+#include <QTableWidget>
 #include <QtTest>
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/pipeline/calibrate.h"
+#include "views/number_text.h"
+#include "wizard/frame/stage_scroll.h"
+#include "wizard/preview/methods_card.h"
 #include "wizard/preview/preview_page.h"
+#include "wizard/preview/preview_view.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -80,6 +85,57 @@ class TestMethodsTable : public QObject {
     QCOMPARE(page_->table().size(), std::size_t{5});
     QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
     QCOMPARE(chosenRow().deltaE, page_->preview()->deltaEMean);
+  }
+
+  /// Law: where there is little height the picture has it, without scrolling; the comparison is one click
+  /// away, and folded it says which method is used and how well.
+  void thePictureHasTheRoom_data() {
+    QTest::addColumn<int>("height");
+    QTest::addColumn<bool>("isFolded");
+    QTest::newRow("960x540") << 330 << true;
+    QTest::newRow("1366x768, under a banner") << 480 << true;
+    QTest::newRow("1366x768") << 560 << false;
+    QTest::newRow("1920x1080") << 870 << false;
+  }
+  void thePictureHasTheRoom() {
+    QFETCH(int, height);
+    QFETCH(bool, isFolded);
+    const PageView view = viewOf(*page_);
+    const std::unique_ptr<QWidget> inspector(view.inspector);
+    const std::unique_ptr<QScrollArea> scroll(stageScroll(view.stage));
+    scroll->resize(700, height);
+    scroll->show();
+    auto* card = scroll->findChild<MethodsCard*>("methods-card");
+    auto* table = scroll->findChild<QTableWidget*>("methods");
+    auto* compare = scroll->findChild<QPushButton*>("compare-methods");
+    const auto* picture = scroll->findChild<QWidget*>("preview-view");
+    const auto scrolls = [&] { return scroll->widget()->height() > scroll->viewport()->height(); };
+    QCoreApplication::processEvents();
+    QCOMPARE(card->isFolded(), isFolded);
+    QCOMPARE(table->isVisible(), !isFolded);
+    QCOMPARE(compare->isVisible(), isFolded);
+    QTRY_VERIFY(!scrolls());
+    QVERIFY2(picture->height() >= 180, qPrintable(QString::number(picture->height())));
+    if (!isFolded) return;
+    const QString said = card->findChild<ElidedLabel*>()->text();
+    QVERIFY2(said.contains(decimalText(chosenRow().psnr, 1) + " dB"), qPrintable(said));
+    const int before = picture->height();
+    QTest::mouseClick(compare, Qt::LeftButton);
+    QCoreApplication::processEvents();
+    QVERIFY(table->isVisible() && picture->height() >= 180);
+    QTest::mouseClick(compare, Qt::LeftButton);
+    QTRY_COMPARE(picture->height(), before);
+    QVERIFY(!table->isVisible() && !scrolls());
+  }
+
+  /// Law: Acquire and this page speak of different pictures, and it is said what each comes to.
+  void whatAcquireExpectedIsSaidBesideIt() {
+    const double expected = page_->expectedOfOthers().value();
+    const PageView view = viewOf(*page_);
+    const std::unique_ptr<QWidget> inspector(view.inspector), stage(view.stage);
+    const auto* said = inspector->findChild<QLabel*>("expected-of-others");
+    for (double decibels : {expected, chosenRow().psnr})
+      QVERIFY2(said->text().contains(decimalText(decibels, 1) + " dB"), qPrintable(said->text()));
   }
 
   /// Law: what is out of date is said, with the reason; a show that plays is not denied.

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QCoreApplication>
+
+#include "views/number_text.h"
+#include "wizard/frame/page_model.h"
+#include "wizard/session/session.h"
+
+namespace relucent::gui {
+
+/// Where a result stands that follows from the measurement: one that was stopped early, or that fits nothing,
+/// is no plain tick.
+inline StepState doneOn(const Session& session) {
+  if (session.stoppedAt() > 0) return StepState::coarse;
+  return session.poorQuality() ? StepState::doubtful : StepState::done;
+}
+
+/// What stands above the pages that use a measurement which was stopped early, or which fits nothing; none:
+/// neither. `toAcquire`: leads to where it can be gone on with, or begun again.
+inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {
+  if (const int blocks = session.stoppedAt(); blocks > 0)
+    return Banner{
+        Banner::Kind::amber,
+        QCoreApplication::translate("StoppedEarly", "Measuring was stopped at blocks of %1 px").arg(blocks),
+        QCoreApplication::translate("StoppedEarly",
+                                    "All that follows is as coarse. Go on measuring any time."),
+        toAcquire};
+  if (const auto poor = session.poorQuality())
+    return Banner{
+        Banner::Kind::amber,
+        QCoreApplication::translate("StoppedEarly", "What was measured does not fit together"),
+        QCoreApplication::translate("StoppedEarly",
+                                    "Corrected pictures are expected at %1: that is no better than "
+                                    "uncorrected. Measure again.")
+            .arg(isolated(QCoreApplication::translate("StoppedEarly", "%1 dB").arg(decimalText(*poor, 0)))),
+        toAcquire};
+  return std::nullopt;
+}
+/// The command's words on those pages: it leads to Acquire, where it begins once all is ready.
+inline QString toAcquireText(const Session& session) {
+  return session.stoppedAt() > 0 ? QCoreApplication::translate("StoppedEarly", "Go on at Acquire")
+                                 : QCoreApplication::translate("StoppedEarly", "Go to Acquire");
+}
+
+}  // namespace relucent::gui

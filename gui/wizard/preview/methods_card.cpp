@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/preview/methods_card.h"
+
+#include <QHeaderView>
+#include <QTableWidget>
+#include <cmath>
+
+#include "theme/theme.h"
+#include "views/number_text.h"
+#include "wizard/frame/page_view.h"
+#include "wizard/session/method_name.h"
+
+namespace relucent::gui {
+
+/// Nobody has to scroll across: what does not fit is left out, the least important first.
+class MethodsTable : public QTableWidget {
+ public:
+  enum Column { method, note, deltaE, time, psnr, ssim, columns };
+
+  MethodsTable() : QTableWidget(0, columns) {
+    horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    horizontalHeader()->setSectionResizeMode(note, QHeaderView::Stretch);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  }
+  void fit() {
+    int needed = 0;
+    for (int column = 0; column < columns; ++column) {
+      needed += std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
+      if (column >= psnr) setColumnHidden(column, needed > viewport()->width());
+    }
+  }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QTableWidget::resizeEvent(event);
+    fit();
+  }
+
+ private:
+  static constexpr int cellMargin = 2;
+};
+
+namespace {
+
+QString decibelsText(double decibels) {
+  return PreviewPage::tr("%1 dB").arg(decimalText(decibels, 1));
+}
+
+QString noteOf(compensation::Method method) {
+  switch (method) {
+    case compensation::Method::mix:
+      return PreviewPage::tr("blind to bounces");
+    case compensation::Method::clusters:
+      return PreviewPage::tr("blind to light between clusters");
+    case compensation::Method::refined:
+      return PreviewPage::tr("recommended");
+    case compensation::Method::optimum:
+      return PreviewPage::tr("limit of this venue");
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+MethodsCard::MethodsCard(PreviewPage& page, QWidget* parent)
+    : Card(PreviewPage::tr("Methods"), parent), page_(page) {
+  setObjectName("methods-card");
+  table_ = new MethodsTable;
+  table_->setObjectName("methods");
+  table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
+  table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("Notes"),
+                                     PreviewPage::tr("Colour error"), PreviewPage::tr("Still picture"),
+                                     PreviewPage::tr("PSNR"), PreviewPage::tr("SSIM")});
+  table_->horizontalHeaderItem(MethodsTable::time)
+      ->setToolTip(
+          PreviewPage::tr("How long a still picture takes to be solved, once. Films always play by “All "
+                          "bounces, for films” in the quicker show engine: how fast is said at Cluster."));
+  table_->horizontalHeaderItem(MethodsTable::psnr)
+      ->setToolTip(
+          PreviewPage::tr("Of this content, where it can be reached. What Acquire expects is a mean of "
+                          "other pictures: the two may differ by some dB."));
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(26);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setShowGrid(false);
+  // As high as the methods, the rest is the picture's.
+  constexpr int header = 34, rowHeight = 26, methods = 5;
+  table_->setFixedHeight(header + methods * rowHeight);
+  connect(table_, &QTableWidget::cellClicked, &page_, [this](int row, int) { choose(row); });
+  connect(table_, &QTableWidget::cellActivated, &page_, [this](int row, int) { choose(row); });
+  body()->addWidget(table_);
+  addAction(unfold_ = buttonOf({}));
+  unfold_->setObjectName("compare-methods");
+  connect(unfold_, &QPushButton::clicked, this, [this] {
+    unfolded_ = !unfolded_;
+    arrange();
+  });
+  refreshOn(
+      page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
+}
+
+void MethodsCard::setFoldable(bool foldable) {
+  if (std::exchange(foldable_, foldable) != foldable) arrange();
+}
+
+void MethodsCard::arrange() {
+  unfold_->setVisible(foldable_);
+  unfold_->setText(isFolded() ? PreviewPage::tr("Compare") : PreviewPage::tr("Hide"));
+  table_->setVisible(!isFolded());
+  setSubtitle(isFolded() ? chosenText() : PreviewPage::tr("predicted for this content; click one to use it"));
+}
+
+/// The method in use, and how well it does.
+QString MethodsCard::chosenText() const {
+  const QString name = methodName(page_.settings().method);
+  const std::optional<MethodPreview> row = page_.chosenRow();
+  return row ? QString("%1: %2").arg(name, decibelsText(row->psnr)) : name;
+}
+
+void MethodsCard::choose(int row) {
+  if (row < 0 || static_cast<std::size_t>(row) >= page_.table().size()) return;
+  pipeline::ContentSettings settings = page_.settings();
+  settings.method = page_.table()[static_cast<std::size_t>(row)].method;
+  page_.setSettings(settings, PreviewPage::tr("Method"));
+}
+
+void MethodsCard::refresh() {
+  const std::vector<MethodPreview>& rows = page_.table();
+  table_->setRowCount(static_cast<int>(rows.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const MethodPreview& method = rows[static_cast<std::size_t>(row)];
+    const QString time = method.seconds < 0.001 ? PreviewPage::tr("under 1 ms")
+                         : method.seconds < 1.0
+                             ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
+                             : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1));
+    QStringList cells{methodName(method.method),
+                      noteOf(method.method),
+                      isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
+                      time,
+                      decibelsText(method.psnr),
+                      decimalText(method.ssim, 3)};
+    bool chosen = method.method == page_.settings().method;
+    for (int cell = 0; cell < cells.size(); ++cell) {
+      auto* item = new QTableWidgetItem(cells[cell]);
+      item->setFont(typeOf(type::body, chosen ? QFont::DemiBold : QFont::Normal));
+      if (cell == MethodsTable::note) item->setToolTip(cells[cell]);
+      if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
+      table_->setItem(row, cell, item);
+    }
+    if (chosen) table_->selectRow(row);
+  }
+  table_->fit();
+  arrange();
+}
+
+}  // namespace relucent::gui

@@ -28,18 +28,45 @@ struct DirectLight {
   float light;
 };
 
+/// Of the pixels of one T.
+class DirectReader {
+ public:
+  DirectReader(const transport::TransportMatrix& transport, const DirectLightSettings& settings)
+      : transport_(transport), direct_(transport, settings) {}
+
+  void read(std::size_t row, std::vector<DirectLight>& seen) const {
+    const transport::NodeLayout& layout = transport_.layout();
+    const Rasters& projectors = transport_.projectors();
+    seen.clear();
+    const transport::LeafRow leaves = transport_.row(row);
+    direct_.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
+      const float light = leaves.block(entry).sum() / static_cast<float>(block.count());
+      if (!(light > 0.0f)) return;
+      const auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});
+    });
+  }
+
+ private:
+  const transport::TransportMatrix& transport_;
+  DirectLeaves direct_;
+};
+
+/// Where each projector pixel lies in the first view.
 class Correspondence {
  public:
   Correspondence(const transport::TransportMatrix& transport, const CameraMask& usable,
-                 const DirectLightSettings& settings)
-      : transport_(transport), usable_(usable), direct_(transport, settings) {
+                 const DirectLightSettings& settings) {
+    const DirectReader first(transport, settings);
     const Size view = transport.cameras().size(0);
     std::vector<double> sums(3 * transport.projectors().count(), 0.0);
     std::vector<DirectLight> seen;
     for (std::size_t row = 0; row < view.count(); ++row) {
       if (!usable[row]) continue;
       const Pixel at = pixelAt(view, row);
-      read(row, seen);
+      first.read(row, seen);
       for (const DirectLight& each : seen) {
         double* sum = &sums[3 * each.projectorPixel];
         const auto light = static_cast<double>(each.light);
@@ -55,9 +82,9 @@ class Correspondence {
                      static_cast<float>(sums[3 * j + 1] / sums[3 * j + 2])};
   }
 
-  Place placeOf(std::size_t row) const {
+  Place placeOf(const DirectReader& reader, std::size_t row) const {
     std::vector<DirectLight> seen;
-    read(row, seen);
+    reader.read(row, seen);
     float all = 0.0f, most = 0.0f;
     Place centre{unknown, unknown};
     for (const DirectLight& each : seen) {
@@ -85,24 +112,6 @@ class Correspondence {
   }
 
  private:
-  void read(std::size_t row, std::vector<DirectLight>& seen) const {
-    const transport::NodeLayout& layout = transport_.layout();
-    const Rasters& projectors = transport_.projectors();
-    seen.clear();
-    const transport::LeafRow leaves = transport_.row(row);
-    direct_.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
-      const float light = leaves.block(entry).sum() / static_cast<float>(block.count());
-      if (!(light > 0.0f)) return;
-      const auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x)
-          seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});
-    });
-  }
-
-  const transport::TransportMatrix& transport_;
-  const CameraMask& usable_;
-  DirectLeaves direct_;
   std::vector<Place> place_;  // a_j
 };
 
@@ -153,12 +162,34 @@ ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& u
     const Pixel at = pixelAt(cameras.size(0), row);
     map[row] = {static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f};
   }
+  const DirectReader reader(transport, settings);
   parallelFor(cameras.size(0).count(), cameras.count(), 256, [&](std::size_t row) {
-    if (usable[row]) map[row] = correspondence.placeOf(row);
+    if (usable[row]) map[row] = correspondence.placeOf(reader, row);
   });
   for (std::size_t camera = 1; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
     fill({map.data() + begin, count}, {usable.data() + begin, count}, cameras.size(camera));
+  }
+  return map;
+}
+
+ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMask& usable,
+                    const transport::TransportMatrix& others, const CameraMask& usableOthers,
+                    const DirectLightSettings& settings) {
+  const Rasters& cameras = others.cameras();
+  require(others.projectors() == transport.projectors() && usable.size() == transport.cameras().count() &&
+              usableOthers.size() == cameras.count(),
+          "{} and {} flags for {} and {} camera pixels", usable.size(), usableOthers.size(),
+          transport.cameras().count(), cameras.count());
+  const Correspondence correspondence(transport, usable, settings);
+  const DirectReader reader(others, settings);
+  ViewMap map(cameras.count(), {unknown, unknown});
+  parallelFor(0, cameras.count(), 256, [&](std::size_t row) {
+    if (usableOthers[row]) map[row] = correspondence.placeOf(reader, row);
+  });
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
+    fill({map.data() + begin, count}, {usableOthers.data() + begin, count}, cameras.size(camera));
   }
   return map;
 }

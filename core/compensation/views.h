@@ -25,6 +25,12 @@ using ViewMap = std::vector<std::array<float, 2>>;
 ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& usable,
                 const DirectLightSettings& settings = {});
 
+/// The same for the cameras of another T under the same projectors, all of them, whose pixels follow no
+/// others. Shapes: the pixels of `others`.
+ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMask& usable,
+                    const transport::TransportMatrix& others, const CameraMask& usableOthers,
+                    const DirectLightSettings& settings = {});
+
 /// Between which pixels of the first camera's view a place lies, and their shares, which sum to one.
 struct ViewSample {
   std::array<std::size_t, 4> pixel{};

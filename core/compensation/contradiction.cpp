@@ -109,7 +109,9 @@ std::vector<Message> viewNotes(const MeasuredVenue& venue, const Target& target,
                                    "give it a picture of its own, or aim it there and measure again")
               .with(as::label(camera + 1)));
   }
-  if (contradiction.share >= toldShare)
+  const bool hasOwn = std::any_of(target.placements.begin() + 1, target.placements.end(),
+                                  [](const auto& placement) { return placement.has_value(); });
+  if (hasOwn && contradiction.share >= toldShare)
     notes.push_back(
         RELUCENT_ENGLISH_MESSAGE("compensation.views-contradict",
                                  "the views contradict each other: {} % of their pixels are visibly worse "

@@ -31,7 +31,7 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
                               const Compensation& compensation, Progress& progress);
 
 /// What to tell whoever chose weights and places: views that see nothing of the content although they ask for
-/// it, and views that contradict each other in a twentieth of the picture and more.
+/// it, and pictures of their own that contradict each other in a twentieth of the views' pixels and more.
 std::vector<Message> viewNotes(const MeasuredVenue& venue, const Target& target,
                                const Contradiction& contradiction);
 

@@ -181,6 +181,37 @@ class TestViewSettings : public QObject {
     QVERIFY(std::ranges::count(shines.free, 1) > 100);
   }
 
+  /// Law: cameras that see a place which the first one does not have the same there, however it goes on.
+  void placesBeyondTheFirstViewAreShared() {
+    const Size projector{50, 37};
+    std::vector<Scene> scenes;
+    for (std::uint64_t seed : {2, 5, 6}) scenes.push_back(makeScene({projector, {41, 29}, seed, 0.5, 1.2}));
+    MeasuredVenue venue = stackedViews(scenes);
+    const std::size_t first = 41 * 29;
+    for (std::size_t i = 0; i < first; ++i)
+      if (pixelAt({41, 29}, i).x > 20) venue.usable[i] = 0;
+    const ViewMap map = viewMap(venue.transport, venue.usable);
+    Progress silent;
+    const std::vector<DirectLook> looks = directLooks(venue.transport, {}, silent);
+    // Where the second camera has what each projector pixel lights.
+    std::vector<std::array<float, 2>> place(projector.count(), {std::nanf(""), 0.0f});
+    for (std::size_t i = first; i < 2 * first; ++i)
+      if (venue.usable[i] && looks[i].projectorPixel >= 0)
+        place[static_cast<std::size_t>(looks[i].projectorPixel)] = map[i];
+    std::vector<double> apart;
+    for (std::size_t i = 2 * first; i < 3 * first; ++i) {
+      if (!venue.usable[i] || looks[i].projectorPixel < 0) continue;
+      const auto j = static_cast<std::size_t>(looks[i].projectorPixel);
+      if (pixelAt(projector, j).x < 30 || std::isnan(place[j][0]) || std::isnan(map[i][0])) continue;
+      apart.push_back(std::hypot(map[i][0] - place[j][0], map[i][1] - place[j][1]));
+    }
+    QVERIFY(apart.size() > 100);
+    std::sort(apart.begin(), apart.end());
+    qInfo("%zu places, median %.2f, 95 %% within %.2f pixels", apart.size(), apart[apart.size() / 2],
+          apart[apart.size() * 95 / 100]);
+    QVERIFY(apart[apart.size() * 95 / 100] < 1.0);  // half a pixel of each
+  }
+
   void aPictureOfItsOwn_data() {
     QTest::addColumn<bool>("automatic");
     QTest::newRow("in corners") << false;

@@ -203,6 +203,15 @@ ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMas
   return map;
 }
 
+std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras) {
+  std::vector<std::size_t> apart;
+  for (std::size_t camera = 1; camera < cameras.devices() && !map.empty(); ++camera)
+    if (std::ranges::none_of(std::span(map).subspan(cameras.offset(camera), cameras.size(camera).count()),
+                             isKnown))
+      apart.push_back(camera);
+  return apart;
+}
+
 std::optional<ViewSample> sampleAt(const Place& place, Size view, const CameraMask& inside) {
   if (!isKnown(place)) return std::nullopt;
   const int column = static_cast<int>(std::floor(place[0])), line = static_cast<int>(std::floor(place[1]));

@@ -32,6 +32,10 @@ ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMas
                     const ViewMap& views, const transport::TransportMatrix& others,
                     const CameraMask& usableOthers, const DirectLightSettings& settings = {});
 
+/// Cameras beyond the first in whose view nothing is known: they share no lit place with those before them.
+/// Shapes: the pixels of `cameras`.
+std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras);
+
 /// Between which pixels of the first camera's view a place lies, and their shares, which sum to one.
 struct ViewSample {
   std::array<std::size_t, 4> pixel{};

@@ -356,6 +356,17 @@ class TestViewSettings : public QObject {
   /// A camera that shares no lit place with the first sees no picture, and somebody is told.
   void aViewWithoutContentIsTold() {
     Prepared apart(two().venue);
+    const Rasters& cameras = apart.venue.transport.cameras();
+    QVERIFY(camerasApart(apart.venue.views, cameras).empty() && camerasApart({}, cameras).empty());
+    // Half of the projector each.
+    CameraMask halves = apart.venue.usable;
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+      const std::size_t camera = i >= cameras.offset(1);
+      const Pixel at = pixelAt(cameras.size(camera), i - cameras.offset(camera));
+      const bool isLeft = 2 * at.x < cameras.size(camera).width;
+      if (isLeft != (camera == 0) || std::abs(2 * at.x - cameras.size(camera).width) < 8) halves[i] = 0;
+    }
+    QCOMPARE(camerasApart(viewMap(apart.venue.transport, halves), cameras), std::vector<std::size_t>{1});
     apart.venue.views.assign(apart.venue.views.size(), {std::nanf(""), std::nanf("")});
     Progress silent;
     const Compensator compensator(apart.venue, apart.inverse);

@@ -292,6 +292,19 @@ class TestSeveralViews : public QObject {
     QVERIFY(joint.images[0].others[0].reachable > 0.7);
   }
 
+  /// A camera that looks where no other does is told of as soon as all is measured.
+  void aCameraThatLooksElsewhereIsAFinding() {
+    const CalibrationFolder folder = CalibrationFolder::open(statue(), CalibrationFolder::Access::read);
+    MeasuredCalibration measured = loaded(statue());
+    const std::size_t before = summaryOf(folder, measured).findings.size();
+    const Rasters& cameras = measured.venue.transport.cameras();
+    for (std::size_t i = cameras.offset(2); i < cameras.count(); ++i)
+      measured.venue.views[i] = {std::nanf(""), std::nanf("")};
+    const std::vector<Message> findings = summaryOf(folder, measured).findings;
+    QCOMPARE(findings.size(), before + 1);
+    QVERIFY(english(findings.back()).starts_with("camera 3 sees no lit place that another camera sees"));
+  }
+
   void placesBetweenCameras_data() {
     QTest::addColumn<QString>("venue");
     QTest::newRow("statue3") << "statue3";

@@ -81,10 +81,7 @@ Compensation solvedSeparately(const Compensator& compensator, const Target& targ
     const CameraStack wanted = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
       return masks[k][i / 3] * (target.wanted[i] - venue.black[i]);
     });
-    std::vector<float> weight = target.weight;
-    for (std::size_t i = 0; i < weight.size(); ++i)
-      if (!(masks[k][i] > 0.0f)) weight[i] = 0.0f;
-    const ConstrainedProblem problem{venue.transport, wanted, weight, own};
+    const ConstrainedProblem problem{venue.transport, wanted, target.weight, own};
     const SolveResult solved =
         solveConstrained(problem, ProjectorStack(together.projector.size(), 0.0f), settings, solving);
     together.iterations += solved.iterations;

@@ -20,9 +20,9 @@ std::vector<std::vector<float>> blendingMasks(const transport::TransportMatrix& 
 
 /// What a joint solve is compared with: every projector is compensated on its own, as if the others were
 /// dark, for its masked part of the picture, and all of them are shown together,
-///   p_k = argmin 1/2 sum_i w_i |(T_k p_k - m_k (wanted - e))_i|^2,   0 <= p_k <= 1,    over i with m_k > 0
-/// None knows of the light that another one sends into its part.
-/// Throws: as solveConstrained().
+///   p_k = argmin 1/2 sum_i w_i |(T_k p_k - m_k (wanted - e))_i|^2,   0 <= p_k <= 1
+/// so that it keeps what it can of its light out of the others' parts, but knows nothing of the light that
+/// they send into its own. (Not to mind it there was 0.8 dB worse in `dome4`.) Throws: as solveConstrained().
 Compensation solvedSeparately(const Compensator& compensator, const Target& target,
                               const SolverSettings& settings, Progress& progress);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "relucent/cli/options.h"
@@ -38,6 +39,40 @@ void readOwnPlace(const std::string& text, compensation::TargetSettings& target)
   if (!isAutomatic) view.corners = {{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}}};
 }
 
+/// "x,y" or "x,y,z" from where the input stands to its end.
+std::optional<compensation::Position> readPosition(std::istream& input) {
+  compensation::Position position{};
+  char comma = ',';
+  if (!(input >> position[0] >> comma >> position[1]) || comma != ',') return std::nullopt;
+  if ((input >> std::ws).eof()) return position;
+  if (!(input >> comma >> position[2]) || comma != ',' || !(input >> std::ws).eof()) return std::nullopt;
+  return position;
+}
+
+/// "2:x,y,z". Throws: WrongUsage.
+void readCameraPosition(const std::string& text, compensation::TargetSettings& target) {
+  std::istringstream input(text);
+  int camera = 0;
+  char colon = 0;
+  std::optional<compensation::Position> position;
+  if (input >> camera >> colon && colon == ':' && camera >= 1 && camera <= mostCameras)
+    position = readPosition(input);
+  if (!position)
+    throw WrongUsage(fmt::format(
+        "'{}' is no camera's position: write CAMERA:x,y or CAMERA:x,y,z, in metres or as a plan has "
+        "it",
+        text));
+  viewOf(target, static_cast<std::size_t>(camera - 1)).position = position;
+}
+
+void readViewer(const std::string& text, compensation::TargetSettings& target) {
+  std::istringstream input(text);
+  target.viewer = readPosition(input);
+  if (!target.viewer)
+    throw WrongUsage(
+        fmt::format("'{}' is no viewer's position: write x,y or x,y,z as the cameras have it", text));
+}
+
 /// Of venues that several cameras look at.
 void addViews(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option_function<std::vector<double>>(
@@ -57,6 +92,17 @@ void addViews(CLI::App* sub, compensation::TargetSettings& target) {
          "A picture of its own in the view of a camera beyond the first, upright from there: auto finds the "
          "place; may be given several times. Without it the picture lies on the surface")
       ->type_name("CAMERA:auto|CAMERA:X,Y,...");
+  sub->add_option_function<std::vector<std::string>>(
+         "--camera-position",
+         [&target](const std::vector<std::string>& positions) {
+           for (const std::string& position : positions) readCameraPosition(position, target);
+         },
+         "Where a camera stands, metres or as a plan has it; once for each, for --viewer")
+      ->type_name("CAMERA:X,Y,Z");
+  sub->add_option_function<std::string>(
+         "--viewer", [&target](const std::string& position) { readViewer(position, target); },
+         "Where a viewer stands: the views count as they are near, by the cameras' positions")
+      ->type_name("X,Y,Z");
 }
 
 void addTarget(CLI::App* sub, compensation::TargetSettings& target) {

@@ -82,6 +82,23 @@ Placement placementOf(const image::Image& content, const MeasuredVenue& venue, s
   return fitted(*corners, aspect, fit);
 }
 
+/// Throws: Error{input} naming the first camera whose position is not known.
+void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
+  std::vector<Position> cameras;
+  for (std::size_t camera = 0; camera < views.size(); ++camera) {
+    if (!views[camera].position)
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("compensation.camera-position-unknown",
+                                           "there is a viewer, but where camera {} stands is not known")
+                      .with(as::label(camera + 1)),
+                  RELUCENT_ENGLISH_MESSAGE("compensation.give-camera-positions",
+                                           "give the position of every camera, in the viewer's units"));
+    cameras.push_back(*views[camera].position);
+  }
+  const std::vector<double> weights = viewerWeights(cameras, viewer);
+  for (std::size_t camera = 0; camera < views.size(); ++camera) views[camera].weight *= weights[camera];
+}
+
 /// Per camera, as the settings have it.
 std::vector<ViewSettings> viewsOf(const MeasuredVenue& venue, const TargetSettings& settings) {
   const std::size_t cameras = venue.transport.cameras().devices();
@@ -94,6 +111,7 @@ std::vector<ViewSettings> viewsOf(const MeasuredVenue& venue, const TargetSettin
                                          "set the views of the cameras that measured this calibration"));
   std::vector<ViewSettings> views = settings.views;
   views.resize(cameras);
+  if (settings.viewer) weighFor(*settings.viewer, views);
   if (std::ranges::all_of(views, [](const ViewSettings& view) { return view.weight == 0.0; }))
     throw Error(
         ErrorKind::input,
@@ -209,11 +227,18 @@ std::vector<Message> problems(const TargetSettings& settings) {
       found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.view-weight-negative",
                                                "the weight of camera {}'s view must be 0 or more")
                           .with(as::label(camera + 1)));
+    if (view.position && !isFinite(*view.position))
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.camera-position-not-finite",
+                                               "the position of camera {} must be finite numbers")
+                          .with(as::label(camera + 1)));
     if (view.corners)
       if (Message problem = cornerProblem(*view.corners); !problem.empty())
         found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.of-camera", "camera {}: {}")
                             .with(as::label(camera + 1), problem));
   }
+  if (settings.viewer && !isFinite(*settings.viewer))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.viewer-position-not-finite",
+                                             "the viewer's position must be finite numbers"));
   if (!settings.views.empty() && settings.views.front().placement == ViewPlacement::own)
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
         "compensation.first-view-has-the-corners",

@@ -9,6 +9,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/compensation/placement.h"
+#include "relucent/compensation/viewer.h"
 #include "relucent/compensation/views.h"
 #include "relucent/image/image.h"
 #include "relucent/transport/transport_matrix.h"
@@ -45,14 +46,17 @@ constexpr EnumNames<ViewPlacement> namesOf(ViewPlacement) {
 struct ViewSettings {
   double weight = 1.0;  // of its pixels in the solve, relative to other views; 0: it asks for nothing
   ViewPlacement placement = ViewPlacement::surface;
-  std::optional<Corners> corners;  // of ViewPlacement::own; none: largestUpright() in that view
+  std::optional<Corners> corners;      // of ViewPlacement::own; none: largestUpright() in that view
+  std::optional<Position> position{};  // of its camera: metres, or in the plan that the viewer's is in
   bool operator==(const ViewSettings&) const = default;
 };
 
 struct TargetSettings {
   /// Corners of the content in the first camera's view; none: largestUpright() over placeable().
   std::optional<Corners> corners;
-  std::vector<ViewSettings> views;    // camera after camera, from the first on; those left out: {}
+  std::vector<ViewSettings> views;  // camera after camera, from the first on; those left out: {}
+  /// For whom it is: the views count by viewerWeights() besides. None: for all who look from the cameras.
+  std::optional<Position> viewer{};
   Fit fit = Fit::fill;                // if content and corners differ in aspect ratio
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black

@@ -78,6 +78,7 @@ using Sorted = nlohmann::json;
 Sorted viewToJson(const compensation::ViewSettings& view) {
   Sorted json{{"weight", view.weight}, {"placement", view.placement}};
   if (view.corners) json["corners"] = *view.corners;
+  if (view.position) json["position"] = *view.position;
   return json;
 }
 
@@ -91,6 +92,7 @@ std::vector<compensation::ViewSettings> viewsFromJson(const Sorted& settings) {
     view.weight = json.value("weight", view.weight);
     view.placement = json.value("placement", view.placement);
     if (json.contains("corners")) view.corners = json.at("corners").get<compensation::Corners>();
+    if (json.contains("position")) view.position = json.at("position").get<compensation::Position>();
   }
   return views;
 }

@@ -181,6 +181,14 @@ class TestArguments : public QObject {
         {1.0, ViewPlacement::own, {}},
         {0.0, ViewPlacement::own, Corners{{{1, 2.5}, {3, 4}, {5, 6}, {7, 8}}}}};
     QVERIFY(views.settings.target.views == expected);
+    QVERIFY(!views.settings.target.viewer);
+    const TargetSettings walked = parsed<Evaluate>(
+                                      "evaluate d --camera-position 1:0,2.5 --camera-position 2:-1.5,2,0.5 "
+                                      "--viewer 0.5,2,0.25")
+                                      .settings.target;
+    QVERIFY((walked.views.at(0).position == Position{0, 2.5, 0}));
+    QVERIFY((walked.views.at(1).position == Position{-1.5, 2, 0.5}));
+    QVERIFY((walked.viewer == Position{0.5, 2, 0.25}));
 
     Evaluate evaluate =
         parsed<Evaluate>("evaluate d --image a.png --image b.exr --method mix --method refined");
@@ -277,6 +285,12 @@ class TestArguments : public QObject {
       QTest::addRow("view-corners %s", place)
           << QByteArray("compensate d --image a --out b --view-corners ") + place
           << QByteArray("CAMERA:auto");
+    for (const char* place : {"1,2,3", "0:1,2", "1:1", "1:1;2", "1:1,2,3,4", "1:a,b"})
+      QTest::addRow("camera-position %s", place)
+          << QByteArray("evaluate d --camera-position ") + place << QByteArray("no camera's position");
+    for (const char* place : {"1", "x,y", "1,2,3,4"})
+      QTest::addRow("viewer %s", place)
+          << QByteArray("evaluate d --viewer ") + place << QByteArray("no viewer's position");
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");
     QTest::newRow("nothing to export")

@@ -39,7 +39,7 @@ const Prepared& two() {
 
 TargetSettings weighing(const std::vector<double>& weights) {
   TargetSettings settings;
-  for (double weight : weights) settings.views.push_back({weight, ViewPlacement::surface, {}});
+  for (double weight : weights) settings.views.push_back({weight, ViewPlacement::surface, {}, {}});
   return settings;
 }
 
@@ -257,6 +257,24 @@ class TestViewSettings : public QObject {
              qPrintable(QString("%1 %2").arg(answers[0]).arg(answers[1])));
   }
 
+  /// Law: for whoever stands at a camera it is as if that one alone asked, and between two by the way; his
+  /// weights are times those of the views.
+  void aViewerWeighsTheViews() {
+    TargetSettings settings = weighing({1.0, 0.5});
+    settings.views[0].position = Position{0, 0, 0};
+    settings.views[1].position = Position{2, 0, 0};
+    const Image content = picture();
+    settings.viewer = Position{0, 0, 0};
+    QVERIFY(sameTargets(fitTarget(content, two().venue, settings),
+                        fitTarget(content, two().venue, weighing({1.0, 0.0}))));
+    settings.viewer = Position{1, 0, 0};
+    const std::vector<float> half = fitTarget(content, two().venue, settings).viewWeight;
+    QVERIFY(half[0] == 1.0f && std::abs(half[1] - 0.5f) < 2e-3f);
+    settings.viewer.reset();
+    QVERIFY(sameTargets(fitTarget(content, two().venue, settings),
+                        fitTarget(content, two().venue, weighing({1.0, 0.5}))));
+  }
+
   void saysWhatIsWrong_data() {
     QTest::addColumn<int>("what");
     QTest::addColumn<QString>("says");
@@ -267,6 +285,9 @@ class TestViewSettings : public QObject {
     QTest::newRow("outside the view") << 4 << "lower right corner of camera 2's content at (99, 20)";
     QTest::newRow("crossed") << 5 << "camera 2: the corners of the content do not span a convex";
     QTest::newRow("of the first") << 6 << "the first camera's quadrilateral is that of the content";
+    QTest::newRow("a viewer among unknown cameras") << 8 << "where camera 2 stands is not known";
+    QTest::newRow("a viewer nowhere") << 9 << "the viewer's position must be finite numbers";
+    QTest::newRow("a camera nowhere") << 10 << "the position of camera 1 must be finite numbers";
     QTest::newRow("an unlit view") << 7 << "no part of camera 2's view is lit well enough";
   }
   void saysWhatIsWrong() {
@@ -279,7 +300,9 @@ class TestViewSettings : public QObject {
     if (what == 1) settings.views[0].weight = std::nan("");
     if (what == 2) settings = weighing({0.0, 0.0});
     if (what == 3) settings = weighing({1.0, 1.0, 1.0});
-    if (what >= 4) second.placement = ViewPlacement::own;
+    if (what >= 8) settings.views[0].position = Position{0, 0, what == 10 ? HUGE_VAL : 0.0};
+    if (what >= 8) settings.viewer = Position{0, what == 9 ? std::nan("") : 0.0, 0};
+    if (what >= 4 && what < 8) second.placement = ViewPlacement::own;
     if (what == 4) second.corners = Corners{{{2, 2}, {30, 2}, {99, 20}, {2, 20}}};
     if (what == 5) second.corners = Corners{{{2, 2}, {30, 20}, {30, 2}, {2, 20}}};
     if (what == 6) settings.views[0].placement = ViewPlacement::own;
@@ -303,7 +326,7 @@ class TestViewSettings : public QObject {
       settings.corners = uprightCorners(8, 6, 24, 18);
       if (prepared == &twins) {
         settings.views.resize(2);
-        settings.views[1] = {1.0, ViewPlacement::own, settings.corners};
+        settings.views[1] = {1.0, ViewPlacement::own, settings.corners, {}};
       }
       const Target target = fitTarget(picture(), prepared->venue, settings);
       const Compensator compensator(prepared->venue, prepared->inverse);

@@ -195,7 +195,7 @@ class TestSteps : public QObject {
     const std::string before = folder.settings().dump();
     CalibrateSettings changed = settingsOf(folder);
     changed.content.views = {{0.25, ViewPlacement::surface, {}},
-                             {1.0, ViewPlacement::own, {}},
+                             {1.0, ViewPlacement::own, {}, Position{1.0, -2.0, 0.5}},
                              {2.0, ViewPlacement::own, uprightCorners(1.5, 2.0, 8.0, 6.0)}};
     changeSettings(folder, changed);
     QVERIFY(settingsOf(folder).content == changed.content);

@@ -6751,6 +6751,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.comparing-views</name>
+    <message>
+        <source>Comparing what the views want</source>
+        <translation>Vergleich dessen, was die Blickpunkte wollen</translation>
+    </message>
+</context>
+<context>
     <name>stage.compensating</name>
     <message>
         <source>Compensating</source>

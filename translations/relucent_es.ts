@@ -6751,6 +6751,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.comparing-views</name>
+    <message>
+        <source>Comparing what the views want</source>
+        <translation>Comparando lo que pide cada vista</translation>
+    </message>
+</context>
+<context>
     <name>stage.compensating</name>
     <message>
         <source>Compensating</source>

@@ -6751,6 +6751,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.comparing-views</name>
+    <message>
+        <source>Comparing what the views want</source>
+        <translation>Comparaison de ce que demande chaque vue</translation>
+    </message>
+</context>
+<context>
     <name>stage.compensating</name>
     <message>
         <source>Compensating</source>

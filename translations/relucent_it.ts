@@ -6751,6 +6751,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.comparing-views</name>
+    <message>
+        <source>Comparing what the views want</source>
+        <translation>Confronto di ciò che chiede ogni vista</translation>
+    </message>
+</context>
+<context>
     <name>stage.compensating</name>
     <message>
         <source>Compensating</source>

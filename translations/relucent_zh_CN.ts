@@ -6714,6 +6714,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.comparing-views</name>
+    <message>
+        <source>Comparing what the views want</source>
+        <translation>正在比较各视点的要求</translation>
+    </message>
+</context>
+<context>
     <name>stage.compensating</name>
     <message>
         <source>Compensating</source>

@@ -1,10 +1,109 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <memory>
+#include <optional>
+#include <sstream>
 
 #include "relucent/cli/options.h"
 
 namespace relucent::cli {
 namespace {
+
+constexpr int mostCameras = 64;
+
+compensation::ViewSettings& viewOf(compensation::TargetSettings& target, std::size_t camera) {
+  if (target.views.size() <= camera) target.views.resize(camera + 1);
+  return target.views[camera];
+}
+
+/// "2:auto" or "2:x,y,x,y,x,y,x,y". Throws: WrongUsage.
+void readOwnPlace(const std::string& text, compensation::TargetSettings& target) {
+  std::istringstream input(text);
+  int camera = 0;
+  char colon = 0;
+  std::array<double, 8> v{};
+  bool isRead = input >> camera >> colon && colon == ':' && camera >= 1 && camera <= mostCameras;
+  const bool isAutomatic = isRead && text.substr(text.find(':') + 1) == "auto";
+  for (std::size_t i = 0; isRead && !isAutomatic && i < v.size(); ++i) {
+    char comma = ',';
+    isRead = (i == 0 || input >> comma) && comma == ',' && input >> v[i];
+  }
+  if (!isRead || (!isAutomatic && !(input >> std::ws).eof()))
+    throw WrongUsage(
+        fmt::format("'{}' is no place of content in a view: write CAMERA:auto or CAMERA:x,y,x,y,x,y,x,y with "
+                    "the corners clockwise from top left, in pixels of that camera",
+                    text));
+  compensation::ViewSettings& view = viewOf(target, static_cast<std::size_t>(camera - 1));
+  view.placement = compensation::ViewPlacement::own;
+  view.corners.reset();
+  if (!isAutomatic) view.corners = {{{v[0], v[1]}, {v[2], v[3]}, {v[4], v[5]}, {v[6], v[7]}}};
+}
+
+/// "x,y" or "x,y,z" from where the input stands to its end.
+std::optional<compensation::Position> readPosition(std::istream& input) {
+  compensation::Position position{};
+  char comma = ',';
+  if (!(input >> position[0] >> comma >> position[1]) || comma != ',') return std::nullopt;
+  if ((input >> std::ws).eof()) return position;
+  if (!(input >> comma >> position[2]) || comma != ',' || !(input >> std::ws).eof()) return std::nullopt;
+  return position;
+}
+
+/// "2:x,y,z". Throws: WrongUsage.
+void readCameraPosition(const std::string& text, compensation::TargetSettings& target) {
+  std::istringstream input(text);
+  int camera = 0;
+  char colon = 0;
+  std::optional<compensation::Position> position;
+  if (input >> camera >> colon && colon == ':' && camera >= 1 && camera <= mostCameras)
+    position = readPosition(input);
+  if (!position)
+    throw WrongUsage(fmt::format(
+        "'{}' is no camera's position: write CAMERA:x,y or CAMERA:x,y,z, in metres or as a plan has "
+        "it",
+        text));
+  viewOf(target, static_cast<std::size_t>(camera - 1)).position = position;
+}
+
+void readViewer(const std::string& text, compensation::TargetSettings& target) {
+  std::istringstream input(text);
+  target.viewer = readPosition(input);
+  if (!target.viewer)
+    throw WrongUsage(
+        fmt::format("'{}' is no viewer's position: write x,y or x,y,z as the cameras have it", text));
+}
+
+/// Of venues that several cameras look at.
+void addViews(CLI::App* sub, compensation::TargetSettings& target) {
+  sub->add_option_function<std::vector<double>>(
+         "--view-weights",
+         [&target](const std::vector<double>& weights) {
+           for (std::size_t camera = 0; camera < weights.size(); ++camera)
+             viewOf(target, camera).weight = weights[camera];
+         },
+         "Weights of the cameras' views, from the first on: those left out have 1; 0: asks for nothing")
+      ->expected(1, mostCameras)
+      ->type_name("WEIGHT ...");
+  sub->add_option_function<std::vector<std::string>>(
+         "--view-corners",
+         [&target](const std::vector<std::string>& places) {
+           for (const std::string& place : places) readOwnPlace(place, target);
+         },
+         "A picture of its own in the view of a camera beyond the first, upright from there: auto finds the "
+         "place; may be given several times. Without it the picture lies on the surface")
+      ->type_name("CAMERA:auto|CAMERA:X,Y,...");
+  sub->add_option_function<std::vector<std::string>>(
+         "--camera-position",
+         [&target](const std::vector<std::string>& positions) {
+           for (const std::string& position : positions) readCameraPosition(position, target);
+         },
+         "Where a camera stands, metres or as a plan has it; once for each, for --viewer")
+      ->type_name("CAMERA:X,Y,Z");
+  sub->add_option_function<std::string>(
+         "--viewer", [&target](const std::string& position) { readViewer(position, target); },
+         "Where a viewer stands: the views count as they are near, by the cameras' positions")
+      ->type_name("X,Y,Z");
+}
 
 void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option_function<std::vector<double>>(
@@ -24,6 +123,7 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option("--black-lift", target.blackLift, "Share of white added to black")
       ->type_name("SHARE")
       ->capture_default_str();
+  addViews(sub, target);
 }
 
 void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, compensation::Method& method) {
@@ -73,6 +173,8 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
       ->type_name("FILE");
   addNamed(sub, "--method", "Only these methods; may be given several times", command->settings.methods)
       ->type_name("METHOD");
+  sub->add_flag("--blended", command->settings.blended,
+                "Of several projectors: compare with each solved on its own, blended by cosine ramps");
   addTarget(sub, command->settings.target);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };

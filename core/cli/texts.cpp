@@ -105,21 +105,28 @@ std::string textOf(const pipeline::CompensateResult& result) {
     std::replace(reason.begin(), reason.end(), '_', ' ');
     text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
   }
-  return text + textOf(pipeline::WrittenFiles{result.files});
+  if (result.contradiction)
+    text += fmt::format("Visibly worse because of other views: {:.1f} % of what the views ask for.\n",
+                        100.0 * result.contradiction->share);
+  return text + lines(result.notes) + textOf(pipeline::WrittenFiles{result.files});
 }
 
 namespace {
 
-std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods) {
+/// `blended`: of each projector on its own, below the methods.
+std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods,
+                    const std::optional<pipeline::MethodScore>& blended = {}) {
   std::string text =
       fmt::format("\n{:<12} {:>14} {:>9} {:>10} {:>7} {:>8} {:>7} {:>9} {:>9}\n{:<12} {:>14} {:>9} {:>10}\n",
                   title, "reachable dB", "all dB", "encoded dB", "SSIM", "MS-SSIM", "dE2000", "dE 95 %",
                   "seconds", "", "linear", "linear", "all");
-  for (const pipeline::MethodScore& score : methods)
-    text +=
-        fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>10.2f} {:>7.3f} {:>8.3f} {:>7.2f} {:>9.2f} {:>9.4f}\n",
-                    nameOf(score.method), score.psnrReachable, score.psnrAll, score.encodedPsnrAll,
-                    score.ssim, score.multiScaleSsim, score.deltaE, score.deltaEPercentile, score.seconds);
+  const auto add = [&](std::string_view name, const pipeline::MethodScore& score) {
+    text += fmt::format("{:<12} {:>14.2f} {:>9.2f} {:>10.2f} {:>7.3f} {:>8.3f} {:>7.2f} {:>9.2f} {:>9.4f}\n",
+                        name, score.psnrReachable, score.psnrAll, score.encodedPsnrAll, score.ssim,
+                        score.multiScaleSsim, score.deltaE, score.deltaEPercentile, score.seconds);
+  };
+  for (const pipeline::MethodScore& score : methods) add(nameOf(score.method), score);
+  if (blended) add("blended", *blended);
   return text;
 }
 
@@ -129,10 +136,21 @@ std::string textOf(const pipeline::EvaluateResult& result) {
   std::string text =
       fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
   for (const pipeline::ImageScore& image : result.images) {
-    text += tableOf(image.name, image.methods);
+    text += tableOf(image.name, image.methods, image.blended);
     for (std::size_t view = 0; view < image.others.size(); ++view)
-      text += tableOf(fmt::format("camera {}", view + 2), image.others[view].methods);
+      text +=
+          tableOf(fmt::format("camera {}", view + 2), image.others[view].methods, image.others[view].blended);
+    for (std::size_t place = 0; place < image.unseen.size(); ++place)
+      text += tableOf(fmt::format("unseen {}", place + 1), image.unseen[place].methods);
+    if (image.contradiction)
+      text += fmt::format("Visibly worse because of other views: {:.1f} %.\n",
+                          100.0 * image.contradiction->share);
   }
+  for (const pipeline::SeamScore& seams : result.seams)
+    text += fmt::format(
+        "Seams at {:.0f} % grey: dE2000 {:.2f} with {}, {:.2f} blended; beside them {:.2f}, {:.2f}.\n",
+        100.0 * seams.grey, seams.joint.mean, nameOf(seams.method), seams.blended.mean, seams.joint.elsewhere,
+        seams.blended.elsewhere);
   return text;
 }
 

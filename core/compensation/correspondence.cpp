@@ -1,31 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/compensation/correspondence.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
+#include <functional>
+#include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 
 namespace relucent::compensation {
+namespace {
 
-std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
-                                                  const CameraMask& usable,
-                                                  const DirectLightSettings& settings) {
+/// A camera pixel's light from a projector pixel, above the pixel's number: the brightest is the largest, of
+/// equals the first. Bits of positive floats sort as the floats do. 0: none.
+using Bid = std::uint64_t;
+
+Bid bidOf(float light, std::size_t row) {
+  return Bid{std::bit_cast<std::uint32_t>(light)} << 32 | ~static_cast<std::uint32_t>(row);
+}
+std::int32_t rowOf(Bid bid) {
+  return bid == 0 ? -1 : static_cast<std::int32_t>(~static_cast<std::uint32_t>(bid));
+}
+
+/// Of every projector pixel the highest one. Whoever comes first in whatever order, it wins.
+std::vector<Bid> highestBids(const transport::TransportMatrix& transport, const CameraMask& usable,
+                             const DirectLightSettings& settings) {
   constexpr float leastShare = 0.01f;
   const transport::NodeLayout& layout = transport.layout();
   const Rasters& projectors = transport.projectors();
   const std::size_t rows = transport.cameras().count();
   require(usable.size() == rows, "{} flags for {} camera pixels", usable.size(), rows);
   DirectLeaves rule(transport, settings);
-  // The brightest so far, its light above its row: whoever comes first in whatever order, the brightest wins,
-  // of equals the first row. Bits of positive floats sort as the floats do.
-  std::vector<std::uint64_t> first(projectors.count(), 0);
+  std::vector<Bid> highest(projectors.count(), 0);
   auto offer = [&](std::size_t pixel, float light, std::size_t row) {
-    std::uint64_t bid =
-        std::uint64_t{std::bit_cast<std::uint32_t>(light)} << 32 | ~static_cast<std::uint32_t>(row);
-    std::atomic_ref<std::uint64_t> held(first[pixel]);
-    std::uint64_t seen = held.load(std::memory_order_relaxed);
+    const Bid bid = bidOf(light, row);
+    std::atomic_ref<Bid> held(highest[pixel]);
+    Bid seen = held.load(std::memory_order_relaxed);
     while (seen < bid && !held.compare_exchange_weak(seen, bid, std::memory_order_relaxed)) {
     }
   };
@@ -44,11 +56,63 @@ std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatr
     });
   });
 
-  std::vector<std::int32_t> brightest(first.size(), -1);
-  for (std::size_t pixel = 0; pixel < first.size(); ++pixel)
-    if (first[pixel] != 0)
-      brightest[pixel] = static_cast<std::int32_t>(~static_cast<std::uint32_t>(first[pixel]));
+  return highest;
+}
+
+/// The views in which the content is placed together, and ask for something: a mask of cameras each.
+std::vector<std::vector<bool>> placedTogether(const Target& target) {
+  std::vector<std::vector<bool>> groups(1, std::vector<bool>(target.viewWeight.size()));
+  for (std::size_t camera = 0; camera < target.viewWeight.size(); ++camera) {
+    if (!(target.viewWeight[camera] > 0.0f)) continue;
+    const bool isOwn = camera > 0 && target.placements[camera].has_value();
+    if (isOwn) groups.emplace_back(target.viewWeight.size());
+    (isOwn ? groups.back() : groups.front())[camera] = true;
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
+                                                  const CameraMask& usable,
+                                                  const DirectLightSettings& settings) {
+  const std::vector<Bid> highest = highestBids(transport, usable, settings);
+  std::vector<std::int32_t> brightest(highest.size());
+  std::ranges::transform(highest, brightest.begin(), rowOf);
   return brightest;
+}
+
+ContentCorrespondence contentCorrespondence(const transport::TransportMatrix& transport,
+                                            const CameraMask& usable, const Target& target,
+                                            const std::vector<std::int32_t>& brightest,
+                                            const DirectLightSettings& settings) {
+  const std::vector<std::vector<bool>> groups = placedTogether(target);
+  if (groups.size() == 1 && std::ranges::all_of(groups.front(), std::identity()))
+    return {brightest, contentPixels(brightest, target)};
+
+  const Rasters& cameras = transport.cameras();
+  ContentCorrespondence content{std::vector<std::int32_t>(brightest.size(), -1),
+                                ProjectorMask(brightest.size(), 0)};
+  std::vector<Bid> answered(brightest.size(), 0);
+  for (const std::vector<bool>& group : groups) {
+    CameraMask asked(usable.size(), 0);
+    for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+      if (group[camera])
+        std::copy_n(usable.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera)),
+                    cameras.size(camera).count(),
+                    asked.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera)));
+    const std::vector<Bid> highest = highestBids(transport, asked, settings);
+    for (std::size_t j = 0; j < highest.size(); ++j) {
+      const std::int32_t row = rowOf(highest[j]);
+      if (row < 0) continue;
+      const bool inside = target.inside[static_cast<std::size_t>(row)] != 0;
+      if (std::pair(inside, highest[j]) < std::pair(content.free[j] != 0, answered[j])) continue;
+      content.brightest[j] = row;
+      content.free[j] = inside;
+      answered[j] = highest[j];
+    }
+  }
+  return content;
 }
 
 ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {

@@ -20,4 +20,19 @@ std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatr
 /// Per projector pixel: its brightest camera pixel lies within the content. The others are black.
 ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target);
 
+/// The projector pixels of the content, and the camera pixels that they answer to.
+struct ContentCorrespondence {
+  std::vector<std::int32_t> brightest;  // i*(j) in the views that ask for something; -1: none sees j
+  ProjectorMask free;                   // i*(j) lies within the content; the others are black
+};
+/// Views in which the content is placed together, that is the first one with all those in which it lies on
+/// the surface, and each that has a quadrilateral of its own, have an i*(j) each; j belongs to the content
+/// where one of these lies within it, and answers to the one of them that it lights most. Views of no weight
+/// are not asked. `brightest`: i*(j) of all `usable` pixels, which answers where all views have a weight and
+/// lie on the surface.
+ContentCorrespondence contentCorrespondence(const transport::TransportMatrix& transport,
+                                            const CameraMask& usable, const Target& target,
+                                            const std::vector<std::int32_t>& brightest,
+                                            const DirectLightSettings& settings);
+
 }  // namespace relucent::compensation

@@ -67,11 +67,12 @@ Compensator::Compensator(const MeasuredVenue& venue, const inverse::WindowInvers
   require(wrong.empty(), "compensator settings: {}", fmt::join(wrong, "; "));
 }
 
-ProjectorStack Compensator::perPixel(Method method, const Target& target) const {
-  ProjectorStack p(3 * brightest_.size(), 0.0f);
-  parallelFor(0, brightest_.size(), 1024, [&](std::size_t j) {
-    if (brightest_[j] < 0) return;
-    auto i = static_cast<std::size_t>(brightest_[j]);
+ProjectorStack Compensator::perPixel(Method method, const Target& target,
+                                     const std::vector<std::int32_t>& brightest) const {
+  ProjectorStack p(3 * brightest.size(), 0.0f);
+  parallelFor(0, brightest.size(), 1024, [&](std::size_t j) {
+    if (brightest[j] < 0) return;
+    auto i = static_cast<std::size_t>(brightest[j]);
     using Colour = Eigen::Map<const Eigen::Vector3f>;
     Eigen::Map<Eigen::Vector3f> drive(&p[3 * j]);
     Eigen::Vector3f residual = Colour(&target.wanted[3 * i]) - Colour(&venue_.black[3 * i]);
@@ -97,13 +98,24 @@ ProjectorStack Compensator::perPixel(Method method, const Target& target) const 
   return p;
 }
 
+ProjectorMask Compensator::contentPixelsOf(const Target& target) const {
+  return contentCorrespondence(venue_.transport, seesProjection(venue_), target, brightest_, settings_.direct)
+      .free;
+}
+
 float Compensator::bestBrightness(const Target& target) const {
   double wanted = 0.0, seen = 0.0;
-  for (std::size_t i = 0; i < target.content.size(); ++i) {
-    if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
-    double light = static_cast<double>(venue_.flood[i]) * static_cast<double>(target.content[i]);
-    wanted += light * (static_cast<double>(target.wanted[i]) - static_cast<double>(venue_.black[i]));
-    seen += light * light;
+  const Rasters& cameras = venue_.transport.cameras();
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const auto weight = static_cast<double>(target.viewWeight[camera]);
+    const std::size_t begin = 3 * cameras.offset(camera), end = begin + 3 * cameras.size(camera).count();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
+      double light = static_cast<double>(venue_.flood[i]) * static_cast<double>(target.content[i]);
+      wanted +=
+          weight * light * (static_cast<double>(target.wanted[i]) - static_cast<double>(venue_.black[i]));
+      seen += weight * light * light;
+    }
   }
   return seen > 0.0 ? static_cast<float>(std::clamp(wanted / seen, 0.0, 1.0)) : 1.0f;
 }
@@ -162,11 +174,12 @@ Compensation Compensator::byInverse(const std::function<ProjectorStack(const Cam
 Compensation Compensator::solve(Method method, const Target& target, Progress& progress) const {
   require(target.wanted.size() == venue_.black.size() && target.inside.size() == venue_.usable.size(),
           "a target of {} values for {} camera values", target.wanted.size(), venue_.black.size());
-  ProjectorMask free = contentPixels(brightest_, target);
+  const auto [brightest, free] =
+      contentCorrespondence(venue_.transport, seesProjection(venue_), target, brightest_, settings_.direct);
   Compensation result;
   if (method == Method::none || method == Method::scalar || method == Method::mix ||
       method == Method::sharpen) {
-    result.projector = perPixel(method, target);
+    result.projector = perPixel(method, target, brightest);
     if (method == Method::none) {
       float brightness = bestBrightness(target);
       for (float& value : result.projector) value *= brightness;

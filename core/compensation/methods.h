@@ -44,7 +44,7 @@ struct Compensation {
 
 /// Turns targets into projector images. Prepared once for a venue.
 /// Projector pixels whose brightest camera pixel lies outside the content stay black, and so do those that no
-/// usable camera pixel sees.
+/// usable camera pixel sees (contentCorrespondence()).
 /// `venue` and `inverse` must outlive it.
 class Compensator {
  public:
@@ -69,11 +69,17 @@ class Compensator {
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
 
-  /// i*(j), -1 where no usable camera pixel sees projector pixel j.
+  const MeasuredVenue& venue() const { return venue_; }
+  const CompensatorSettings& settings() const { return settings_; }
+  /// The projector pixels of the content; the others stay black.
+  ProjectorMask contentPixelsOf(const Target& target) const;
+  /// i*(j) of all views, -1 where no usable camera pixel sees projector pixel j.
   const std::vector<std::int32_t>& brightestCameraPixel() const { return brightest_; }
 
  private:
-  ProjectorStack perPixel(Method method, const Target& target) const;
+  /// `brightest`: the camera pixels that projector pixels answer to.
+  ProjectorStack perPixel(Method method, const Target& target,
+                          const std::vector<std::int32_t>& brightest) const;
   /// Improves the projection of `mix` with the defocus of T.
   Compensation sharpened(const Target& target, Compensation mixed, const ProjectorMask& free,
                          Progress& progress) const;

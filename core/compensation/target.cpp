@@ -10,8 +10,8 @@
 namespace relucent::compensation {
 namespace {
 
-Size firstCamera(const MeasuredVenue& venue) {
-  return venue.transport.cameras().size(0);
+Size viewOf(const MeasuredVenue& venue, std::size_t camera) {
+  return venue.transport.cameras().size(camera);
 }
 
 void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
@@ -26,10 +26,19 @@ void checkShapes(const image::Image& content, const MeasuredVenue& venue) {
 }
 
 /// Where the content goes when nobody says.
-Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue) {
-  Size view = firstCamera(venue);
+Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue, std::size_t camera) {
   double aspect = static_cast<double>(content.width()) / content.height();
-  std::optional<Corners> found = largestUpright(placeable(venue), view, aspect);
+  std::optional<Corners> found = largestUpright(placeable(venue, camera), viewOf(venue, camera), aspect);
+  if (!found && camera > 0)
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE(
+            "compensation.no-lit-area-in-view",
+            "no part of camera {}'s view is lit well enough to hold a picture of its own")
+            .with(as::label(camera + 1)),
+        RELUCENT_ENGLISH_MESSAGE("compensation.let-content-lie-on-surface",
+                                 "let the content lie on the surface in that view, or aim that camera at the "
+                                 "projection and measure again"));
   if (!found)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("compensation.no-lit-area",
@@ -41,7 +50,7 @@ Corners chosenCorners(const image::Image& content, const MeasuredVenue& venue) {
 }
 
 /// Throws: Error{input} naming the first corner that the camera does not see.
-void checkInView(const Corners& corners, Size view) {
+void checkInView(const Corners& corners, Size view, std::size_t camera) {
   // Whoever drags a corner to the edge may end up a little beyond it.
   constexpr double tolerance = 1.0;
   constexpr std::array names{"upper left", "upper right", "lower right", "lower left"};
@@ -49,22 +58,76 @@ void checkInView(const Corners& corners, Size view) {
     auto [x, y] = corners[i];
     if (x >= -tolerance && y >= -tolerance && x <= view.width + tolerance && y <= view.height + tolerance)
       continue;
+    const Argument atX = as::number(x, as::digits(6)), atY = as::number(y, as::digits(6));
     throw Error(
         ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE(
-            "compensation.corner-outside-view",
-            "the {} corner of the content at ({}, {}) lies outside the camera's view of {} pixels")
-            .with(names[i], as::number(x, as::digits(6)), as::number(y, as::digits(6)), as::size(view)),
+        camera == 0
+            ? RELUCENT_ENGLISH_MESSAGE(
+                  "compensation.corner-outside-view",
+                  "the {} corner of the content at ({}, {}) lies outside the camera's view of {} pixels")
+                  .with(names[i], atX, atY, as::size(view))
+            : RELUCENT_ENGLISH_MESSAGE(
+                  "compensation.corner-outside-other-view",
+                  "the {} corner of camera {}'s content at ({}, {}) lies outside its view of {} pixels")
+                  .with(names[i], as::label(camera + 1), atX, atY, as::size(view)),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-view", "move the corners into the view"));
   }
 }
 
-Placement placementOf(const image::Image& content, const MeasuredVenue& venue,
-                      const TargetSettings& settings) {
-  if (!settings.corners) return {chosenCorners(content, venue), {}};  // of the content's own shape
-  checkInView(*settings.corners, firstCamera(venue));
+Placement placementOf(const image::Image& content, const MeasuredVenue& venue, std::size_t camera,
+                      const std::optional<Corners>& corners, Fit fit) {
+  if (!corners) return {chosenCorners(content, venue, camera), {}};  // of the content's own shape
+  checkInView(*corners, viewOf(venue, camera), camera);
   double aspect = static_cast<double>(content.width()) / content.height();
-  return fitted(*settings.corners, aspect, settings.fit);
+  return fitted(*corners, aspect, fit);
+}
+
+/// Throws: Error{input} naming the first camera whose position is not known.
+void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
+  std::vector<Position> cameras;
+  for (std::size_t camera = 0; camera < views.size(); ++camera) {
+    if (!views[camera].position)
+      throw Error(ErrorKind::input,
+                  RELUCENT_ENGLISH_MESSAGE("compensation.camera-position-unknown",
+                                           "there is a viewer, but where camera {} stands is not known")
+                      .with(as::label(camera + 1)),
+                  RELUCENT_ENGLISH_MESSAGE("compensation.give-camera-positions",
+                                           "give the position of every camera, in the viewer's units"));
+    cameras.push_back(*views[camera].position);
+  }
+  const std::vector<double> weights = viewerWeights(cameras, viewer);
+  for (std::size_t camera = 0; camera < views.size(); ++camera) views[camera].weight *= weights[camera];
+}
+
+/// Per camera, as the settings have it.
+std::vector<ViewSettings> viewsOf(const MeasuredVenue& venue, const TargetSettings& settings) {
+  const std::size_t cameras = venue.transport.cameras().devices();
+  if (settings.views.size() > cameras)
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("compensation.more-views-than-cameras",
+                                         "the view of camera {} is set, but there are {} cameras")
+                    .with(as::label(settings.views.size()), as::label(cameras)),
+                RELUCENT_ENGLISH_MESSAGE("compensation.set-views-of-cameras",
+                                         "set the views of the cameras that measured this calibration"));
+  std::vector<ViewSettings> views = settings.views;
+  views.resize(cameras);
+  if (settings.viewer) weighFor(*settings.viewer, views);
+  if (std::ranges::all_of(views, [](const ViewSettings& view) { return view.weight == 0.0; }))
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("compensation.no-view-has-weight",
+                                 "every view has the weight 0: nobody asks for a picture"),
+        RELUCENT_ENGLISH_MESSAGE("compensation.give-view-weight", "give at least one view a weight above 0"));
+  return views;
+}
+
+/// Relative to the heaviest.
+std::vector<float> relativeWeights(const std::vector<ViewSettings>& views) {
+  double most = 0.0;
+  for (const ViewSettings& view : views) most = std::max(most, view.weight);
+  std::vector<float> weights;
+  for (const ViewSettings& view : views) weights.push_back(static_cast<float>(view.weight / most));
+  return weights;
 }
 
 /// What is wrong with the corners, empty if nothing is.
@@ -83,12 +146,22 @@ Message cornerProblem(const Corners& corners) {
       "the corners of the content do not span a convex quadrilateral: they must go clockwise from top left");
 }
 
-/// Content and what it covers, from the first camera's view into the others.
-void lieInOtherViews(const MeasuredVenue& venue, Target& target) {
-  const Size view = firstCamera(venue);
+/// Content into a camera's view, as its placement has it.
+void placeInView(const image::Image& content, const MeasuredVenue& venue, std::size_t camera,
+                 Target& target) {
+  const Placed placed = place(content, *target.placements[camera], viewOf(venue, camera));
+  const auto first = static_cast<std::ptrdiff_t>(venue.transport.cameras().offset(camera));
+  std::ranges::copy(placed.inside, target.inside.begin() + first);
+  std::ranges::copy(placed.image.data(), target.content.begin() + 3 * first);
+}
+
+/// Content and what it covers, from the first camera's view into another.
+void lieOnSurface(const MeasuredVenue& venue, std::size_t camera, Target& target) {
+  const Size view = viewOf(venue, 0);
   const CameraMask inside(target.inside.begin(),
                           target.inside.begin() + static_cast<std::ptrdiff_t>(view.count()));
-  parallelFor(view.count(), target.inside.size(), 1024, [&](std::size_t i) {
+  const std::size_t begin = venue.transport.cameras().offset(camera);
+  parallelFor(begin, begin + viewOf(venue, camera).count(), 1024, [&](std::size_t i) {
     const std::optional<ViewSample> sample = sampleAt(venue.views[i], view, inside);
     if (!sample) return;
     target.inside[i] = 1;
@@ -98,15 +171,26 @@ void lieInOtherViews(const MeasuredVenue& venue, Target& target) {
   });
 }
 
-/// The brightest white that all but `percentile` percent of the usable pixels inside can show.
-float whiteLevel(const MeasuredVenue& venue, const CameraMask& inside, double percentile) {
-  std::vector<float> brightest;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    if (!inside[i] || !venue.usable[i]) continue;
-    float least = venue.flood[3 * i] + venue.black[3 * i];
-    for (std::size_t c = 1; c < 3; ++c)
-      least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
-    brightest.push_back(least);
+/// The brightest white that all but `percentile` percent of the usable pixels inside can show, each pixel
+/// counted by the weight of its view.
+float whiteLevel(const MeasuredVenue& venue, const Target& target, double percentile) {
+  struct Pixel {
+    float most, weight;
+  };
+  std::vector<Pixel> brightest;
+  double all = 0.0;
+  const Rasters& cameras = venue.transport.cameras();
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const float weight = target.viewWeight[camera];
+    const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
+    for (std::size_t i = begin; i < end && weight > 0.0f; ++i) {
+      if (!target.inside[i] || !venue.usable[i]) continue;
+      float least = venue.flood[3 * i] + venue.black[3 * i];
+      for (std::size_t c = 1; c < 3; ++c)
+        least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
+      brightest.push_back({least, weight});
+      all += static_cast<double>(weight);
+    }
   }
   if (brightest.empty())
     throw Error(
@@ -115,17 +199,20 @@ float whiteLevel(const MeasuredVenue& venue, const CameraMask& inside, double pe
                                  "the corners of the content enclose no pixel that the projector lights"),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
                                  "move the corners into the lit part of the camera's view"));
-  auto rank = static_cast<std::size_t>(percentile / 100.0 * static_cast<double>(brightest.size() - 1));
-  auto chosen = brightest.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(brightest.begin(), chosen, brightest.end());
-  if (!(*chosen > 0.0f))
+  std::ranges::sort(brightest, {}, &Pixel::most);
+  // With equal weights the first whose rank is not less than that share of the last one's.
+  const double share = percentile / 100.0 * (all - all / static_cast<double>(brightest.size()));
+  double passed = 0.0;
+  auto chosen = brightest.begin();
+  while ((passed += static_cast<double>(chosen->weight)) <= share && chosen + 1 != brightest.end()) ++chosen;
+  if (!(chosen->most > 0.0f))
     throw Error(
         ErrorKind::input,
         RELUCENT_ENGLISH_MESSAGE("compensation.colour-hardly-seen",
                                  "some colour of the projector hardly reaches the camera within the content"),
         RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
                                  "move the corners into the lit part of the camera's view"));
-  return *chosen;
+  return chosen->most;
 }
 
 }  // namespace
@@ -134,6 +221,28 @@ std::vector<Message> problems(const TargetSettings& settings) {
   std::vector<Message> found;
   if (settings.corners)
     if (Message problem = cornerProblem(*settings.corners); !problem.empty()) found.push_back(problem);
+  for (std::size_t camera = 0; camera < settings.views.size(); ++camera) {
+    const ViewSettings& view = settings.views[camera];
+    if (!(view.weight >= 0.0 && std::isfinite(view.weight)))
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.view-weight-negative",
+                                               "the weight of camera {}'s view must be 0 or more")
+                          .with(as::label(camera + 1)));
+    if (view.position && !isFinite(*view.position))
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.camera-position-not-finite",
+                                               "the position of camera {} must be finite numbers")
+                          .with(as::label(camera + 1)));
+    if (view.corners)
+      if (Message problem = cornerProblem(*view.corners); !problem.empty())
+        found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.of-camera", "camera {}: {}")
+                            .with(as::label(camera + 1), problem));
+  }
+  if (settings.viewer && !isFinite(*settings.viewer))
+    found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.viewer-position-not-finite",
+                                             "the viewer's position must be finite numbers"));
+  if (!settings.views.empty() && settings.views.front().placement == ViewPlacement::own)
+    found.push_back(RELUCENT_ENGLISH_MESSAGE(
+        "compensation.first-view-has-the-corners",
+        "the first camera's quadrilateral is that of the content: it has no other of its own"));
   if (!(settings.reachablePercentile >= 0.0 && settings.reachablePercentile <= 100.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
         "compensation.reachable-percentile-out-of-range",
@@ -154,10 +263,10 @@ CameraMask seesProjection(const MeasuredVenue& venue) {
   return pixels;
 }
 
-CameraMask placeable(const MeasuredVenue& venue) {
-  CameraMask pixels = seesProjection(venue);
-  pixels.resize(firstCamera(venue).count());
-  return pixels;
+CameraMask placeable(const MeasuredVenue& venue, std::size_t camera) {
+  const CameraMask pixels = seesProjection(venue);
+  const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(venue.transport.cameras().offset(camera));
+  return {begin, begin + static_cast<std::ptrdiff_t>(viewOf(venue, camera).count())};
 }
 
 transport::ColourBlock meanColourMixing(const MeasuredVenue& venue) {
@@ -182,24 +291,32 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   require(wrong.empty(), "target settings: {}", fmt::join(wrong, "; "));
 
   Target target;
-  Placement placement = placementOf(linearContent, venue, settings);
-  target.corners = placement.corners;
-  Placed placed = place(linearContent, placement, firstCamera(venue));
-  std::size_t pixels = venue.transport.cameras().count();
-  target.inside = std::move(placed.inside);
-  target.inside.resize(pixels, 0);
-  target.content = CameraStack(std::move(placed.image.data()));
-  target.content.resize(3 * pixels, 0.0f);
-  if (!venue.views.empty()) lieInOtherViews(venue, target);
+  const std::vector<ViewSettings> views = viewsOf(venue, settings);
+  const Rasters& cameras = venue.transport.cameras();
+  const std::size_t pixels = cameras.count();
+  target.viewWeight = relativeWeights(views);
+  target.placements.resize(cameras.devices());
+  target.inside.assign(pixels, 0);
+  target.content.assign(3 * pixels, 0.0f);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    if (camera == 0 || views[camera].placement == ViewPlacement::own) {
+      target.placements[camera] = placementOf(
+          linearContent, venue, camera, camera == 0 ? settings.corners : views[camera].corners, settings.fit);
+      placeInView(linearContent, venue, camera, target);
+    } else if (!venue.views.empty()) {
+      lieOnSurface(venue, camera, target);
+    }
+  }
+  target.corners = target.placements.front()->corners;
 
-  float white = whiteLevel(venue, target.inside, settings.reachablePercentile);
+  float white = whiteLevel(venue, target, settings.reachablePercentile);
   target.white = {white, white, white};
   transport::ColourBlock mixing = meanColourMixing(venue);
   auto lift = static_cast<float>(settings.blackLift);
   target.wanted = venue.black;
   target.reachable.assign(pixels, 0);
   target.weight.assign(pixels, 0.0f);
-  parallelFor(0, pixels, 1024, [&](std::size_t i) {
+  const auto fit = [&](std::size_t i, float weight) {
     if (!target.inside[i]) return;
     Eigen::Map<const Eigen::Vector3f> content(&target.content[3 * i]);
     Eigen::Map<Eigen::Vector3f> wanted(&target.wanted[3 * i]);
@@ -209,8 +326,13 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     bool reachable =
         (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
     target.reachable[i] = reachable;
-    target.weight[i] = reachable ? 1.0f : static_cast<float>(settings.unreachableWeight);
-  });
+    target.weight[i] = weight * (reachable ? 1.0f : static_cast<float>(settings.unreachableWeight));
+  };
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera);
+    parallelFor(begin, begin + viewOf(venue, camera).count(), 1024,
+                [&](std::size_t i) { fit(i, target.viewWeight[camera]); });
+  }
   return target;
 }
 

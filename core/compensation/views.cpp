@@ -28,36 +28,63 @@ struct DirectLight {
   float light;
 };
 
+/// Of the pixels of one T.
+class DirectReader {
+ public:
+  DirectReader(const transport::TransportMatrix& transport, const DirectLightSettings& settings)
+      : transport_(transport), direct_(transport, settings) {}
+
+  void read(std::size_t row, std::vector<DirectLight>& seen) const {
+    const transport::NodeLayout& layout = transport_.layout();
+    const Rasters& projectors = transport_.projectors();
+    seen.clear();
+    const transport::LeafRow leaves = transport_.row(row);
+    direct_.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
+      const float light = leaves.block(entry).sum() / static_cast<float>(block.count());
+      if (!(light > 0.0f)) return;
+      const auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
+      for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+          seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});
+    });
+  }
+
+ private:
+  const transport::TransportMatrix& transport_;
+  DirectLeaves direct_;
+};
+
+/// Where what each projector pixel lights lies in the first view.
 class Correspondence {
  public:
-  Correspondence(const transport::TransportMatrix& transport, const CameraMask& usable,
-                 const DirectLightSettings& settings)
-      : transport_(transport), usable_(usable), direct_(transport, settings) {
-    const Size view = transport.cameras().size(0);
-    std::vector<double> sums(3 * transport.projectors().count(), 0.0);
+  explicit Correspondence(const transport::TransportMatrix& transport)
+      : place_(transport.projectors().count(), {unknown, unknown}) {}
+
+  /// Of projector pixels of which nothing is known yet, where a camera has what they light.
+  void learn(const DirectReader& reader, std::span<const Place> map, std::span<const std::uint8_t> usable,
+             std::size_t first) {
+    std::vector<double> sums(3 * place_.size(), 0.0);
     std::vector<DirectLight> seen;
-    for (std::size_t row = 0; row < view.count(); ++row) {
-      if (!usable[row]) continue;
-      const Pixel at = pixelAt(view, row);
-      read(row, seen);
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      if (!usable[i] || !isKnown(map[i])) continue;
+      reader.read(first + i, seen);
       for (const DirectLight& each : seen) {
         double* sum = &sums[3 * each.projectorPixel];
         const auto light = static_cast<double>(each.light);
-        sum[0] += light * (at.x + 0.5);
-        sum[1] += light * (at.y + 0.5);
+        sum[0] += light * static_cast<double>(map[i][0]);
+        sum[1] += light * static_cast<double>(map[i][1]);
         sum[2] += light;
       }
     }
-    place_.resize(transport.projectors().count(), {unknown, unknown});
     for (std::size_t j = 0; j < place_.size(); ++j)
-      if (sums[3 * j + 2] > 0.0)
+      if (sums[3 * j + 2] > 0.0 && !isKnown(place_[j]))
         place_[j] = {static_cast<float>(sums[3 * j] / sums[3 * j + 2]),
                      static_cast<float>(sums[3 * j + 1] / sums[3 * j + 2])};
   }
 
-  Place placeOf(std::size_t row) const {
+  Place placeOf(const DirectReader& reader, std::size_t row) const {
     std::vector<DirectLight> seen;
-    read(row, seen);
+    reader.read(row, seen);
     float all = 0.0f, most = 0.0f;
     Place centre{unknown, unknown};
     for (const DirectLight& each : seen) {
@@ -85,24 +112,6 @@ class Correspondence {
   }
 
  private:
-  void read(std::size_t row, std::vector<DirectLight>& seen) const {
-    const transport::NodeLayout& layout = transport_.layout();
-    const Rasters& projectors = transport_.projectors();
-    seen.clear();
-    const transport::LeafRow leaves = transport_.row(row);
-    direct_.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
-      const float light = leaves.block(entry).sum() / static_cast<float>(block.count());
-      if (!(light > 0.0f)) return;
-      const auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x)
-          seen.push_back({projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light});
-    });
-  }
-
-  const transport::TransportMatrix& transport_;
-  const CameraMask& usable_;
-  DirectLeaves direct_;
   std::vector<Place> place_;  // a_j
 };
 
@@ -147,20 +156,60 @@ ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& u
   const Rasters& cameras = transport.cameras();
   require(usable.size() == cameras.count(), "{} flags for {} camera pixels", usable.size(), cameras.count());
   if (cameras.devices() < 2) return {};
-  const Correspondence correspondence(transport, usable, settings);
   ViewMap map(cameras.count(), {unknown, unknown});
   for (std::size_t row = 0; row < cameras.size(0).count(); ++row) {
     const Pixel at = pixelAt(cameras.size(0), row);
     map[row] = {static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f};
   }
-  parallelFor(cameras.size(0).count(), cameras.count(), 256, [&](std::size_t row) {
-    if (usable[row]) map[row] = correspondence.placeOf(row);
-  });
-  for (std::size_t camera = 1; camera < cameras.devices(); ++camera) {
+  const DirectReader reader(transport, settings);
+  Correspondence correspondence(transport);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
-    fill({map.data() + begin, count}, {usable.data() + begin, count}, cameras.size(camera));
+    const std::span<Place> part(map.data() + begin, count);
+    const std::span<const std::uint8_t> usableHere(usable.data() + begin, count);
+    if (camera > 0) {
+      parallelFor(0, count, 256, [&](std::size_t i) {
+        if (usableHere[i]) part[i] = correspondence.placeOf(reader, begin + i);
+      });
+      fill(part, usableHere, cameras.size(camera));
+    }
+    correspondence.learn(reader, part, usableHere, begin);
   }
   return map;
+}
+
+ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMask& usable,
+                    const ViewMap& views, const transport::TransportMatrix& others,
+                    const CameraMask& usableOthers, const DirectLightSettings& settings) {
+  const Rasters &measured = transport.cameras(), &cameras = others.cameras();
+  require(others.projectors() == transport.projectors() && usable.size() == measured.count() &&
+              views.size() == measured.count() && usableOthers.size() == cameras.count(),
+          "{} flags, {} places and {} flags for {} and {} camera pixels", usable.size(), views.size(),
+          usableOthers.size(), measured.count(), cameras.count());
+  const DirectReader known(transport, settings), reader(others, settings);
+  Correspondence correspondence(transport);
+  for (std::size_t camera = 0; camera < measured.devices(); ++camera) {
+    const std::size_t begin = measured.offset(camera), count = measured.size(camera).count();
+    correspondence.learn(known, {views.data() + begin, count}, {usable.data() + begin, count}, begin);
+  }
+  ViewMap map(cameras.count(), {unknown, unknown});
+  parallelFor(0, cameras.count(), 256, [&](std::size_t row) {
+    if (usableOthers[row]) map[row] = correspondence.placeOf(reader, row);
+  });
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
+    fill({map.data() + begin, count}, {usableOthers.data() + begin, count}, cameras.size(camera));
+  }
+  return map;
+}
+
+std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras) {
+  std::vector<std::size_t> apart;
+  for (std::size_t camera = 1; camera < cameras.devices() && !map.empty(); ++camera)
+    if (std::ranges::none_of(std::span(map).subspan(cameras.offset(camera), cameras.size(camera).count()),
+                             isKnown))
+      apart.push_back(camera);
+  return apart;
 }
 
 std::optional<ViewSample> sampleAt(const Place& place, Size view, const CameraMask& inside) {

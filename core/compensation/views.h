@@ -20,10 +20,21 @@ using ViewMap = std::vector<std::array<float, 2>>;
 ///   x_q = sum_j T_qj a_j / sum_j T_qj        q: a usable pixel of another one,
 /// over direct light alone (DirectLeaves), and in the second sum over those j whose a_j are near each other.
 /// Where the first camera sees less than a quarter of the light that q sees directly, the map goes on
-/// smoothly from the pixels around q: what lies there is seen from other places only. Exact where the surface
-/// is flat within what a projector pixel lights.  Source: core/compensation/README.md.
+/// smoothly from the pixels around q: what lies there is seen from other places only. From there the next
+/// camera has the a_j that are not known yet, so that all that see a place have the same there. Exact where
+/// the surface is flat within what a projector pixel lights.  Source: core/compensation/README.md.
 ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& usable,
                 const DirectLightSettings& settings = {});
+
+/// The same for the cameras of another T under the same projectors, by what `views` has of the cameras of the
+/// first T.  Shapes: the pixels of `others`.
+ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMask& usable,
+                    const ViewMap& views, const transport::TransportMatrix& others,
+                    const CameraMask& usableOthers, const DirectLightSettings& settings = {});
+
+/// Cameras beyond the first in whose view nothing is known: they share no lit place with those before them.
+/// Shapes: the pixels of `cameras`.
+std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras);
 
 /// Between which pixels of the first camera's view a place lies, and their shares, which sum to one.
 struct ViewSample {

@@ -102,7 +102,7 @@ AdaptiveRange::AdaptiveRange(const EngineVenue& engine, const EngineContent& con
   const compensation::MeasuredVenue& venue = engine.venue;
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < content.warp.footprints().size(); ++i)
-    if (content.warp.inside(i) && venue.usable[i]) pixels.push_back(i);
+    if (content.warp.inside(i) && content.weight[i] > 0.0f) pixels.push_back(i);
   std::size_t count = std::min(pixels.size(), mostSamples);
   for (std::size_t sample = 0; sample < count; ++sample) {
     std::size_t i = pixels[sample * pixels.size() / count];

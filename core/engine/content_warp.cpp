@@ -170,12 +170,27 @@ ContentWarp::Footprint coded(const Patch& mean, std::vector<std::uint16_t>& weig
 
 }  // namespace
 
-ContentWarp::ContentWarp(Size content, const compensation::Placement& placement, Size view,
-                         const compensation::ViewMap& views)
+ContentWarp::ContentWarp(Size content, const std::vector<std::optional<compensation::Placement>>& placements,
+                         const Rasters& cameras, const compensation::ViewMap& views)
     : content_(content) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
-  Sampler sampler(content, placement);
-  footprint_.resize(view.count());
+  require(placements.size() == cameras.devices() && placements.front().has_value(),
+          "{} placements in the views of {} cameras", placements.size(), cameras.devices());
+  footprint_.resize(cameras.count());
+  const Size view = cameras.size(0);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+    if (placements[camera]) placeInView(*placements[camera], cameras.size(camera), cameras.offset(camera));
+  if (views.empty()) return;
+  CameraMask covered(view.count());
+  for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = inside(i);
+  for (std::size_t camera = 1; camera < cameras.devices(); ++camera)
+    if (!placements[camera])
+      lieOnSurface(views, view, covered, cameras.offset(camera),
+                   cameras.offset(camera) + cameras.size(camera).count());
+}
+
+void ContentWarp::placeInView(const compensation::Placement& placement, Size view, std::size_t first) {
+  Sampler sampler(content_, placement);
   struct Row {
     std::vector<std::uint16_t> weight;
   };
@@ -184,25 +199,22 @@ ContentWarp::ContentWarp(Size content, const compensation::Placement& placement,
     int y = static_cast<int>(row);
     for (int x = 0; x < view.width; ++x) {
       if (!sampler.inside(x + 0.5, y + 0.5)) continue;
-      footprint_[indexOf(view, {x, y})] = coded(sampler.meanOver(x, y), rows[row].weight);
+      footprint_[first + indexOf(view, {x, y})] = coded(sampler.meanOver(x, y), rows[row].weight);
     }
   });
   for (std::size_t row = 0; row < rows.size(); ++row) {
     auto before = static_cast<std::uint32_t>(weight_.size());
     for (int x = 0; x < view.width; ++x)
-      footprint_[indexOf(view, {x, static_cast<int>(row)})].weight += before;
+      footprint_[first + indexOf(view, {x, static_cast<int>(row)})].weight += before;
     weight_.insert(weight_.end(), rows[row].weight.begin(), rows[row].weight.end());
     rows[row].weight = {};
   }
-  if (!views.empty()) lieInOtherViews(view, views);
 }
 
 /// Of up to four rectangles that lie beside each other, one.
-void ContentWarp::lieInOtherViews(Size view, const compensation::ViewMap& views) {
-  CameraMask covered(view.count());
-  for (std::size_t i = 0; i < covered.size(); ++i) covered[i] = inside(i);
-  footprint_.resize(views.size());
-  for (std::size_t i = view.count(); i < views.size(); ++i) {
+void ContentWarp::lieOnSurface(const compensation::ViewMap& views, Size view, const CameraMask& covered,
+                               std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
     const std::optional<compensation::ViewSample> sample = compensation::sampleAt(views[i], view, covered);
     if (!sample) continue;
     Patch mean{content_.width, content_.height, 0, 0, {}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "relucent/compensation/placement.h"
@@ -22,10 +23,13 @@ class ContentWarp {
   };
 
   ContentWarp() = default;
-  /// `views`: of the other cameras, whose pixels follow the first one's; there the content lies where
-  /// fitTarget() has it. Throws: std::logic_error if `content` is empty or the placement is not convex.
-  ContentWarp(Size content, const compensation::Placement& placement, Size view,
-              const compensation::ViewMap& views = {});
+  /// Into one view. Throws: std::logic_error if `content` is empty or the placement is not convex.
+  ContentWarp(Size content, const compensation::Placement& placement, Size view)
+      : ContentWarp(content, {placement}, Rasters(view), {}) {}
+  /// Into several, where fitTarget() has it (Target::placements): in that of the first camera, in others by a
+  /// placement of their own or on the surface, by `views` or, if that is empty, nowhere.
+  ContentWarp(Size content, const std::vector<std::optional<compensation::Placement>>& placements,
+              const Rasters& cameras, const compensation::ViewMap& views);
 
   Size content() const { return content_; }
   const std::vector<Footprint>& footprints() const { return footprint_; }
@@ -34,7 +38,11 @@ class ContentWarp {
   bool inside(std::size_t pixel) const { return footprint_[pixel].width > 0; }
 
  private:
-  void lieInOtherViews(Size view, const compensation::ViewMap& views);
+  /// Into the view of the camera whose first pixel this is.
+  void placeInView(const compensation::Placement& placement, Size view, std::size_t first);
+  /// Into other pixels, from `begin` to `end`, of which `covered` of the first view's.
+  void lieOnSurface(const compensation::ViewMap& views, Size view, const CameraMask& covered,
+                    std::size_t begin, std::size_t end);
 
   Size content_;
   std::vector<Footprint> footprint_;

@@ -56,6 +56,10 @@ void CpuBackend::setContent(const EngineContent& content) {
   std::fill(weight_.begin(), weight_.end(), 0.0f);
   std::fill(unmixed_.begin(), unmixed_.end(), 0.0f);
   std::fill(nodes_.begin(), nodes_.end(), 0.0f);
+  reach_.assign(content.isWeighted ? weight_.size() : 0, 0.0f);
+  weightedLit_.assign(content.isWeighted ? content.lit.size() : 0, 0.0f);
+  for (std::size_t i = 0; i < weightedLit_.size(); ++i)
+    weightedLit_[i] = content.weight[i / 3] * content.lit[i];
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
   prepareBound();
 }
@@ -90,12 +94,14 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
   constexpr std::size_t parts = 64;
   std::array<double, parts> wanted{}, seen{};
   const compensation::MeasuredVenue& venue = engine_.venue;
+  const std::vector<std::int32_t>& brightest = content_->brightest;
   parallelChunks(0, placed_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!venue.usable[i / 3]) continue;
+      const auto weight = static_cast<double>(content_->weight[i / 3]);
+      if (weight == 0.0) continue;
       double light = static_cast<double>(venue.flood[i]) * static_cast<double>(placed_[i]);
-      wanted[part] += light * static_cast<double>(wanted_[i]);
-      seen[part] += light * light;
+      wanted[part] += weight * light * static_cast<double>(wanted_[i]);
+      seen[part] += weight * light * light;
     }
   });
   double allWanted = 0.0, allSeen = 0.0;
@@ -106,9 +112,9 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
   float brightness = allSeen > 0.0 ? static_cast<float>(std::clamp(allWanted / allSeen, 0.0, 1.0)) : 1.0f;
   // Content lies between 0 and 1, and so does the brightness: nothing is cut off.
   clipped_ = 0;
-  parallelFor(0, engine_.brightest.size(), 1024, [&](std::size_t j) {
-    const bool shown = engine_.brightest[j] >= 0 && content_->free[j];
-    const std::size_t from = shown ? 3 * static_cast<std::size_t>(engine_.brightest[j]) : 0;
+  parallelFor(0, brightest.size(), 1024, [&](std::size_t j) {
+    const bool shown = brightest[j] >= 0 && content_->free[j];
+    const std::size_t from = shown ? 3 * static_cast<std::size_t>(brightest[j]) : 0;
     for (std::size_t c = 0; c < 3; ++c)
       nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) : 0.0f;
   });

@@ -56,8 +56,8 @@ class CpuBackend : public EngineBackend {
 
   /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r.
   void passThrough(Pass pass) noexcept;
-  /// `sums` = T^T lit of all nodes, only of the camera pixels with that weight.
-  void passBack(float weight, std::vector<float>& sums) noexcept;
+  /// `sums` = T^T lit of all nodes, only of the camera pixels with that reach.
+  void passBack(float reach, std::vector<float>& sums) noexcept;
   void prepareBound() noexcept;
   /// Without this limit, projector pixels that hardly any weighted pixel sees would take arbitrarily long
   /// steps because of rounding errors.
@@ -75,6 +75,8 @@ class CpuBackend : public EngineBackend {
 
   // Camera stacks.
   std::vector<float> wanted_, held_, weight_, unmixed_, placed_;
+  // Where views differ in weight: `weight_` without the views' share, and their share of what is lit.
+  std::vector<float> reach_, weightedLit_;
   // Node values: p with its means, and the adjoint sums of the residual or of a part of the lit pixels.
   std::vector<float> nodes_, adjoint_, part_;
   PatchSums patchSums_;

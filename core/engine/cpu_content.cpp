@@ -98,6 +98,7 @@ void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const transport::
                            float offset) noexcept {
   const compensation::MeasuredVenue& venue = engine_.venue;
   const auto unreachable = static_cast<float>(engine_.settings.target.unreachableWeight);
+  const bool isWeighted = content_->isWeighted;
   std::size_t usable = 0, reached = 0;
   for (std::size_t i = begin; i < end; ++i) {
     if (!content_->warp.inside(i)) continue;
@@ -115,9 +116,11 @@ void CpuBackend::fitTarget(std::size_t begin, std::size_t end, const transport::
       const float positive = wanted[d] > 0.0f ? wanted[d] : 0.0f;
       held[d] = positive < most ? positive : most;
     }
-    usable += venue.usable[i] != 0;
-    reached += venue.usable[i] != 0 ? reachable : 0u;
-    weight_[i] = venue.usable[i] != 0 ? (reachable != 0 ? 1.0f : unreachable) : 0.0f;
+    const float weight = content_->weight[i], share = reachable != 0 ? 1.0f : unreachable;
+    usable += weight > 0.0f;
+    reached += weight > 0.0f ? reachable : 0u;
+    weight_[i] = weight * share;
+    if (isWeighted) reach_[i] = weight > 0.0f ? share : 0.0f;
 
     const float* u = windows_.unmix + 9 * i;
     for (std::size_t d = 0; d < 3; ++d) {

@@ -18,7 +18,13 @@ PatchRows CpuBackend::rowsOf(const TransportPatch& patch) const noexcept {
 }
 
 CameraArrays CpuBackend::cameraArrays(const float* wanted) noexcept {
-  return {wanted, weight_.data(), content_->lit.data(), windows_.unmix, unmixed_.data()};
+  const bool isWeighted = content_->isWeighted;
+  return {wanted,
+          weight_.data(),
+          isWeighted ? reach_.data() : weight_.data(),
+          isWeighted ? weightedLit_.data() : content_->lit.data(),
+          windows_.unmix,
+          unmixed_.data()};
 }
 
 void CpuBackend::passThrough(Pass pass) noexcept {
@@ -44,14 +50,14 @@ void CpuBackend::passThrough(Pass pass) noexcept {
   layout.gatherMeansAdjoint(adjoint_);
 }
 
-void CpuBackend::passBack(float weight, std::vector<float>& sums) noexcept {
+void CpuBackend::passBack(float reach, std::vector<float>& sums) noexcept {
   const PackedTransport& transport = engine_.transport;
   const CameraArrays camera = cameraArrays(nullptr);
   parallelFor(0, transport.patches().size(), 1, [&](std::size_t index) {
     const TransportPatch& patch = transport.patches()[index];
     ScratchPool::BorrowedBuffer loan(scratch_);
     std::fill_n(loan.data(), sumColumn * (patch.columnEnd - patch.columnBegin), 0.0f);
-    kernels_.bound(rowsOf(patch), camera, weight, loan.data());
+    kernels_.bound(rowsOf(patch), camera, reach, loan.data());
     patchSums_.addPatch(index, loan.data(), sumColumn, sums.data(), waiting_.data());
   });
   patchSums_.addStored(waiting_.data(), sums.data());
@@ -60,9 +66,9 @@ void CpuBackend::passBack(float weight, std::vector<float>& sums) noexcept {
 
 /// What frames need for C: T^T W T 1 while all content is reachable.
 void CpuBackend::prepareBound() noexcept {
-  // Cameras that it is not known of see nothing of the content.
-  for (std::size_t i = 0; i < content_->warp.footprints().size(); ++i)
-    weight_[i] = content_->warp.inside(i) && engine_.venue.usable[i] ? 1.0f : 0.0f;
+  std::vector<float>& reach = content_->isWeighted ? reach_ : weight_;
+  for (std::size_t i = 0; i < reach.size(); ++i)
+    reach[i] = content_->warp.inside(i) && content_->weight[i] > 0.0f ? 1.0f : 0.0f;
   passBack(1.0f, part_);
   largestBound_ = 0.0f;
   constexpr float notFree = -1e30f;  // so that C is 0

@@ -217,12 +217,12 @@ RELUCENT_KERNEL void passOver(const PatchRows& patch, const CameraArrays& camera
   for (const PackedSquare& square : patch.squares) passOverSquare<correct>(patch, square, camera, columns);
 }
 
-RELUCENT_KERNEL void boundOf(const PatchRows& patch, const CameraArrays& camera, float weight, float* sums) {
+RELUCENT_KERNEL void boundOf(const PatchRows& patch, const CameraArrays& camera, float reach, float* sums) {
   for (const PackedSquare& square : patch.squares) {
     GroupLight groups;
     bool isAnyLit = false;  // mostly none is
     for (const PackedRow* row = patch.row + square.rowBegin; row != patch.row + square.rowEnd; ++row) {
-      if (camera.weight[row->pixel] != weight) continue;
+      if (camera.reach[row->pixel] != reach) continue;
       if (!isAnyLit) std::memset(groups.back, 0, sizeof groups.back);
       isAnyLit = true;
       sendRowBack<sumColumn>(patch, square, *row, mixingAt(row->own.data()), mixingAt(row->shared.data()),
@@ -291,9 +291,9 @@ RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* par
                                       std::size_t count) {                                                   \
     return updateAll(p, c, back, length, count);                                                             \
   }                                                                                                          \
-  __VA_ARGS__ void bound##set(const PatchRows& patch, const CameraArrays& camera, float weight,              \
+  __VA_ARGS__ void bound##set(const PatchRows& patch, const CameraArrays& camera, float reach,               \
                               float* sums) {                                                                 \
-    boundOf(patch, camera, weight, sums);                                                                    \
+    boundOf(patch, camera, reach, sums);                                                                     \
   }                                                                                                          \
   __VA_ARGS__ void reciprocal##set(float* c, const float* bound, const float* part, float share,             \
                                    float partShare, float least, std::size_t count) {                        \

@@ -14,9 +14,10 @@ namespace relucent::engine {
 struct CameraArrays {
   const float* wanted = nullptr;  // 3: the target, minus black; and one value behind the last
   const float* weight = nullptr;  // 1
-  const float* lit = nullptr;     // 3: the signal with all free projector pixels at full drive
-  const float* unmix = nullptr;   // 3x3, row-major
-  float* unmixed = nullptr;       // 4: the weighted residual through `unmix`, and a zero
+  const float* reach = nullptr;   // 1: the weight without its view's share
+  const float* lit = nullptr;  // 3: the signal with all free projector pixels at full drive, by view's share
+  const float* unmix = nullptr;  // 3x3, row-major
+  float* unmixed = nullptr;      // 4: the weighted residual through `unmix`, and a zero
 };
 
 /// The squares of one patch, with the rows, groups and leaves of all of T. The leaves of a group, and those
@@ -48,8 +49,8 @@ struct EngineKernels {
   void (*step)(const PatchRows& patch, const CameraArrays& camera, float* columns);
   /// The same, and `unmixed` is written.
   void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);
-  /// sums += T^T lit, only for rows whose weight is `weight`. 4 floats a column: sum 3, 0.
-  void (*bound)(const PatchRows& patch, const CameraArrays& camera, float weight, float* sums);
+  /// sums += T^T lit, only for rows whose reach is `reach`. 4 floats a column: sum 3, 0.
+  void (*bound)(const PatchRows& patch, const CameraArrays& camera, float reach, float* sums);
   /// p <- clamp(p + length c back); returns the number of visibly clipped values.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
   /// c <- 1 / d,  d = share bound + partShare part, where that exceeds `least` and the rounding error of the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/compensation/correspondence.h"
@@ -20,11 +21,16 @@ void checkFinite(const Stack& values, const char* what) {
                   RELUCENT_ENGLISH_MESSAGE("compensation.measure-venue-again", "measure the venue again"));
 }
 
-compensation::Placement placementOf(const EngineVenue& engine, Size content,
-                                    const compensation::Corners& chosen) {
-  const compensation::TargetSettings& target = engine.settings.target;
-  if (!target.corners) return {chosen, {}};
-  return fitted(*target.corners, static_cast<double>(content.width) / content.height, target.fit);
+/// Per camera pixel the weight of its view, 0 where it is not usable.
+std::vector<float> weightsOf(const compensation::MeasuredVenue& venue, const compensation::Target& target) {
+  const Rasters& cameras = venue.transport.cameras();
+  std::vector<float> weight(cameras.count());
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
+    for (std::size_t i = begin; i < end; ++i)
+      weight[i] = venue.usable[i] != 0 ? target.viewWeight[camera] : 0.0f;
+  }
+  return weight;
 }
 
 }  // namespace
@@ -87,10 +93,14 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   EngineContent result;
   result.corners = target.corners;
   result.white = target.white[0];
-  result.warp = ContentWarp(content, placementOf(engine, content, target.corners),
-                            venue.transport.cameras().size(0), venue.views);
+  result.warp = ContentWarp(content, target.placements, venue.transport.cameras(), venue.views);
+  result.weight = weightsOf(venue, target);
+  result.isWeighted = std::ranges::any_of(target.viewWeight, [](float weight) { return weight != 1.0f; });
 
-  result.free = compensation::contentPixels(engine.brightest, target);
+  compensation::ContentCorrespondence correspondence = contentCorrespondence(
+      venue.transport, seesProjection(venue), target, engine.brightest, compensation::DirectLightSettings{});
+  result.free = std::move(correspondence.free);
+  result.brightest = std::move(correspondence.brightest);
   auto lit = compensation::stackOf<ProjectorStack>(
       3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);

@@ -31,7 +31,7 @@ struct EngineVenue {
   const inverse::WindowInverse& inverse;
   EngineSettings settings;
   PackedTransport transport;
-  std::vector<std::int32_t> brightest;  // i*(j), see brightestCorrespondence()
+  std::vector<std::int32_t> brightest;  // i*(j) of all views, see brightestCorrespondence()
   transport::ColourBlock mixing;        // K, see meanColourMixing()
   std::vector<DriveEncoder> encoders;   // one a projector
 };
@@ -49,7 +49,10 @@ struct EngineContent {
   compensation::Corners corners{};  // where the content was placed
   float white = 0.0f;               // wanted signal of the content's white
   ProjectorMask free;               // per projector pixel: it belongs to the content; the others are black
-  CameraStack lit;                  // camera stack: the signal with all free projector pixels at full drive
+  std::vector<std::int32_t> brightest;  // i*(j), see contentCorrespondence()
+  CameraStack lit;            // camera stack: the signal with all free projector pixels at full drive
+  std::vector<float> weight;  // per camera pixel: of its view, the largest 1; 0 where it is not usable
+  bool isWeighted = false;    // a view has less weight than another
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

@@ -6,10 +6,12 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/compensation/contradiction.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/compensation/prediction.h"
 #include "relucent/compensation/uncorrectable.h"
 #include "relucent/image/colour.h"
+#include "relucent/image/colour_map.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -55,11 +57,20 @@ class Writer {
     }
   }
 
-  /// One image of the first camera.
+  /// One image of a camera.
   void writeMap(const std::string& stem, const image::Image& map, const char* units) {
     files_.push_back(folder_ / (stem + ".exr"));
     image::writeExr(files_.back(), map, image::ExrType::floatType,
                     {{image::exr_attribute::units, std::string(units)}});
+  }
+  /// Of every camera, the colours up to a contradiction that nobody overlooks.
+  void writeContradiction(const std::string& stem, const std::vector<image::Image>& worse) {
+    constexpr double plain = 10.0;
+    for (std::size_t camera = 0; camera < worse.size(); ++camera) {
+      writeMap(numbered(stem, camera).string(), worse[camera], "CIEDE2000");
+      writeColours(numbered(stem, camera).string(),
+                   image::painted(worse[camera], image::ColourMap::cividis, 0.0, plain));
+    }
   }
   void writeColours(const std::string& stem, const image::Image& encoded) {
     files_.push_back(folder_ / (stem + ".png"));
@@ -135,8 +146,15 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   result.reachable = prediction.reachable;
   result.psnrPredicted = prediction.psnrReachable;
   result.deltaE = prediction.meanDeltaE;
+  Progress comparing =
+      progress.part(0.02, RELUCENT_MESSAGE("stage.comparing-views", "Comparing what the views want"));
+  const compensation::Contradiction contradiction =
+      contradictionOf(compensator, target, compensation, comparing);
+  const bool hasSeveralViews = venue.transport.cameras().devices() > 1;
+  if (hasSeveralViews) result.contradiction = {contradiction.share, contradiction.shares};
+  result.notes = viewNotes(venue, target, contradiction);
   Progress explaining = progress.part(
-      0.05, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));
+      0.03, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));
   std::vector<compensation::Uncorrectable> reasons =
       compensation::uncorrectableMap(venue, target, {}, explaining);
   auto shares = compensation::sharesOf(reasons);
@@ -156,6 +174,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   writer.writeMap("delta_e", prediction.deltaE, "CIEDE2000");
   writer.writeMap("uncorrectable", reasonNumbers(reasons, cameras.size(0)), "number of the reason");
   writer.writeColours("uncorrectable", reasonColours(reasons, cameras.size(0)));
+  if (hasSeveralViews) writer.writeContradiction("contradiction", contradiction.worse);
   result.files = writer.files();
   progress.report(1.0);
   return result;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct CompensateSettings {
 };
 std::vector<Message> problems(const CompensateSettings& settings);
 
+struct ContradictionShares {
+  double share = 0.0;
+  std::vector<double> views;  // camera after camera
+};
+
 struct CompensateResult {
   compensation::Method method = compensation::Method::refined;
   double psnrPredicted = 0.0;  // dB, prediction against target where reachable
@@ -33,12 +39,17 @@ struct CompensateResult {
   std::vector<std::filesystem::path> files;
   double deltaE = 0.0;  // mean CIEDE2000, prediction against target over the whole content
   std::map<compensation::Uncorrectable, double> uncorrectable{};  // shares of the content's pixels
+  /// Where several cameras see it: how much of it other views make visibly worse, of all views and of each
+  /// (compensation/contradiction.h). Empty with one.
+  std::optional<ContradictionShares> contradiction{};
+  std::vector<Message> notes{};  // on the views
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.
 /// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per
 /// second), target.png, predicted.png (to look at), delta_e.exr (CIEDE2000) and uncorrectable.exr, .png (the
-/// number of its reason a pixel, see Uncorrectable; colours) into `out`.
+/// number of its reason a pixel, see Uncorrectable; colours) into `out`; where several cameras see it,
+/// contradiction.exr and .png too (CIEDE2000, a file each).
 CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
                             Progress& progress);
 

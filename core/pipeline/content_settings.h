@@ -19,6 +19,7 @@ struct ContentSettings {
   double blackLift = 0.0;
   compensation::Fit fit = compensation::Fit::fit;
   std::optional<compensation::Corners> corners;  // as TargetSettings
+  std::vector<compensation::ViewSettings> views;
 
   bool operator==(const ContentSettings&) const = default;
 };

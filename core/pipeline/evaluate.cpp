@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/compensation/blending.h"
+#include "relucent/compensation/contradiction.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/metrics.h"
 #include "relucent/image/picture_files.h"
@@ -76,11 +81,13 @@ OpenedRig openedVenue(const MeasuredCalibration& measured, const fs::path& cache
 /// Judges projections by what they truly look like in the venue.
 class Judge {
  public:
-  Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue)
-      : measured_(measured), venue_(venue), rasters_(measured.venue.transport.cameras()) {
+  /// `rasters`: of what its cameras see, reduced.
+  Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue,
+        std::vector<reduction::Reduction> reductions, Rasters rasters)
+      : measured_(measured), venue_(venue), reductions_(std::move(reductions)), rasters_(std::move(rasters)) {
     ProjectorStack white(measured.venue.transport.projectors().count() * 3, 1.0f);
-    black_ = reduction::reducedRadiance(venue.trueBlack(), measured.reductions);
-    brightest_ = reduction::reducedRadiance(venue.trueTransport().apply(white), measured.reductions);
+    black_ = reduction::reducedRadiance(venue.trueBlack(), reductions_);
+    brightest_ = reduction::reducedRadiance(venue.trueTransport().apply(white), reductions_);
     for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += black_[i];
   }
 
@@ -93,12 +100,13 @@ class Judge {
   }
 
   std::size_t views() const { return rasters_.devices(); }
+  const CameraStack& black() const { return black_; }
 
   /// What the cameras would see, free of noise.
   CameraStack seen(const compensation::Compensation& compensation) const {
     std::vector<image::Image> drive =
         encodedDrive(compensation.projector, measured_.venue.transport.projectors(), measured_.linearization);
-    return reduction::reducedRadiance(venue_.trueRadiance(drive), measured_.reductions);
+    return reduction::reducedRadiance(venue_.trueRadiance(drive), reductions_);
   }
   /// Of a stack of all cameras.
   image::Image view(const CameraStack& stack, std::size_t camera) const {
@@ -109,7 +117,17 @@ class Judge {
     return {begin, begin + static_cast<std::ptrdiff_t>(rasters_.size(camera).count())};
   }
 
-  /// What a camera sees against what is wanted there.
+  /// What a camera sees against what is wanted there; none if that is nothing.
+  std::optional<MethodScore> scoreOf(compensation::Method method, const CameraStack& seen,
+                                     const compensation::Target& target, const CameraMask& reachable,
+                                     std::size_t camera) const {
+    if (std::ranges::count(view(target.inside, camera), 0) == std::ssize(view(target.inside, camera)))
+      return std::nullopt;
+    return score(method, seen, target, reachable, camera);
+  }
+
+ private:
+  /// Where nothing is reachable there is no such error: NaN.  Contract: the content covers some of it.
   MethodScore score(compensation::Method method, const CameraStack& seen, const compensation::Target& target,
                     const CameraMask& reachable, std::size_t camera) const {
     const CameraMask inside = view(target.inside, camera), mask = view(reachable, camera);
@@ -137,12 +155,76 @@ class Judge {
     return result;
   }
 
- private:
   const MeasuredCalibration& measured_;
   const venue::SimulatedVenue& venue_;
+  std::vector<reduction::Reduction> reductions_;
   Rasters rasters_;
   CameraStack black_, brightest_;
 };
+
+/// What viewers are to see who stand where no camera does.
+class UnseenPlaces {
+ public:
+  /// None: the venue has none.
+  static std::optional<UnseenPlaces> of(const MeasuredCalibration& measured,
+                                        const venue::SimulatedVenue& venue, Progress& progress) {
+    std::optional<venue::SimulatedVenue> places = venue.fromHiddenPlaces(progress);
+    if (!places) return std::nullopt;
+    return UnseenPlaces(measured, *std::move(places));
+  }
+
+  const Judge& judge() const { return *judge_; }
+
+  /// The content on the surface, where the first camera sees it.
+  compensation::Target target(const compensation::Target& seen) const {
+    const Size view = measured_->venue.transport.cameras().size(0);
+    const CameraMask inside(seen.inside.begin(),
+                            seen.inside.begin() + static_cast<std::ptrdiff_t>(view.count()));
+    compensation::Target unseen;
+    unseen.white = seen.white;
+    unseen.wanted = judge_->black();
+    unseen.inside.assign(map_.size(), 0);
+    for (std::size_t i = 0; i < map_.size(); ++i) {
+      const std::optional<compensation::ViewSample> sample = compensation::sampleAt(map_[i], view, inside);
+      if (!sample) continue;
+      unseen.inside[i] = 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& wanted = unseen.wanted[3 * i + c] = 0.0f;
+        for (std::size_t k = 0; k < sample->pixel.size(); ++k)
+          wanted += sample->share[k] * seen.wanted[3 * sample->pixel[k] + c];
+      }
+    }
+    return unseen;
+  }
+
+ private:
+  UnseenPlaces(const MeasuredCalibration& measured, venue::SimulatedVenue places)
+      : measured_(&measured), places_(std::make_unique<venue::SimulatedVenue>(std::move(places))) {
+    const transport::TransportMatrix& truth = places_->trueTransport();
+    judge_.emplace(measured, *places_, std::vector<reduction::Reduction>(), truth.cameras());
+    // As a measurement would have it that is without noise.
+    transport::Acquisition exact;
+    exact.flood = truth.floodlight();
+    exact.floodVariance.assign(exact.flood.size(), 0.0f);
+    exact.flagged.assign(truth.cameras().count(), 0);
+    Progress quiet;
+    compensation::MeasuredVenue seen;
+    seen.usable = usablePixels(exact);
+    seen.direct = compensation::directlyLit(compensation::directLooks(truth, {}, quiet));
+    map_ = compensation::viewMapInto(measured.venue.transport, seesProjection(measured.venue),
+                                     measured.venue.views, truth, seesProjection(seen));
+  }
+
+  const MeasuredCalibration* measured_;
+  std::unique_ptr<venue::SimulatedVenue> places_;
+  std::optional<Judge> judge_;
+  compensation::ViewMap map_;
+};
+
+bool liesOnSurface(const compensation::Target& target) {
+  return std::none_of(target.placements.begin() + 1, target.placements.end(),
+                      [](const auto& placement) { return placement.has_value(); });
+}
 
 double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uint8_t>& whole) {
   std::size_t inPart = 0;
@@ -166,6 +248,30 @@ std::vector<compensation::Method> methodsOf(const EvaluateSettings& settings) {
   return settings.methods.empty() ? allValues<compensation::Method>() : settings.methods;
 }
 
+/// At some flat greys, shaped as the content is.
+std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
+                                  const compensation::Compensator& compensator, const Judge& judge,
+                                  Size content, const EvaluateSettings& settings) {
+  constexpr int apart = 3;
+  const transport::TransportMatrix& transport = measured.venue.transport;
+  std::vector<SeamScore> scores;
+  for (double grey : {0.1, 0.25, 0.5, 0.75}) {
+    const image::Image flat(content, 3, static_cast<float>(grey));
+    const compensation::Target target = fitTarget(flat, measured.venue, settings.target);
+    const CameraMask mask = judge.reachable(target);
+    const compensation::SeamPairs pairs =
+        compensation::seamPairs(transport, mask, apart, settings.compensator.direct);
+    const auto seams = [&](const compensation::Compensation& compensation) {
+      return compensation::seamsOf(judge.seen(compensation), transport.cameras(), mask, target.white, pairs);
+    };
+    Progress quiet;
+    const compensation::Method method = methodsOf(settings).back();
+    scores.push_back({grey, method, seams(compensator.solve(method, target, quiet)),
+                      seams(solvedSeparately(compensator, target, settings.compensator.optimum, quiet))});
+  }
+  return scores;
+}
+
 }  // namespace
 
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
@@ -183,9 +289,11 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   result.camera = venue.settings().camera;
   result.transport = scoreOf(measured.venue.transport, venue, measured.reductions);
 
-  Judge judge(measured, venue);
+  Judge judge(measured, venue, measured.reductions, measured.venue.transport.cameras());
+  Progress tracing = progress.part(0.1, RELUCENT_MESSAGE("stage.preparing-venue", "Preparing the venue"));
+  const std::optional<UnseenPlaces> unseen = UnseenPlaces::of(measured, venue, tracing);
   compensation::Compensator compensator(measured.venue, measured.inverse, settings.compensator);
-  Progress judging = progress.part(0.8, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
+  Progress judging = progress.part(0.7, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
     compensation::Target target = fitTarget(image.linear, measured.venue, settings.target);
@@ -196,6 +304,16 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
     ImageScore score{image.name, reachableOf(0), {}};
     for (std::size_t camera = 1; camera < judge.views(); ++camera)
       score.others.push_back({reachableOf(camera), {}});
+    std::optional<compensation::Target> elsewhere;
+    CameraMask reachableElsewhere;
+    if (unseen && liesOnSurface(target)) {
+      elsewhere = unseen->target(target);
+      reachableElsewhere = unseen->judge().reachable(*elsewhere);
+      for (std::size_t place = 0; place < unseen->judge().views(); ++place)
+        score.unseen.push_back({shareOf(unseen->judge().view(reachableElsewhere, place),
+                                        unseen->judge().view(elsewhere->inside, place)),
+                                {}});
+    }
     EvaluatedPictures pictures{image.name,   judge.view(target.wanted, 0), {},
                                target.white, judge.view(target.inside, 0), score.reachable};
     for (compensation::Method method : methods) {
@@ -207,16 +325,45 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       double seconds = watch.seconds();
       const CameraStack seen = judge.seen(compensation);
       for (std::size_t camera = 0; camera < judge.views(); ++camera) {
-        MethodScore of = judge.score(method, seen, target, reachable, camera);
-        of.seconds = seconds;
-        (camera == 0 ? score.methods : score.others[camera - 1].methods).push_back(of);
+        std::optional<MethodScore> of = judge.scoreOf(method, seen, target, reachable, camera);
+        if (!of) continue;
+        of->seconds = seconds;
+        (camera == 0 ? score.methods : score.others[camera - 1].methods).push_back(*of);
+      }
+      if (elsewhere) {
+        const CameraStack seenElsewhere = unseen->judge().seen(compensation);
+        for (std::size_t place = 0; place < score.unseen.size(); ++place) {
+          std::optional<MethodScore> of =
+              unseen->judge().scoreOf(method, seenElsewhere, *elsewhere, reachableElsewhere, place);
+          if (!of) continue;
+          of->seconds = seconds;
+          score.unseen[place].methods.push_back(*of);
+        }
       }
       pictures.seen.emplace(method, judge.view(seen, 0));
+      if (judge.views() > 1 && method == methods.back()) {
+        Progress comparing;
+        const compensation::Contradiction contradiction =
+            contradictionOf(compensator, target, compensation, comparing);
+        score.contradiction = {contradiction.share, contradiction.shares};
+      }
+    }
+    if (settings.blended) {
+      Progress solving = judging.part(
+          0.0, RELUCENT_ENGLISH_MESSAGE("stage.solving-separately", "{}: each projector on its own")
+                   .with(image.name));
+      const CameraStack seen =
+          judge.seen(solvedSeparately(compensator, target, settings.compensator.optimum, solving));
+      for (std::size_t camera = 0; camera < judge.views(); ++camera)
+        (camera == 0 ? score.blended : score.others[camera - 1].blended) =
+            judge.scoreOf(compensation::Method::optimum, seen, target, reachable, camera);
     }
     result.reachable += score.reachable / static_cast<double>(content.size());
     result.images.push_back(std::move(score));
     evaluation.pictures.push_back(std::move(pictures));
   }
+  if (settings.blended)
+    result.seams = seamScores(measured, compensator, judge, content.front().linear.size(), settings);
   progress.report(1.0);
   return evaluation;
 }

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "relucent/base/progress.h"
 #include "relucent/base/raster.h"
 #include "relucent/compensation/methods.h"
+#include "relucent/compensation/seams.h"
 #include "relucent/compensation/target.h"
+#include "relucent/pipeline/compensate.h"
 
 namespace relucent::pipeline {
 
@@ -18,6 +21,8 @@ struct EvaluateSettings {
   std::vector<compensation::Method> methods;  // none: all of them
   compensation::TargetSettings target;
   compensation::CompensatorSettings compensator;
+  /// Whether several projectors are also compared with each of them solved on its own and blended.
+  bool blended = false;
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
 
@@ -37,10 +42,12 @@ struct MethodScore {
   double seconds = 0.0;           // for one frame
 };
 
-/// What another camera sees of an image on the surface.
+/// What another camera, or a viewer where none stands, sees of an image on the surface. Without methods it is
+/// nothing of it.
 struct ViewScore {
   double reachable = 0.0;  // share of the image's pixels in that view
   std::vector<MethodScore> methods;
+  std::optional<MethodScore> blended{};  // each projector's optimum on its own, under cosine ramps
 };
 
 /// What the first camera sees, in whose view the image lies.
@@ -48,7 +55,18 @@ struct ImageScore {
   std::string name;
   double reachable = 0.0;  // share of this image's pixels
   std::vector<MethodScore> methods;
-  std::vector<ViewScore> others{};  // camera after camera
+  std::optional<MethodScore> blended{};  // as ViewScore
+  std::vector<ViewScore> others{};       // camera after camera
+  std::vector<ViewScore> unseen{};       // what viewers see who stand where no camera does, place after place
+  std::optional<ContradictionShares> contradiction{};  // of several views, as the last method has it
+};
+
+/// What is seen of the edges of projectors' pictures where a flat grey is wanted (compensation/seams.h).
+struct SeamScore {
+  double grey = 0.0;  // share of white's light
+  compensation::Method method = compensation::Method::refined;
+  compensation::Seams joint;    // with the last of the methods
+  compensation::Seams blended;  // each projector on its own
 };
 
 /// How well T itself was measured; relative errors.
@@ -68,13 +86,16 @@ struct EvaluateResult {
   double reachable = 0.0;  // mean over images
   TransportScore transport;
   std::vector<ImageScore> images;
+  std::vector<SeamScore> seams{};  // if separate solves were asked for
 };
 
 /// PSNR of the reachable pixels with a method, mean of the images, dB.  Contract: it was compared.
 double meanPsnr(const EvaluateResult& result, compensation::Method method);
 
-/// Compares every method through the true transport of the simulated venue that was calibrated.
-/// Throws: Error{input} if the calibration is of a real venue: its truth is not known.
+/// Compares every method through the true transport of the simulated venue that was calibrated. Where the
+/// venue has viewers whom no camera stands in for, their views are judged too, as long as the content lies on
+/// the surface in all of the cameras'. Throws: Error{input} if the calibration is of a real venue: its truth
+/// is not known.
 EvaluateResult evaluate(const std::filesystem::path& folder, const EvaluateSettings& settings,
                         const std::filesystem::path& cache, Progress& progress);
 

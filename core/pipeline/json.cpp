@@ -24,27 +24,55 @@ calibration::Json pathsToJson(const std::vector<std::filesystem::path>& paths) {
   return json;
 }
 
+calibration::Json methodToJson(const MethodScore& score) {
+  return {{"psnr_reachable", score.psnrReachable},
+          {"psnr_all", score.psnrAll},
+          {"psnr_encoded_reachable", score.encodedPsnrReachable},
+          {"psnr_encoded_all", score.encodedPsnrAll},
+          {"ssim", score.ssim},
+          {"ms_ssim", score.multiScaleSsim},
+          {"delta_e", score.deltaE},
+          {"delta_e_reachable", score.deltaEReachable},
+          {"delta_e_p95", score.deltaEPercentile},
+          {"seconds", score.seconds}};
+}
+
 calibration::Json methodsToJson(const std::vector<MethodScore>& scores) {
   calibration::Json methods = calibration::Json::object();
-  for (const MethodScore& score : scores)
-    methods[std::string(nameOf(score.method))] = {{"psnr_reachable", score.psnrReachable},
-                                                  {"psnr_all", score.psnrAll},
-                                                  {"psnr_encoded_reachable", score.encodedPsnrReachable},
-                                                  {"psnr_encoded_all", score.encodedPsnrAll},
-                                                  {"ssim", score.ssim},
-                                                  {"ms_ssim", score.multiScaleSsim},
-                                                  {"delta_e", score.deltaE},
-                                                  {"delta_e_reachable", score.deltaEReachable},
-                                                  {"delta_e_p95", score.deltaEPercentile},
-                                                  {"seconds", score.seconds}};
+  for (const MethodScore& score : scores) methods[std::string(nameOf(score.method))] = methodToJson(score);
   return methods;
+}
+
+calibration::Json viewToJson(const ViewScore& view) {
+  calibration::Json json{{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}};
+  if (view.blended) json["blended"] = methodToJson(*view.blended);
+  return json;
+}
+
+calibration::Json seamsToJson(const std::vector<SeamScore>& scores) {
+  const auto toJson = [](const compensation::Seams& seams) {
+    return calibration::Json{{"mean", seams.mean}, {"p95", seams.p95}, {"elsewhere", seams.elsewhere}};
+  };
+  calibration::Json list = calibration::Json::array();
+  for (const SeamScore& score : scores)
+    list.push_back({{"grey", score.grey},
+                    {"method", nameOf(score.method)},
+                    {"joint", toJson(score.joint)},
+                    {"blended", toJson(score.blended)}});
+  return list;
+}
+
+calibration::Json contradictionToJson(const ContradictionShares& contradiction) {
+  return {{"share", contradiction.share}, {"views", contradiction.views}};
 }
 
 calibration::Json scoreToJson(const ImageScore& image) {
   calibration::Json json{
       {"name", image.name}, {"reachable", image.reachable}, {"methods", methodsToJson(image.methods)}};
-  for (const ViewScore& view : image.others)
-    json["other_views"].push_back({{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}});
+  for (const ViewScore& view : image.others) json["other_views"].push_back(viewToJson(view));
+  for (const ViewScore& view : image.unseen) json["unseen_places"].push_back(viewToJson(view));
+  if (image.blended) json["blended"] = methodToJson(*image.blended);
+  if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
   return json;
 }
 
@@ -137,21 +165,27 @@ calibration::Json toJson(const ProveResult& result) {
 }
 
 calibration::Json toJson(const CompensateResult& result) {
-  return {{"method", nameOf(result.method)}, {"psnr_predicted", result.psnrPredicted},
-          {"delta_e", result.deltaE},        {"clipped", result.clipped},
-          {"reachable", result.reachable},   {"uncorrectable", sharesToJson(result.uncorrectable)},
-          {"seconds", result.seconds},       {"files", pathsToJson(result.files)}};
+  calibration::Json json{
+      {"method", nameOf(result.method)}, {"psnr_predicted", result.psnrPredicted},
+      {"delta_e", result.deltaE},        {"clipped", result.clipped},
+      {"reachable", result.reachable},   {"uncorrectable", sharesToJson(result.uncorrectable)},
+      {"seconds", result.seconds},       {"files", pathsToJson(result.files)}};
+  if (result.contradiction) json["contradiction"] = contradictionToJson(*result.contradiction);
+  if (!result.notes.empty()) json["notes"] = sentencesOf(result.notes);
+  return json;
 }
 
 calibration::Json toJson(const EvaluateResult& result) {
   calibration::Json images = calibration::Json::array();
   for (const ImageScore& image : result.images) images.push_back(scoreToJson(image));
-  return {{"venue", result.venue},
-          {"projector", sizeToJson(result.projector)},
-          {"camera", sizeToJson(result.camera)},
-          {"reachable", result.reachable},
-          {"transport", transportToJson(result.transport)},
-          {"images", std::move(images)}};
+  calibration::Json json{{"venue", result.venue},
+                         {"projector", sizeToJson(result.projector)},
+                         {"camera", sizeToJson(result.camera)},
+                         {"reachable", result.reachable},
+                         {"transport", transportToJson(result.transport)},
+                         {"images", std::move(images)}};
+  if (!result.seams.empty()) json["seams"] = seamsToJson(result.seams);
+  return json;
 }
 
 calibration::Json toJson(const WrittenFiles& result) {

@@ -131,6 +131,15 @@ CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const Me
   result.flaggedShare = flagged / static_cast<double>(acquisition.flagged.size());
   result.findings = measured.linearization.findings;
   result.findings.insert(result.findings.end(), acquisition.findings.begin(), acquisition.findings.end());
+  const compensation::MeasuredVenue& venue = measured.venue;
+  for (std::size_t camera : compensation::camerasApart(venue.views, venue.transport.cameras()))
+    result.findings.push_back(
+        RELUCENT_ENGLISH_MESSAGE(
+            "calibration.camera-sees-other-places",
+            "camera {} sees no lit place that another camera sees: no picture lies in its "
+            "view; aim it where the others look and measure again, or give it a picture "
+            "of its own")
+            .with(as::label(camera + 1)));
   return result;
 }
 

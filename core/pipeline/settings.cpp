@@ -151,6 +151,7 @@ Problems problems(const ContentSettings& settings) {
 compensation::TargetSettings targetOf(const ContentSettings& settings) {
   compensation::TargetSettings target;
   target.corners = settings.corners;
+  target.views = settings.views;
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
   target.blackLift = settings.blackLift;

@@ -75,6 +75,28 @@ using Sorted = nlohmann::json;
                                        "restore calibration.relucent from a copy, or calibrate again"));
 }
 
+Sorted viewToJson(const compensation::ViewSettings& view) {
+  Sorted json{{"weight", view.weight}, {"placement", view.placement}};
+  if (view.corners) json["corners"] = *view.corners;
+  if (view.position) json["position"] = *view.position;
+  return json;
+}
+
+/// Of content that somebody gave weights or places in several views.
+std::vector<compensation::ViewSettings> viewsFromJson(const Sorted& settings) {
+  std::vector<compensation::ViewSettings> views;
+  auto content = settings.find("content");
+  if (content == settings.end()) return views;
+  for (const Sorted& json : content->value("views", Sorted::array())) {
+    compensation::ViewSettings& view = views.emplace_back();
+    view.weight = json.value("weight", view.weight);
+    view.placement = json.value("placement", view.placement);
+    if (json.contains("corners")) view.corners = json.at("corners").get<compensation::Corners>();
+    if (json.contains("position")) view.position = json.at("position").get<compensation::Position>();
+  }
+  return views;
+}
+
 /// Of content whose place somebody chose: four pairs x, y.
 std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
   auto content = settings.find("content");
@@ -313,6 +335,8 @@ std::vector<Reduction> reductionsFromJson(const calibration::Json& json) {
 calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
+  for (const compensation::ViewSettings& view : settings.content.views)
+    content["views"].push_back(viewToJson(view));
   Sorted linearization = settings.linearization;
   // Calibrations from before there was such a choice keep their fingerprints.
   if (settings.linearization.exposureUnit > 0.0)
@@ -341,6 +365,7 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.clustering = sorted.value("clustering", settings.clustering);
     settings.content = sorted.value("content", settings.content);
     settings.content.corners = cornersFromJson(sorted);
+    settings.content.views = viewsFromJson(sorted);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

@@ -115,6 +115,12 @@ std::string methodWords(compensation::Method method) {
   return "the best possible for still pictures";
 }
 
+std::string viewWords(const compensation::ViewSettings& view) {
+  return fmt::format("weight {:.3g}, {}", view.weight,
+                     view.placement == compensation::ViewPlacement::own ? "a picture of its own"
+                                                                        : "the picture on the surface");
+}
+
 void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings& settings) {
   const pipeline::ContentSettings& content = settings.content;
   list.push_back({"Light that is used", cutWords(settings.threshold)});
@@ -124,6 +130,8 @@ void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings&
   list.push_back({"Correction", methodWords(content.method)});
   list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});
   list.push_back({"Blacks lifted by", percent(content.blackLift)});
+  for (std::size_t camera = 0; camera < content.views.size(); ++camera)
+    list.push_back({fmt::format("View of camera {}", camera + 1), viewWords(content.views[camera])});
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct Scene {
   std::vector<Surface> surfaces;
   std::vector<ProjectorOptics> projectors;
   std::vector<CameraOptics> cameras;
+  std::vector<CameraOptics> hidden;  // where viewers stand of whom no device knows
 };
 
 }  // namespace relucent::venue

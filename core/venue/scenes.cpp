@@ -84,7 +84,8 @@ Scene domeScene(const VenueSettings& settings) {
   return scene;
 }
 
-/// Four projectors share the dome, a quarter each and a little more; two cameras see all of it.
+/// Four projectors share the dome, a quarter each and a little more; two cameras see all of it. A viewer
+/// stands between them.
 Scene dome4Scene(const VenueSettings& settings) {
   Scene scene = domeScene(settings);
   const ProjectorOptics one = scene.projectors.front();
@@ -103,10 +104,11 @@ Scene dome4Scene(const VenueSettings& settings) {
   for (float side : {-1.0f, 1.0f})
     scene.cameras.emplace_back(camera).pose =
         Pose::lookingAt({0.55f * side, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
+  scene.hidden.emplace_back(camera).pose = Pose::lookingAt({0.0f, -0.25f, 0.35f}, {0.0f, 0.5f, -2.5f});
   return scene;
 }
 
-/// Round a statue: two projectors, and three cameras where viewers stand.
+/// Round a statue: two projectors, and three cameras where viewers stand; others stand between them.
 Scene statue3Scene(const VenueSettings& settings) {
   Scene scene = statueScene(settings);
   const Vector3f target(0.0f, -0.10f, -0.10f);
@@ -126,6 +128,8 @@ Scene statue3Scene(const VenueSettings& settings) {
   scene.cameras.clear();
   for (float degrees : {0.0f, -45.0f, 45.0f})
     scene.cameras.emplace_back(camera).pose = Pose::lookingAt(around(degrees, 0.10f, 2.5f), target);
+  for (float degrees : {-22.5f, 22.5f})
+    scene.hidden.emplace_back(camera).pose = Pose::lookingAt(around(degrees, 0.10f, 2.5f), target);
   return scene;
 }
 

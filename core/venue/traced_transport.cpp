@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include "relucent/base/parallel.h"
 
@@ -118,14 +121,8 @@ std::vector<float> largestByNode(const std::vector<Line>& lines, std::size_t nod
   return largest;
 }
 
-}  // namespace
-
-TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
-                               Progress& progress) {
-  Tracer tracer(scene, settings);
-  std::vector<Line> lines = traceLines(tracer, settings, progress);
-  float factor = unitsFactor(lines, brightSignal);
-
+/// What was traced, times `factor`.
+TracedTransport assembled(const Tracer& tracer, std::vector<Line> lines, float factor) {
   TracedTransport traced;
   traced.fullScale = largestByNode(lines, tracer.layout().count(), factor);
   transport::BlockSparseBuilder builder(tracer.cameras().count(), traced.fullScale);
@@ -144,6 +141,45 @@ TracedTransport traceTransport(const Scene& scene, const TracerSettings& setting
   }
   traced.cameraByNode = builder.build();
   return traced;
+}
+
+double sumOf(std::span<const float> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// By which factor the flood image is brighter than what is traced: that of the first camera's brightest
+/// line, traced once more.
+float unitsOf(const Tracer& tracer, const TracerSettings& settings, const CameraStack& flood) {
+  const Size size = tracer.cameras().size(0);
+  const std::size_t values = 3 * static_cast<std::size_t>(size.width);
+  const auto lightOf = [&](int y) {
+    return sumOf(std::span<const float>(flood).subspan(static_cast<std::size_t>(y) * values, values));
+  };
+  int brightest = 0;
+  for (int y = 1; y < size.height; ++y)
+    if (lightOf(y) > lightOf(brightest)) brightest = y;
+  const Line line = traceLine(tracer, settings, indexOf(size, {0, brightest}), size.width);
+  const double traced = sumOf(line.flood);
+  return traced > 0.0 ? static_cast<float>(lightOf(brightest) / traced) : 1.0f;
+}
+
+}  // namespace
+
+TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
+                               Progress& progress) {
+  Tracer tracer(scene, settings);
+  std::vector<Line> lines = traceLines(tracer, settings, progress);
+  const float factor = unitsFactor(lines, brightSignal);
+  return assembled(tracer, std::move(lines), factor);
+}
+
+TracedTransport traceHidden(const Scene& scene, const TracerSettings& settings, const CameraStack& flood,
+                            Progress& progress) {
+  const float factor = unitsOf(Tracer(scene, settings), settings, flood);
+  Scene fromThere = scene;
+  fromThere.cameras = scene.hidden;
+  const Tracer tracer(fromThere, settings);
+  return assembled(tracer, traceLines(tracer, settings, progress), factor);
 }
 
 }  // namespace relucent::venue

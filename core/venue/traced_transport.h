@@ -24,4 +24,9 @@ struct TracedTransport {
 TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
                                Progress& progress);
 
+/// The same of the scene's hidden places, in the units in which its cameras' flood image is given.
+/// Throws: Cancelled.
+TracedTransport traceHidden(const Scene& scene, const TracerSettings& settings, const CameraStack& flood,
+                            Progress& progress);
+
 }  // namespace relucent::venue

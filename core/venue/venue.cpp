@@ -50,14 +50,16 @@ std::string traceFingerprint(const VenueSettings& settings) {
       .hex();
 }
 
-TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene,
-                               const transport::NodeLayout& layout, std::size_t cameraPixels,
-                               const std::filesystem::path& cache, Progress& progress) {
+/// What `trace` gives, or gave before.
+template <typename Trace>
+TracedTransport tracedOrCached(const VenueSettings& settings, const std::string& name, std::size_t nodes,
+                               std::size_t cameraPixels, const std::filesystem::path& cache,
+                               Progress& progress, const Trace& trace) {
   std::string fingerprint = traceFingerprint(settings);
-  std::filesystem::path file = cache / fmt::format("{}-{}.venue", settings.name, fingerprint.substr(0, 12));
+  std::filesystem::path file = cache / fmt::format("{}-{}.venue", name, fingerprint.substr(0, 12));
   if (!cache.empty()) {
     createFolder(cache);
-    if (auto kept = readTracedTransport(file, fingerprint, layout.count(), cameraPixels)) {
+    if (auto kept = readTracedTransport(file, fingerprint, nodes, cameraPixels)) {
       progress.report(1.0);
       return *std::move(kept);
     }
@@ -66,7 +68,7 @@ TracedTransport tracedOrCached(const VenueSettings& settings, const Scene& scene
   tracer.pathsPerPixel = settings.pathsPerPixel;
   Progress part =
       progress.part(1.0, RELUCENT_MESSAGE("stage.tracing-simulated-venue", "tracing the simulated venue"));
-  TracedTransport traced = traceTransport(scene, tracer, brightSignalPerSecond, part);
+  TracedTransport traced = trace(tracer, part);
   if (!cache.empty()) writeTracedTransport(file, fingerprint, traced);
   return traced;
 }
@@ -82,7 +84,10 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
   std::vector<Size> sizes(scene.projectors.size(), settings.projector);
   transport::NodeLayout layout{Rasters(sizes)};
   Rasters cameras(std::vector<Size>(scene.cameras.size(), settings.camera));
-  TracedTransport traced = tracedOrCached(settings, scene, layout, cameras.count(), cache, progress);
+  TracedTransport traced = tracedOrCached(settings, settings.name, layout.count(), cameras.count(), cache,
+                                          progress, [&](const TracerSettings& tracer, Progress& part) {
+                                            return traceTransport(scene, tracer, brightSignalPerSecond, part);
+                                          });
   return std::make_shared<VenueLight>(settings, std::move(layout), std::move(cameras), std::move(traced));
 }
 
@@ -118,7 +123,10 @@ std::vector<Message> problems(const VenueSettings& settings) {
 
 SimulatedVenue::SimulatedVenue(const VenueSettings& settings, const std::filesystem::path& cache,
                                Progress& progress)
-    : light_(lightOf(settings, cache, progress)) {}
+    : light_(lightOf(settings, cache, progress)), cache_(cache) {}
+
+SimulatedVenue::SimulatedVenue(std::shared_ptr<const VenueLight> light, std::filesystem::path cache)
+    : light_(std::move(light)), cache_(std::move(cache)) {}
 
 SimulatedVenue::~SimulatedVenue() = default;
 
@@ -150,6 +158,21 @@ CameraStack SimulatedVenue::trueRadiance(const std::vector<image::Image>& encode
   CameraStack radiance = light_->fromProjectors(encodedDrive);
   for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] += light_->ambient()[i];
   return radiance;
+}
+
+std::optional<SimulatedVenue> SimulatedVenue::fromHiddenPlaces(Progress& progress) const {
+  const VenueSettings& settings = this->settings();
+  const Scene scene = buildScene(settings);
+  if (scene.hidden.empty()) return std::nullopt;
+  Rasters cameras(std::vector<Size>(scene.hidden.size(), settings.camera));
+  TracedTransport traced =
+      tracedOrCached(settings, settings.name + "-hidden", light_->layout().count(), cameras.count(), cache_,
+                     progress, [&](const TracerSettings& tracer, Progress& part) {
+                       return traceHidden(scene, tracer, light_->transport().floodlight(), part);
+                     });
+  return SimulatedVenue(std::make_shared<VenueLight>(settings, light_->layout(), std::move(cameras),
+                                                     std::move(traced), light_->roomLight()),
+                        cache_);
 }
 
 }  // namespace relucent::venue

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,8 +87,16 @@ class SimulatedVenue {
   /// Camera signal per second under encoded drive, rounded to codes as the projectors do, free of noise.
   CameraStack trueRadiance(const std::vector<image::Image>& encodedDrive) const;
 
+  /// The same venue as viewers see it who stand where no camera does, for `evaluate` and tests only: its
+  /// cameras are those places. Traced or read from the cache when this is called. None: the scene has none.
+  /// Throws: as the constructor.
+  std::optional<SimulatedVenue> fromHiddenPlaces(Progress& progress) const;
+
  private:
+  SimulatedVenue(std::shared_ptr<const VenueLight> light, std::filesystem::path cache);
+
   std::shared_ptr<const VenueLight> light_;
+  std::filesystem::path cache_;
 };
 
 }  // namespace relucent::venue

@@ -15,7 +15,7 @@ double mean(const Stack& stack) {
 }  // namespace
 
 VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layout, Rasters cameras,
-                       TracedTransport traced)
+                       TracedTransport traced, std::optional<float> asBright)
     : settings_(settings),
       layout_(std::move(layout)),
       cameras_(std::move(cameras)),
@@ -28,10 +28,11 @@ VenueLight::VenueLight(const VenueSettings& settings, transport::NodeLayout layo
 
   double flood = mean(cameraByNode_.multiplyTransposed(layout_.means(white)));
   double roomLight = mean(ambient_);
-  float factor = roomLight > 0.0 ? static_cast<float>(settings_.devices.ambient * flood / roomLight) : 0.0f;
+  roomLight_ = roomLight > 0.0 ? static_cast<float>(settings_.devices.ambient * flood / roomLight) : 0.0f;
+  if (asBright) roomLight_ = *asBright;
   black_ = projectorBlack_;
   for (std::size_t i = 0; i < ambient_.size(); ++i) {
-    ambient_[i] *= factor;
+    ambient_[i] *= roomLight_;
     black_[i] += ambient_[i];
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "relucent/transport/transport_matrix.h"
 #include "relucent/venue/projector_model.h"
@@ -12,8 +13,9 @@ namespace relucent::venue {
 /// What the cameras of a simulated venue measure under any picture, free of noise. Camera signal per second.
 class VenueLight {
  public:
+  /// `roomLight`: what `traced.roomLight` is multiplied by; none: as the settings ask for.
   VenueLight(const VenueSettings& settings, transport::NodeLayout layout, Rasters cameras,
-             TracedTransport traced);
+             TracedTransport traced, std::optional<float> roomLight = {});
 
   const VenueSettings& settings() const { return settings_; }
   const transport::NodeLayout& layout() const { return layout_; }
@@ -23,6 +25,7 @@ class VenueLight {
   /// Light from the projectors: their pictures and their black level.
   CameraStack fromProjectors(const std::vector<image::Image>& encodedDrive) const;
   const CameraStack& ambient() const { return ambient_; }
+  float roomLight() const { return roomLight_; }
   /// e: the projectors' black level and the ambient light.
   const CameraStack& black() const { return black_; }
   /// T in row order, computed on first use.
@@ -35,6 +38,7 @@ class VenueLight {
   ProjectorModel projectorModel_;
   transport::BlockSparse cameraByNode_;
   CameraStack projectorBlack_, ambient_, black_;
+  float roomLight_ = 0.0f;
   mutable std::once_flag transportMade_;
   mutable transport::TransportMatrix transport_;
 };

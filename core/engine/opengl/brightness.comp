@@ -18,9 +18,10 @@ void main() {
 #else
   vec2 sum = vec2(0.0);
   for (uint i = invocation(); i < pixels; i += 64u * 64u) {
-    if (camera[cameraStride * i + cameraBlack].w == 0.0) continue;
+    float weight = camera[cameraStride * i + cameraBlack].w;
+    if (weight == 0.0) continue;
     vec3 light = camera[cameraStride * i + cameraFlood].xyz * placed[i].xyz;
-    sum += vec2(dot(light, wanted[i].xyz), dot(light, light));
+    sum += weight * vec2(dot(light, wanted[i].xyz), dot(light, light));
   }
   part[lane] = sum;
 #endif

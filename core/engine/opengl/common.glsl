@@ -49,7 +49,7 @@ vec3 unpackFloats(uvec2 code) {
 }
 
 /// What a camera pixel is known by, six to a pixel:
-/// black and usable; flood; lit; nine of the unmixing matrix, row by row, and nothing.
+/// black, and the weight of its view, 0 where it is not usable; flood; lit; nine of the unmixing matrix, row by row, and nothing.
 const uint cameraBlack = 0u, cameraFlood = 1u, cameraLit = 2u, cameraUnmix = 3u, cameraStride = 6u;
 
 const uint nothing = 0xffffffffu;

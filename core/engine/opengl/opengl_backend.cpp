@@ -29,13 +29,12 @@ std::vector<std::array<std::uint32_t, 4>> tilesOf(const inverse::WindowArrays& w
   return tiles;
 }
 
-/// What does not change with the content.
+/// What does not change with the content; it has room for what does.
 std::vector<float> knownOf(const compensation::MeasuredVenue& venue, const inverse::WindowArrays& windows) {
   std::vector<float> known(knownFloats * venue.usable.size());
   for (std::size_t i = 0; i < venue.usable.size(); ++i) {
     float* to = &known[knownFloats * i];
     std::copy_n(&venue.black[3 * i], 3, to);
-    to[3] = venue.usable[i] ? 1.0f : 0.0f;
     std::copy_n(&venue.flood[3 * i], 3, to + 4);
     std::copy_n(windows.unmix + 9 * i, 9, to + 12);
   }
@@ -150,13 +149,13 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   weights = {};
   frame = GlBuffer(bytesPerPixel(ContentFrame::Format::linearFloat) * size.count() + 4 * size.count());
   static_assert(sizeof(ContentWarp::Footprint) == 20);
-  std::vector<ContentWarp::Footprint> all = warp.footprints();
-  // Cameras that it is not known of see nothing of the content.
-  all.resize(cameraPixels);
-  footprints = GlBuffer(all);
+  footprints = GlBuffer(warp.footprints());
   weights = GlBuffer(warp.weights());
-  for (std::size_t i = 0; i < cameraPixels; ++i)
+  for (std::size_t i = 0; i < cameraPixels; ++i) {
+    known[knownFloats * i + 3] = next.weight[i];
     std::copy_n(&next.lit[3 * i], 3, &known[knownFloats * i + 8]);
+  }
+  brightest.write(0, next.brightest.data(), sizeof(std::int32_t) * projectorPixels);
   camera.write(0, known.data(), known.size() * sizeof(float));
 
   std::vector<float> free(4 * projectorPixels);

@@ -63,7 +63,7 @@ void main() {
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);
-  wanted[i] = vec4(rest, black.w > 0.0 ? (reachable ? 1.0 : unreachableWeight) : 0.0);
+  wanted[i] = vec4(rest, black.w * (reachable ? 1.0 : unreachableWeight));
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
   unmixed[i] = vec4(unmix * clamp(rest, vec3(0.0), max(flood, vec3(0.0))), 0.0);
 }

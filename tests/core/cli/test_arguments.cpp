@@ -173,10 +173,28 @@ class TestArguments : public QObject {
     QCOMPARE(compensate.settings.target.blackLift, 0.02);
     QCOMPARE(compensate.settings.target.reachablePercentile, 5.0);
 
+    Compensate views = parsed<Compensate>(
+        "compensate d --image a.png --out o --view-weights 0.5 1 0 --view-corners 2:auto "
+        "--view-corners 3:1,2.5,3,4,5,6,7,8");
+    const std::vector<ViewSettings> expected{
+        {0.5, ViewPlacement::surface, {}},
+        {1.0, ViewPlacement::own, {}},
+        {0.0, ViewPlacement::own, Corners{{{1, 2.5}, {3, 4}, {5, 6}, {7, 8}}}}};
+    QVERIFY(views.settings.target.views == expected);
+    QVERIFY(!views.settings.target.viewer);
+    const TargetSettings walked = parsed<Evaluate>(
+                                      "evaluate d --camera-position 1:0,2.5 --camera-position 2:-1.5,2,0.5 "
+                                      "--viewer 0.5,2,0.25")
+                                      .settings.target;
+    QVERIFY((walked.views.at(0).position == Position{0, 2.5, 0}));
+    QVERIFY((walked.views.at(1).position == Position{-1.5, 2, 0.5}));
+    QVERIFY((walked.viewer == Position{0.5, 2, 0.25}));
+
     Evaluate evaluate =
         parsed<Evaluate>("evaluate d --image a.png --image b.exr --method mix --method refined");
     QCOMPARE(evaluate.settings.images.size(), std::size_t{2});
     QVERIFY((evaluate.settings.methods == std::vector{Method::mix, Method::refined}));
+    QVERIFY(!evaluate.settings.blended && parsed<Evaluate>("evaluate d --blended").settings.blended);
     QVERIFY(parsed<Evaluate>("evaluate d").settings.methods.empty());
 
     QCOMPARE(parsed<Export>("export d --transport T.npz").settings.transport, std::filesystem::path("T.npz"));
@@ -262,6 +280,17 @@ class TestArguments : public QObject {
     QTest::newRow("fit") << QByteArray("compensate d --image a --out b --fit squeeze")
                          << QByteArray("squeeze");
     QTest::newRow("no image") << QByteArray("compensate d --out b") << QByteArray("--image is required");
+    for (const char* place :
+         {"2", "0:auto", "2:automatic", "2:1,2,3,4,5,6,7", "2:1,2,3,4,5,6,7,8,9", "x:auto"})
+      QTest::addRow("view-corners %s", place)
+          << QByteArray("compensate d --image a --out b --view-corners ") + place
+          << QByteArray("CAMERA:auto");
+    for (const char* place : {"1,2,3", "0:1,2", "1:1", "1:1;2", "1:1,2,3,4", "1:a,b"})
+      QTest::addRow("camera-position %s", place)
+          << QByteArray("evaluate d --camera-position ") + place << QByteArray("no camera's position");
+    for (const char* place : {"1", "x,y", "1,2,3,4"})
+      QTest::addRow("viewer %s", place)
+          << QByteArray("evaluate d --viewer ") + place << QByteArray("no viewer's position");
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");
     QTest::newRow("nothing to export")

@@ -84,15 +84,16 @@ inline engine::ContentFrame frameOf(const image::Image& linear) {
   }
 
 /// Undithered, so that a value has one right code.
-inline engine::EngineSettings plain() {
+inline engine::EngineSettings plain(const EngineScene& scene = {}) {
   engine::EngineSettings settings;
+  settings.target = scene.target;
   settings.dither = engine::Dither::none;
   return settings;
 }
 
 /// The same with all of T that codes can hold.
-inline engine::EngineSettings exact() {
-  engine::EngineSettings settings = plain();
+inline engine::EngineSettings exact(const EngineScene& scene = {}) {
+  engine::EngineSettings settings = plain(scene);
   settings.packing.tolerance = 0.0f;
   return settings;
 }

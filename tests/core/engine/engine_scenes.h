@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/compensation/stacked_views.h"
 #include "core/inverse/synthetic_transport.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/engine/engine_plan.h"
@@ -18,6 +19,7 @@ struct EngineScene {
   compensation::MeasuredVenue venue;
   inverse::WindowInverse inverse;
   std::vector<linearization::ProjectorResponse> responses;
+  compensation::TargetSettings target{};
 };
 
 inline compensation::MeasuredVenue venueOf(Scene scene) {
@@ -126,8 +128,9 @@ inline transport::TransportMatrix sharing(const transport::TransportMatrix& own)
 /// Scenes by name, for data-driven tests.
 inline const std::vector<std::string>& engineSceneNames() {
   static const std::vector<std::string> names{
-      "wall",         "defocus", "coarse tiles",     "several devices", "several views",
-      "single pixel", "holes",   "neighbours share", "several share"};
+      "wall",         "defocus",      "coarse tiles",     "several devices", "several views",
+      "single pixel", "holes",        "neighbours share", "several share",   "two views",
+      "weights",      "own pictures", "one asks"};
   return names;
 }
 
@@ -137,6 +140,19 @@ inline EngineScene engineSceneOf(const std::string& name) {
     compensation::MeasuredVenue venue = severalDevices(3);
     venue.views = compensation::viewMap(venue.transport, venue.usable);
     return engineScene(std::move(venue));
+  }
+  if (name == "two views" || name == "weights" || name == "own pictures" || name == "one asks") {
+    EngineScene scene = engineScene(twoViews());
+    std::vector<compensation::ViewSettings>& views = scene.target.views;
+    if (name == "weights") views = {{0.3, {}, {}}, {1.0, {}, {}}};
+    if (name == "own pictures") {
+      scene.target.corners = compensation::Corners{{{5, 3}, {35, 4}, {33, 25}, {6, 24}}};
+      views = {{1.0, {}, {}}, {0.5, compensation::ViewPlacement::own, {}}};
+    }
+    if (name == "one asks")
+      views = {{0.0, {}, {}},
+               {1.0, compensation::ViewPlacement::own, compensation::uprightCorners(6, 5, 22, 16)}};
+    return scene;
   }
   if (name == "holes") return engineScene(holes(4));
   if (name == "several share") {

@@ -85,10 +85,10 @@ class TestBackends : public QObject {
     SKIP_WHERE_MISSING(backend);
     QFETCH(QString, scene);
     EngineScene made = engineSceneOf(scene.toStdString());
-    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, exact());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, exact(made));
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Image content = makeContent(Content::natural, {37, 28}, 3);
-    Target target = fitTarget(content, made.venue, {});
+    Target target = fitTarget(content, made.venue, made.target);
     Progress silent;
     // Half a code for rounding, and what the codes of T and M leave: see test_packed_transport. In "several
     // devices" light of different colours meets in a pixel, which the packed T knows by its mean mixing only.
@@ -117,6 +117,7 @@ class TestBackends : public QObject {
     EngineScene made = engineSceneOf(scene.toStdString());
     for (int bits : {8, 10}) {
       EngineSettings settings;
+      settings.target = made.target;
       settings.bits = bits;
       settings.dither = bits == 8 ? Dither::blueNoise : Dither::ordered;
       settings.packing.patchSide = 16;
@@ -145,10 +146,10 @@ class TestBackends : public QObject {
     SKIP_WHERE_MISSING(backend);
     QFETCH(QString, scene);
     EngineScene made = engineSceneOf(scene.toStdString());
-    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain(made));
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Image content = makeContent(Content::saturated, {24, 18}, 8);
-    Target target = fitTarget(content, made.venue, {});
+    Target target = fitTarget(content, made.venue, made.target);
     if (std::count(target.reachable.begin(), target.reachable.end(), 1) == 0) return;
     Progress silent;
     CompensatorSettings settings;
@@ -172,10 +173,10 @@ class TestBackends : public QObject {
     SKIP_WHERE_MISSING(backend);
     QFETCH(QString, scene);
     EngineScene made = engineSceneOf(scene.toStdString());
-    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain(made));
     std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
     Image content = makeContent(Content::natural, {40, 30}, 1);
-    Target target = fitTarget(content, made.venue, {});
+    Target target = fitTarget(content, made.venue, made.target);
     Progress silent;
     ProjectorStack expected =
         Compensator(made.venue, made.inverse).solve(Method::none, target, silent).projector;

@@ -66,6 +66,27 @@ class TestContentWarp : public QObject {
     }
   }
 
+  /// Each view has its own placement, or none where the content lies on no surface that it knows.
+  void eachViewHasItsPlacement() {
+    const Rasters cameras({{31, 23}, {17, 19}, {20, 13}});
+    const Placement first{{{{3.5, 4}, {27, 1}, {29.2, 21}, {1, 17}}}, {}},
+        third{uprightCorners(2, 2, 16, 9), {}};
+    const Size content{40, 30};
+    const ContentWarp warp(content, {first, std::nullopt, third}, cameras, {});
+    QCOMPARE(warp.footprints().size(), cameras.count());
+    Image picture(content, 3);
+    Random random{7};
+    for (float& value : picture.data()) value = random.uniformFloat();
+    for (std::size_t camera : {0, 1, 2}) {
+      const ContentWarp alone(content, camera == 0 ? first : third, cameras.size(camera));
+      for (std::size_t pixel = 0; pixel < cameras.size(camera).count(); ++pixel) {
+        const std::size_t row = cameras.offset(camera) + pixel;
+        QCOMPARE(warp.inside(row), camera != 1 && alone.inside(pixel));
+        if (warp.inside(row)) QCOMPARE(applied(warp, picture, row, 1), applied(alone, picture, pixel, 1));
+      }
+    }
+  }
+
   void whiteStaysWhite() {
     Size size{1920, 1080};
     ContentWarp warp(size, {uprightCorners(2, 2, 16, 9), {}}, {20, 13});

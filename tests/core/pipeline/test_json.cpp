@@ -92,6 +92,45 @@ class TestJson : public QObject {
                     R"("uncorrectable":{"unlit":0.25},"seconds":0.5,"files":["out/pattern.png"]})"));
   }
 
+  /// What several views make of it stands in both documents, and in none of one view.
+  void contradictionsOfViews() {
+    CompensateResult compensated;
+    compensated.contradiction = {0.25, {0.5, 0.125}};
+    compensated.notes = {Message::plain("they contradict each other")};
+    const std::string text = toJson(compensated).dump();
+    QVERIFY(text.find(R"("contradiction":{"share":0.25,"views":[0.5,0.125]})") != std::string::npos);
+    QVERIFY(text.find(R"("notes":["they contradict each other"])") != std::string::npos);
+    EvaluateResult evaluated;
+    evaluated.images.resize(2);
+    evaluated.images[1].contradiction = {0.25, {0.5, 0.125}};
+    const Json images = toJson(evaluated)["images"];
+    QVERIFY(!images[0].contains("contradiction"));
+    QCOMPARE(images[1]["contradiction"]["share"].get<double>(), 0.25);
+  }
+
+  /// Unseen places, and what blended projectors make of it.
+  void placesAndProjectors() {
+    EvaluateResult result;
+    QVERIFY(!toJson(result).contains("seams"));
+    result.images.resize(1);
+    QVERIFY(!toJson(result)["images"][0].contains("unseen_places"));
+    const MethodScore score{Method::refined, 30.0, 29.0, 28.0, 27.0, 0.9, 0.8, 1.5, 2.0, 3.0, 0.001};
+    result.images[0].unseen = {{0.5, {score}}};
+    result.images[0].blended = score;
+    result.images[0].others = {{0.75, {score}, score}};
+    result.seams = {{0.25, Method::refined, {0.5, 1.5, 0.375}, {2.0, 4.0, 1.0}}};
+    const Json document = toJson(result), image = document["images"][0];
+    QCOMPARE(image["unseen_places"][0]["reachable"].get<double>(), 0.5);
+    QCOMPARE(image["unseen_places"][0]["methods"]["refined"]["psnr_reachable"].get<double>(), 30.0);
+    QVERIFY(!image["unseen_places"][0].contains("blended"));
+    QCOMPARE(image["blended"]["delta_e"].get<double>(), 2.0);
+    QCOMPARE(image["other_views"][0]["blended"]["psnr_all"].get<double>(), 29.0);
+    QCOMPARE(
+        document["seams"][0].dump(),
+        std::string(R"({"grey":0.25,"method":"refined","joint":{"mean":0.5,"p95":1.5,"elsewhere":0.375},)"
+                    R"("blended":{"mean":2.0,"p95":4.0,"elsewhere":1.0}})"));
+  }
+
   void benchDocument() {
     BenchResult result{{"a processor", 2, 1e10, ""}, {{"T p", 0.01, 1e8, 0.5}}};
     QCOMPARE(

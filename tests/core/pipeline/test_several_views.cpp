@@ -42,6 +42,58 @@ Vector2f seenAt(const CameraOptics& camera, const Vector3f& point) {
               path.dot(camera.pose.up) / depth * camera.throwRatio * width};
 }
 
+/// Rows of T, one matrix below the other.
+TransportMatrix stacked(const TransportMatrix& above, const TransportMatrix& below) {
+  std::vector<Size> sizes = above.cameras().sizes();
+  sizes.insert(sizes.end(), below.cameras().sizes().begin(), below.cameras().sizes().end());
+  std::vector<float> fullScale;
+  const TransportMatrix parts[] = {above.flattened(), below.flattened()};
+  for (const TransportMatrix& part : parts) {
+    const BlockSparse& leaves = part.ownLeaves();
+    for (std::size_t row = 0; row < leaves.rows(); ++row) {
+      float& largest = fullScale.emplace_back(0.0f);
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+        largest = std::max(largest, leaves.sizeOf(row, entry).largest);
+    }
+  }
+  BlockSparseBuilder builder(above.layout().count(), fullScale);
+  std::size_t first = 0;
+  for (const TransportMatrix& part : parts) {
+    const BlockSparse& leaves = part.ownLeaves();
+    for (std::size_t row = 0; row < leaves.rows(); ++row)
+      for (std::size_t entry = leaves.rowBegin(row); entry < leaves.rowBegin(row + 1); ++entry)
+        builder.add(first + row, leaves.column(entry), leaves.block(row, entry));
+    first += leaves.rows();
+  }
+  return {Rasters(sizes), above.projectors(), builder.build()};
+}
+
+/// A venue measured by its cameras, and without noise by one that stands at each hidden place.
+MeasuredVenue withCamerasAt(const MeasuredVenue& measured, const SimulatedVenue& places) {
+  MeasuredVenue venue;
+  venue.transport = stacked(measured.transport, places.trueTransport());
+  const auto joined = [](auto values, const auto& more) {
+    values.insert(values.end(), more.begin(), more.end());
+    return values;
+  };
+  const CameraStack flood = places.trueTransport().floodlight();
+  Acquisition exact;
+  exact.flood = flood;
+  exact.floodVariance.assign(flood.size(), 0.0f);
+  exact.flagged.assign(flood.size() / 3, 0);
+  venue.black = joined(measured.black, places.trueBlack());
+  venue.flood = joined(measured.flood, flood);
+  venue.usable = joined(measured.usable, usablePixels(exact));
+  Progress quiet;
+  venue.direct = directlyLit(directLooks(venue.transport, {}, quiet));
+  venue.views = viewMap(venue.transport, seesProjection(venue));
+  return venue;
+}
+
+double psnrOf(const std::vector<MethodScore>& scores) {
+  return scores.front().psnrReachable;
+}
+
 /// Of a venue, what its first camera measured alone.
 MeasuredVenue firstAlone(const MeasuredVenue& all) {
   const Size size = all.transport.cameras().size(0);
@@ -76,6 +128,28 @@ class TestSeveralViews : public QObject {
 
   QTemporaryDir temporary_;
   fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const { return root() / "cache"; }
+
+  /// The calibration of a venue, made when it is first asked for.
+  fs::path calibrated(const std::string& name, Size projector, Size camera) const {
+    const fs::path path = root() / (name + std::to_string(projector.width));
+    if (fs::exists(path)) return path;
+    VenueSettings venue;
+    venue.name = name;
+    venue.projector = projector;
+    venue.camera = camera;
+    venue.pathsPerPixel = 64;
+    CalibrateSettings settings;
+    settings.rig = venue;
+    Progress silent;
+    calibrate(path, settings, cache(), silent);
+    return path;
+  }
+  static MeasuredCalibration loaded(const fs::path& path) {
+    Progress silent;
+    return loadCalibration(CalibrationFolder::open(path, CalibrationFolder::Access::read), silent);
+  }
+  fs::path statue() const { return calibrated("statue3", {96, 72}, {64, 48}); }
 
  private slots:
   /// Law: on a flat wall the map between two views is their homography, to less than half a pixel.
@@ -174,25 +248,17 @@ class TestSeveralViews : public QObject {
   /// What several cameras are for: the picture is right from each of three sides, where a calibration from
   /// one side is wrong from the others.
   void threeViewsAreBetterThanOne() {
-    VenueSettings venue;
-    venue.name = "statue3";
-    venue.projector = {96, 72};
-    venue.camera = {64, 48};
-    venue.pathsPerPixel = 64;
-    CalibrateSettings settings;
-    settings.rig = venue;
     Progress silent;
-    calibrate(root() / "statue3", settings, root() / "cache", silent);
     EvaluateSettings evaluating;
+    evaluating.fewImages = true;
     evaluating.methods = {Method::refined};
-    const EvaluateResult joint = evaluate(root() / "statue3", evaluating, root() / "cache", silent);
+    const EvaluateResult joint = evaluate(statue(), evaluating, cache(), silent);
 
-    const MeasuredCalibration measured =
-        loadCalibration(CalibrationFolder::open(root() / "statue3", CalibrationFolder::Access::read), silent);
+    const MeasuredCalibration measured = loaded(statue());
     const MeasuredVenue alone = firstAlone(measured.venue);
-    const compensation::RidgeChoice inverse = invert(alone, settings, silent);
+    const compensation::RidgeChoice inverse = invert(alone, {}, silent);
     const Compensator compensator(alone, inverse.inverse);
-    const OpenedRig rig = openRig(measured.rig, root() / "cache", silent);
+    const OpenedRig rig = openRig(measured.rig, cache(), silent);
     const Rasters& cameras = measured.venue.transport.cameras();
     std::vector<double> together(3, 0.0), single(3, 0.0);
     const std::vector<NamedImage> images = standardImages();
@@ -224,6 +290,122 @@ class TestSeveralViews : public QObject {
             single[camera]);
     QVERIFY(std::ranges::min(together) > std::ranges::min(single) + 4.0);
     QVERIFY(joint.images[0].others[0].reachable > 0.7);
+  }
+
+  /// A camera that looks where no other does is told of as soon as all is measured.
+  void aCameraThatLooksElsewhereIsAFinding() {
+    const CalibrationFolder folder = CalibrationFolder::open(statue(), CalibrationFolder::Access::read);
+    MeasuredCalibration measured = loaded(statue());
+    const std::size_t before = summaryOf(folder, measured).findings.size();
+    const Rasters& cameras = measured.venue.transport.cameras();
+    for (std::size_t i = cameras.offset(2); i < cameras.count(); ++i)
+      measured.venue.views[i] = {std::nanf(""), std::nanf("")};
+    const std::vector<Message> findings = summaryOf(folder, measured).findings;
+    QCOMPARE(findings.size(), before + 1);
+    QVERIFY(english(findings.back()).starts_with("camera 3 sees no lit place that another camera sees"));
+  }
+
+  void placesBetweenCameras_data() {
+    QTest::addColumn<QString>("venue");
+    QTest::newRow("statue3") << "statue3";
+    QTest::newRow("dome4") << "dome4";
+  }
+  /// Whoever stands between the cameras, of whom nothing was measured, sees the picture within 3 dB of what
+  /// he would see if a camera had stood there.
+  void placesBetweenCameras() {
+    QFETCH(QString, venue);
+    // Where cameras are coarser than projectors, what lies between their pixels is nobody's wish.
+    const fs::path path = calibrated(venue.toStdString(), {64, 48}, {64, 48});
+    Progress silent;
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;
+    evaluating.methods = {Method::refined};
+    const EvaluateResult result = evaluate(path, evaluating, cache(), silent);
+
+    const MeasuredCalibration measured = loaded(path);
+    const OpenedRig rig = openRig(measured.rig, cache(), silent);
+    const std::optional<SimulatedVenue> hidden = rig.venue->fromHiddenPlaces(silent);
+    const MeasuredVenue more = withCamerasAt(measured.venue, *hidden);
+    const compensation::RidgeChoice inverse = invert(more, {}, silent);
+    const Compensator compensator(more, inverse.inverse);
+    const Rasters& cameras = more.transport.cameras();
+    const std::size_t known = measured.venue.transport.cameras().devices(),
+                      places = cameras.devices() - known;
+    std::vector<double> unseen(places, 0.0), withCamera(places, 0.0);
+    const std::vector<NamedImage> images = standardImages();
+    for (std::size_t image = 0; image < images.size(); ++image) {
+      TargetSettings same;
+      same.corners = fitTarget(images[image].linear, measured.venue, {}).corners;
+      const Target target = fitTarget(images[image].linear, more, same);
+      const std::vector<Image> drive =
+          encodedDrive(compensator.solve(Method::refined, target, silent).projector,
+                       more.transport.projectors(), measured.linearization);
+      const CameraStack seen = hidden->trueRadiance(drive);
+      const Rasters& there = hidden->trueTransport().cameras();
+      const auto parts = static_cast<double>(images.size());
+      QCOMPARE(result.images[image].unseen.size(), places);
+      for (std::size_t place = 0; place < places; ++place) {
+        const auto begin =
+            target.reachable.begin() + static_cast<std::ptrdiff_t>(cameras.offset(known + place));
+        const CameraMask mask(begin, begin + static_cast<std::ptrdiff_t>(there.size(place).count()));
+        withCamera[place] += psnr(imageFromStack(seen, there, place),
+                                  imageFromStack(target.wanted, cameras, known + place), target.white, mask) /
+                             parts;
+        unseen[place] += psnrOf(result.images[image].unseen[place].methods) / parts;
+        QVERIFY(result.images[image].unseen[place].reachable > 0.7);
+      }
+    }
+    for (std::size_t place = 0; place < places; ++place) {
+      qInfo("%s, place %zu: %.2f dB unseen, %.2f dB had a camera stood there", qPrintable(venue), place + 1,
+            unseen[place], withCamera[place]);
+      QVERIFY(unseen[place] > withCamera[place] - 3.0);
+    }
+  }
+
+  /// Pictures of their own are upright from each place, at a price that is told; between them nothing is
+  /// wanted.
+  void eachSideHasAPictureOfItsOwn() {
+    Progress silent;
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;
+    evaluating.methods = {Method::refined};
+    const EvaluateResult surface = evaluate(statue(), evaluating, cache(), silent);
+    evaluating.target.views = {{}, {1.0, ViewPlacement::own, {}}, {1.0, ViewPlacement::own, {}}};
+    const EvaluateResult own = evaluate(statue(), evaluating, cache(), silent);
+    for (const EvaluateResult* result : {&own, &surface})
+      for (const ImageScore& image : result->images)
+        qInfo("%s, %s: %.2f, %.2f, %.2f dB, %.0f %% visibly worse", result == &own ? "own" : "surface",
+              image.name.c_str(), psnrOf(image.methods), psnrOf(image.others[0].methods),
+              psnrOf(image.others[1].methods), 100.0 * image.contradiction->share);
+    for (std::size_t image = 0; image < own.images.size(); ++image) {
+      QVERIFY(own.images[image].unseen.empty() && !surface.images[image].unseen.empty());
+      QVERIFY(own.images[image].contradiction->share > surface.images[image].contradiction->share);
+    }
+  }
+
+  /// What several projectors are solved together for: blended from separate solves the dome is at least 3 dB
+  /// worse, and its seams are seen.
+  void theDomeIsSolvedTogether() {
+    Progress silent;
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;
+    evaluating.methods = {Method::refined};
+    evaluating.blended = true;
+    const EvaluateResult result =
+        evaluate(calibrated("dome4", {64, 48}, {64, 48}), evaluating, cache(), silent);
+    double joint = 0.0, blended = 0.0;
+    for (const ImageScore& image : result.images) {
+      joint += psnrOf(image.methods) + psnrOf(image.others[0].methods);
+      blended += image.blended->psnrReachable + image.others[0].blended->psnrReachable;
+    }
+    const double views = 2.0 * static_cast<double>(result.images.size());
+    qInfo("%.2f dB together, %.2f dB blended", joint / views, blended / views);
+    for (const SeamScore& seams : result.seams)
+      qInfo("%.0f %% grey: seams %.2f (95 %% below %.2f, elsewhere %.2f) together, %.2f (%.2f, %.2f) blended",
+            100.0 * seams.grey, seams.joint.mean, seams.joint.p95, seams.joint.elsewhere, seams.blended.mean,
+            seams.blended.p95, seams.blended.elsewhere);
+    QVERIFY(joint / views > blended / views + 3.0);
+    for (const SeamScore& seams : result.seams) QVERIFY(seams.joint.mean < 1.0);
   }
 };
 

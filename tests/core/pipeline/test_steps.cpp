@@ -190,6 +190,23 @@ class TestSteps : public QObject {
     QVERIFY(!problems(changed.content).empty());
   }
 
+  void whatViewsAskForIsKept() {
+    CalibrationFolder folder = beginCalibration(path("views"), tiny());
+    const std::string before = folder.settings().dump();
+    CalibrateSettings changed = settingsOf(folder);
+    changed.content.views = {{0.25, ViewPlacement::surface, {}},
+                             {1.0, ViewPlacement::own, {}, Position{1.0, -2.0, 0.5}},
+                             {2.0, ViewPlacement::own, uprightCorners(1.5, 2.0, 8.0, 6.0)}};
+    changeSettings(folder, changed);
+    QVERIFY(settingsOf(folder).content == changed.content);
+    QVERIFY(targetOf(changed.content).views == changed.content.views);
+    changed.content.views.clear();
+    changeSettings(folder, changed);
+    QCOMPARE(folder.settings().dump(), before);  // and so is its fingerprint
+    changed.content.views = {{-1.0, ViewPlacement::surface, {}}};
+    QVERIFY(!problems(changed.content).empty());
+  }
+
   void settingsOfOtherVersionsStay() {
     CalibrationFolder folder = beginCalibration(path("foreign"), tiny());
     Json settings = folder.settings();

@@ -7,6 +7,8 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/venue/scenes.h"
+#include "relucent/venue/traced_transport.h"
 #include "relucent/venue/venue.h"
 #include "support/stopped.h"
 
@@ -176,6 +178,60 @@ class TestVenue : public QObject {
           transport.projectors().count(), fromOneSideOnly);
     QVERIFY(anywhere > 0.6 * static_cast<double>(transport.projectors().count()));
     QVERIFY(fromOneSideOnly > 0.03 * anywhere);
+  }
+
+  /// Law: whoever stands hidden where a camera stands sees what it sees, in the same units.
+  void aHiddenPlaceSeesAsACameraDoes() {
+    VenueSettings settings = smallVenue("statue3");
+    Scene scene = buildScene(settings);
+    scene.hidden = {scene.cameras[0]};
+    Progress progress;
+    const TracerSettings tracer{.pathsPerPixel = settings.pathsPerPixel};
+    const TracedTransport seen = traceTransport(scene, tracer, 60.0, progress);
+    const NodeLayout layout(Rasters(std::vector<Size>(2, settings.projector)));
+    const ProjectorStack white(3 * layout.projectors().count(), 1.0f);
+    const CameraStack flood(seen.cameraByNode.multiplyTransposed(layout.means(white)));
+    const TracedTransport hidden = traceHidden(scene, tracer, flood, progress);
+    const Stack there = hidden.cameraByNode.multiplyTransposed(layout.means(white));
+    const std::size_t values = 3 * settings.camera.count();
+    QCOMPARE(there.size(), values);
+    QVERIFY(std::equal(hidden.roomLight.begin(), hidden.roomLight.end(), seen.roomLight.begin()));
+    // Units are found from one line of 16-bit codes.
+    for (std::size_t i = 0; i < values; ++i) {
+      const float camera = flood[i];
+      QVERIFY2(std::abs(there[i] - camera) < 1e-3f * (camera + 1.0f),
+               qPrintable(QString("%1: %2 %3").arg(i).arg(there[i]).arg(camera)));
+    }
+  }
+
+  /// No device knows of hidden places; they see the same projectors, room and black level.
+  void hiddenPlacesAreOfNoDevice() {
+    QTemporaryDir folder;
+    Progress progress;
+    for (const auto& [name, places] : {std::pair{"statue3", 2}, {"dome4", 1}, {"plain", 0}}) {
+      SimulatedVenue venue(smallVenue(name), folder.path().toStdString(), progress);
+      const std::size_t cameras = venue.rig().cameras.size();
+      const std::optional<SimulatedVenue> hidden = venue.fromHiddenPlaces(progress);
+      QCOMPARE(hidden ? hidden->trueTransport().cameras().devices() : 0, static_cast<std::size_t>(places));
+      QCOMPARE(venue.rig().cameras.size(), cameras);
+      if (!hidden) continue;
+      QVERIFY(hidden->trueTransport().projectors() == venue.trueTransport().projectors());
+      const auto meanOf = [](const Stack& stack) {
+        double sum = 0.0;
+        for (float value : stack) sum += static_cast<double>(value);
+        return sum / static_cast<double>(stack.size());
+      };
+      // They stand between the cameras: about as much light comes there, and as much black level.
+      const double light = meanOf(hidden->trueTransport().floodlight()) /
+                           meanOf(venue.trueTransport().floodlight()),
+                   black = meanOf(hidden->trueBlack()) / meanOf(venue.trueBlack());
+      qInfo("%s: %.3f of the light, %.3f of the black level", name, light, black);
+      QVERIFY(light > 0.5 && light < 1.5 && black > 0.5 && black < 1.5);
+      // From the cache they are the same.
+      const std::optional<SimulatedVenue> again =
+          SimulatedVenue(smallVenue(name), folder.path().toStdString(), progress).fromHiddenPlaces(progress);
+      QVERIFY(again->trueTransport().floodlight() == hidden->trueTransport().floodlight());
+    }
   }
 
   /// Four projectors cover the dome, and where they meet they overlap.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/compensation/blending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "relucent/base/parallel.h"
+#include "relucent/compensation/lit_by.h"
+#include "relucent/compensation/stacks.h"
+
+namespace relucent::compensation {
+namespace {
+
+/// 0 at the edge of a picture, 1 at its centre.
+double distanceFromEdge(const LitBy& lit, Size size) {
+  const double x = std::min(lit.x, size.width - lit.x) / (0.5 * size.width),
+               y = std::min(lit.y, size.height - lit.y) / (0.5 * size.height);
+  return std::clamp(std::min(x, y), 0.0, 1.0);
+}
+
+/// The masks of one row, by direct light; sum 0: there is none.
+std::vector<double> rampsOf(const std::vector<LitBy>& lit, const Rasters& projectors) {
+  // A pixel on the very edge of the only picture is not dark.
+  constexpr double least = 1e-6;
+  std::vector<double> ramps(lit.size());
+  for (std::size_t k = 0; k < lit.size(); ++k)
+    if (lit[k].light > 0.0)
+      ramps[k] = std::max(
+          least, 0.5 * (1.0 - std::cos(std::numbers::pi * distanceFromEdge(lit[k], projectors.size(k)))));
+  return ramps;
+}
+
+/// Per camera pixel the projectors' shares of the flood image.
+std::vector<double> floodSharesOf(const transport::TransportMatrix& transport, std::size_t row) {
+  std::vector<double> shares(transport.projectors().devices());
+  const transport::LeafRow leaves = transport.row(row);
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry)
+    shares[static_cast<std::size_t>(transport.layout().node(leaves.column(entry)).projector)] +=
+        std::max(0.0, static_cast<double>(leaves.block(entry).sum()));
+  return shares;
+}
+
+}  // namespace
+
+std::vector<std::vector<float>> blendingMasks(const transport::TransportMatrix& transport,
+                                              const DirectLightSettings& settings) {
+  const Rasters& projectors = transport.projectors();
+  const std::size_t rows = transport.cameras().count();
+  std::vector<std::vector<float>> masks(projectors.devices(), std::vector<float>(rows, 0.0f));
+  const DirectLeaves direct(transport, settings);
+  parallelFor(0, rows, 256, [&](std::size_t row) {
+    const auto sumOf = [](const std::vector<double>& values) {
+      double sum = 0.0;
+      for (double value : values) sum += value;
+      return sum;
+    };
+    std::vector<double> shares = rampsOf(litBy(transport, direct, row), projectors);
+    if (sumOf(shares) == 0.0) shares = floodSharesOf(transport, row);
+    const double all = sumOf(shares);
+    if (all == 0.0) return;
+    for (std::size_t k = 0; k < masks.size(); ++k) masks[k][row] = static_cast<float>(shares[k] / all);
+  });
+  return masks;
+}
+
+Compensation solvedSeparately(const Compensator& compensator, const Target& target,
+                              const SolverSettings& settings, Progress& progress) {
+  const MeasuredVenue& venue = compensator.venue();
+  const Rasters& projectors = venue.transport.projectors();
+  const std::vector<std::vector<float>> masks = blendingMasks(venue.transport, compensator.settings().direct);
+  const ProjectorMask free = compensator.contentPixelsOf(target);
+  Compensation together;
+  together.projector.assign(3 * projectors.count(), 0.0f);
+  std::size_t limited = 0, values = 0;
+  for (std::size_t k = 0; k < projectors.devices(); ++k) {
+    Progress solving = progress.part(1.0 / static_cast<double>(projectors.devices()), progress.stage());
+    ProjectorMask own(free.size(), 0);
+    const auto first = static_cast<std::ptrdiff_t>(projectors.offset(k));
+    std::copy_n(free.begin() + first, projectors.size(k).count(), own.begin() + first);
+    const CameraStack wanted = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
+      return masks[k][i / 3] * (target.wanted[i] - venue.black[i]);
+    });
+    const ConstrainedProblem problem{venue.transport, wanted, target.weight, own};
+    const SolveResult solved =
+        solveConstrained(problem, ProjectorStack(together.projector.size(), 0.0f), settings, solving);
+    together.iterations += solved.iterations;
+    for (std::size_t j = 0; j < own.size(); ++j) {
+      if (own[j] == 0) continue;
+      for (std::size_t c = 3 * j; c < 3 * j + 3; ++c) {
+        together.projector[c] = solved.x[c];
+        limited += solved.x[c] <= 0.0f || solved.x[c] >= 1.0f;
+        ++values;
+      }
+    }
+  }
+  if (values > 0) together.clipped = static_cast<double>(limited) / static_cast<double>(values);
+  return together;
+}
+
+}  // namespace relucent::compensation

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "relucent/base/message.h"
+
+namespace relucent::compensation {
+
+/// Where a camera or a viewer stands: metres, or whatever a plan is drawn in, with any axes; in a plan
+/// without heights the third is 0.
+using Position = std::array<double, 3>;
+
+bool isFinite(const Position& position);
+
+/// What the measured views count for a viewer who stands anywhere, from where their cameras stand: the place
+/// in the cameras' convex hull that is nearest to him, made of those that are nearest to it,
+///   w = argmin |sum_c w_c (x_c - v)|^2 + kappa (sum_c w_c |x_c - v|^2 / D)^2,     w >= 0, sum w = 1,
+/// D the largest distance of two cameras, kappa 1e-6: almost the linear interpolation in the Delaunay simplex
+/// of the place, which is the lower hull of the lifted points. Where a camera stands, that one alone; between
+/// two, by the distances from both; outside the hull as at its border; very far away the nearest. One camera,
+/// or all at one place: evenly. Continuous in v, and the same for every unit and axes.  Contract: there are
+/// cameras; positions are finite. Source: core/compensation/README.md.
+std::vector<double> viewerWeights(std::span<const Position> cameras, const Position& viewer);
+
+struct ViewerMotionSettings {
+  std::chrono::duration<double> patience{2.0};  // without a word of the viewer he stays where he was
+  std::chrono::duration<double> glide{1.0};     // time constant on the way back to the sweet spot
+};
+std::vector<Message> problems(const ViewerMotionSettings& settings);
+
+/// A viewer whose position is told now and then.
+///   x(t) = x_last until t_last + patience, then  s + (x_last - s) exp(-(t - t_last - patience) / glide)
+/// Before anything is told he stands at the sweet spot s. Times are of one clock, and do not run back.
+class MovingViewer {
+ public:
+  using Time = std::chrono::duration<double>;
+
+  explicit MovingViewer(const Position& sweetSpot, const ViewerMotionSettings& settings = {});
+
+  /// Positions that are not finite are not listened to: false.
+  bool moveTo(const Position& position, Time now);
+  Position at(Time now) const;
+
+ private:
+  Position sweetSpot_;
+  ViewerMotionSettings settings_;
+  std::optional<Position> last_;
+  Time told_{0.0};
+};
+
+}  // namespace relucent::compensation

@@ -146,12 +146,14 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   result.reachable = prediction.reachable;
   result.psnrPredicted = prediction.psnrReachable;
   result.deltaE = prediction.meanDeltaE;
-  Progress comparing =
-      progress.part(0.02, RELUCENT_MESSAGE("stage.comparing-views", "Comparing what the views want"));
-  const compensation::Contradiction contradiction =
-      contradictionOf(compensator, target, compensation, comparing);
   const bool hasSeveralViews = venue.transport.cameras().devices() > 1;
-  if (hasSeveralViews) result.contradiction = {contradiction.share, contradiction.shares};
+  compensation::Contradiction contradiction;
+  if (hasSeveralViews) {
+    Progress comparing =
+        progress.part(0.02, RELUCENT_MESSAGE("stage.comparing-views", "Comparing what the views want"));
+    contradiction = contradictionOf(compensator, target, compensation, comparing);
+    result.contradiction = {contradiction.share, contradiction.shares};
+  }
   result.notes = viewNotes(venue, target, contradiction);
   Progress explaining = progress.part(
       0.03, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));

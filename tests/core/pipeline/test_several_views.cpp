@@ -11,7 +11,9 @@
 #include "relucent/base/random.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/image/metrics.h"
+#include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/compensate.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -381,6 +383,24 @@ class TestSeveralViews : public QObject {
       QVERIFY(own.images[image].unseen.empty() && !surface.images[image].unseen.empty());
       QVERIFY(own.images[image].contradiction->share > surface.images[image].contradiction->share);
     }
+  }
+
+  /// The map of contradiction is written for each view, and its share and a note stand in the result.
+  void contradictionsAreWritten() {
+    const fs::path picture = root() / "picture.png";
+    writePng(picture, standardImages({40, 30}).front().linear, 8);
+    CompensateSettings settings;
+    settings.image = picture;
+    settings.out = root() / "shown";
+    settings.target.views = {{}, {1.0, ViewPlacement::own, {}}};
+    Progress silent;
+    const CompensateResult result = compensate(statue(), settings, silent);
+    QVERIFY(result.contradiction.has_value());
+    QCOMPARE(result.contradiction->views.size(), std::size_t{3});
+    QVERIFY(result.contradiction->share > 0.2);
+    QCOMPARE(result.notes.size(), std::size_t{1});
+    for (const char* name : {"contradiction.exr", "contradiction-2.png", "contradiction-3.exr"})
+      QVERIFY(std::ranges::count(result.files, settings.out / name) == 1 && fs::exists(settings.out / name));
   }
 
   /// What several projectors are solved together for: blended from separate solves the dome is at least 3 dB

@@ -55,7 +55,9 @@ class TestTwoProjectors : public QObject {
 
   void whatWasMeasuredIsTheTruth() {
     Progress silent;
-    EvaluateResult result = evaluate(root() / "relief", {}, cache(), silent);
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;  // of others, parts are darker than the room
+    EvaluateResult result = evaluate(root() / "relief", evaluating, cache(), silent);
     // As large as for venues of one projector: see test_pipeline.
     QVERIFY2(result.transport.frobenius < 0.2, qPrintable(QString::number(result.transport.frobenius)));
     QVERIFY2(result.transport.relightNatural < 0.02,

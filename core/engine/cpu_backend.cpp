@@ -2,7 +2,9 @@
 #include "relucent/engine/cpu_backend.h"
 
 #include <algorithm>
+#include <cstring>
 #include <thread>
+#include <type_traits>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
@@ -27,18 +29,26 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       name_(fmt::format("CPU, {}", kernels_.instructions)),
       windows_(engine.inverse.view()),
       patchSums_(engine.transport, engine.venue.transport.layout().count()),
-      scratch_(std::thread::hardware_concurrency() + 1,
-               stepColumn * (engine.transport.mostColumns() + leavesTogether)) {
+      scratch_(std::thread::hardware_concurrency() + 1, stepFloats * (engine.transport.mostColumns() + 1)),
+      contentScratch_(std::thread::hardware_concurrency() + 1, 0) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
-  std::size_t cameraPixels = engine.venue.usable.size();
-  wanted_.resize(3 * cameraPixels + 1);  // four values can be read at once wherever three are
-  held_.resize(3 * cameraPixels + 1);
-  placed_.resize(3 * cameraPixels);
-  weight_.resize(cameraPixels);
-  unmixed_.resize(4 * cameraPixels);
+  const compensation::MeasuredVenue& venue = engine.venue;
+  const std::size_t cameraPixels = venue.usable.size();
+  for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_}) values->resize(4 * cameraPixels);
+  known_.resize(8 * cameraPixels);
+  reach_.resize(cameraPixels);
+  for (std::size_t i = 0; i < cameraPixels; ++i) {
+    std::copy_n(&venue.black[3 * i], 3, &known_[8 * i]);
+    std::copy_n(&venue.flood[3 * i], 3, &known_[8 * i + 4]);
+  }
+  for (const RowSlice& slice : engine.transport.rowSlices()) {
+    unmix_.emplace_back();
+    for (std::size_t row = 0; row < rowsTogether; ++row)
+      unmix_.back().set(row, Eigen::Map<const transport::ColourBlock>(windows_.unmix + 9 * slice.pixel[row]));
+  }
   std::size_t nodes = engine.venue.transport.layout().count();
-  nodes_.resize(3 * nodes + 1);  // the same
+  nodes_.resize(3 * nodes + 1);  // four values can be read at once wherever three are
   adjoint_.resize(3 * nodes);
   part_.resize(3 * nodes);
   waiting_.resize(PatchSums::placeFloats * patchSums_.places());
@@ -50,16 +60,16 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
 
 void CpuBackend::setContent(const EngineContent& content) {
   content_ = &content;
-  std::fill(wanted_.begin(), wanted_.end(), 0.0f);
-  std::fill(held_.begin(), held_.end(), 0.0f);
-  std::fill(placed_.begin(), placed_.end(), 0.0f);
-  std::fill(weight_.begin(), weight_.end(), 0.0f);
-  std::fill(unmixed_.begin(), unmixed_.end(), 0.0f);
-  std::fill(nodes_.begin(), nodes_.end(), 0.0f);
-  reach_.assign(content.isWeighted ? weight_.size() : 0, 0.0f);
+  for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &nodes_})
+    std::fill(values->begin(), values->end(), 0.0f);
+  std::fill(reach_.begin(), reach_.end(), 0.0f);
+  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 3] = content.weight[i];
   weightedLit_.assign(content.isWeighted ? content.lit.size() : 0, 0.0f);
   for (std::size_t i = 0; i < weightedLit_.size(); ++i)
     weightedLit_[i] = content.weight[i / 3] * content.lit[i];
+  warp_ = WarpTiles(content.warp, engine_.venue.transport.cameras());
+  contentScratch_.resize(4 * (warp_.mostPixels + WarpTiles::together));
+  findFreeTiles();
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
   prepareBound();
 }
@@ -95,13 +105,15 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
   std::array<double, parts> wanted{}, seen{};
   const compensation::MeasuredVenue& venue = engine_.venue;
   const std::vector<std::int32_t>& brightest = content_->brightest;
-  parallelChunks(0, placed_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  parallelChunks(0, venue.usable.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto weight = static_cast<double>(content_->weight[i / 3]);
+      const auto weight = static_cast<double>(content_->weight[i]);
       if (weight == 0.0) continue;
-      double light = static_cast<double>(venue.flood[i]) * static_cast<double>(placed_[i]);
-      wanted[part] += weight * light * static_cast<double>(wanted_[i]);
-      seen[part] += weight * light * light;
+      for (std::size_t c = 0; c < 3; ++c) {
+        double light = static_cast<double>(venue.flood[3 * i + c]) * static_cast<double>(placed_[4 * i + c]);
+        wanted[part] += weight * light * static_cast<double>(wanted_[4 * i + c]);
+        seen[part] += weight * light * light;
+      }
     }
   });
   double allWanted = 0.0, allSeen = 0.0;
@@ -114,7 +126,7 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
   clipped_ = 0;
   parallelFor(0, brightest.size(), 1024, [&](std::size_t j) {
     const bool shown = brightest[j] >= 0 && content_->free[j];
-    const std::size_t from = shown ? 3 * static_cast<std::size_t>(brightest[j]) : 0;
+    const std::size_t from = shown ? 4 * static_cast<std::size_t>(brightest[j]) : 0;
     for (std::size_t c = 0; c < 3; ++c)
       nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) : 0.0f;
   });
@@ -124,29 +136,54 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
                 [&](std::size_t y) { encodeLine(device, static_cast<int>(y), words); });
 }
 
+void CpuBackend::findFreeTiles() {
+  const Rasters &projectors = engine_.venue.transport.projectors(), &tiles = *windows_.tiles;
+  freeOfTile_.resize(tiles.count());
+  for (std::size_t device = 0; device < tiles.devices(); ++device) {
+    const Size size = projectors.size(device), grid = tiles.size(device);
+    for (std::size_t tile = 0; tile < grid.count(); ++tile) {
+      const Pixel place = pixelAt(grid, tile);
+      const int left = windows_.tile * place.x, top = windows_.tile * place.y;
+      std::size_t pixels = 0, free = 0;
+      for (int y = top; y < std::min(top + windows_.tile, size.height); ++y)
+        for (int x = left; x < std::min(left + windows_.tile, size.width); ++x, ++pixels)
+          free += content_->free[projectors.offset(device) + indexOf(size, {x, y})];
+      freeOfTile_[tiles.offset(device) + tile] = free == 0        ? Free::none
+                                                 : free == pixels ? Free::all
+                                                                  : Free::some;
+    }
+  }
+}
+
 template <typename Put>
 void CpuBackend::putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept {
   constexpr std::size_t mostPixels = 64;  // of a tile of 8x8, the largest
   const Rasters& projectors = engine_.venue.transport.projectors();
   const Size size = projectors.size(device), grid = windows_.tiles->size(device);
-  const std::size_t side = static_cast<std::size_t>(windows_.tile), pixels = side * side;
+  const std::size_t side = static_cast<std::size_t>(windows_.tile);
   const int top = static_cast<int>(tileRow) * windows_.tile;
   const int height = std::min(windows_.tile, size.height - top);
   for (int column = 0; column < grid.width; ++column) {
-    float values[3 * mostPixels];
     const std::size_t tile =
         windows_.tiles->offset(device) + indexOf(grid, {column, static_cast<int>(tileRow)});
+    if (freeOfTile_[tile] == Free::none) continue;  // there p is 0
+    float values[3 * mostPixels];
     kernels_.window(windows_, tile, unmixed_.data(), clamped, values);
     const int left = column * windows_.tile;
     const auto width = static_cast<std::size_t>(std::min(windows_.tile, size.width - left));
     for (int y = 0; y < height; ++y) {
       const std::size_t first = projectors.offset(device) + indexOf(size, {left, top + y});
-      const float* from = values + static_cast<std::size_t>(y) * side;
+      float* line = values + 3 * static_cast<std::size_t>(y) * side;
+      if (freeOfTile_[tile] == Free::some)
+        for (std::size_t x = 0; x < width; ++x)
+          for (std::size_t c = 0; c < 3; ++c)
+            line[3 * x + c] *= static_cast<float>(content_->free[first + x]);
       float* p = &nodes_[3 * first];
-      for (std::size_t x = 0; x < width; ++x, p += 3) {
-        const auto free = static_cast<float>(content_->free[first + x]);
-        for (std::size_t c = 0; c < 3; ++c) put(p[c], free * from[c * pixels + x]);
-      }
+      // A length that the compiler knows.
+      if (width == 4)
+        put(p, line, std::integral_constant<std::size_t, 12>());
+      else
+        put(p, line, 3 * width);
     }
   }
 }
@@ -154,7 +191,12 @@ void CpuBackend::putTiles(std::size_t device, std::size_t tileRow, bool clamped,
 void CpuBackend::invert() noexcept {
   for (std::size_t device = 0; device < windows_.tiles->devices(); ++device)
     parallelFor(0, static_cast<std::size_t>(windows_.tiles->size(device).height), 1, [&](std::size_t row) {
-      putTiles(device, row, true, [](float& p, float value) { p = value; });
+      putTiles(device, row, true, [](float* p, const float* values, auto count) {
+        std::memcpy(p, values, count * sizeof(float));
+      });
+      const int pairs = windows_.tile / 2, first = static_cast<int>(row) * pairs;
+      for (int pair = first; pair < std::min(first + pairs, pairsOfLines(device)); ++pair)
+        engine_.venue.transport.layout().fillMeansOfLine(device, pair, nodeValues());
     });
 }
 
@@ -165,11 +207,13 @@ void CpuBackend::correct(OutputWords words) noexcept {
   clipped_ = 0;
   for (std::size_t device = 0; device < projectors.devices(); ++device)
     parallelFor(0, static_cast<std::size_t>(windows_.tiles->size(device).height), 1, [&](std::size_t row) {
-      putTiles(device, row, false, [byInverse](float& p, float value) { p += byInverse * value; });
+      putTiles(device, row, false, [byInverse](float* p, const float* values, auto count) {
+        for (std::size_t i = 0; i < count; ++i) p[i] += byInverse * values[i];
+      });
       // While the tiles are in the cache.
-      const int top = static_cast<int>(row) * windows_.tile;
-      const int end = std::min(top + windows_.tile, projectors.size(device).height);
-      for (int y = top; y < end; ++y) finishLine(device, y, byAdjoint, words);
+      const int pairs = windows_.tile / 2, first = static_cast<int>(row) * pairs;
+      const int end = std::min(first + pairs, pairsOfLines(device));
+      for (int pair = first; pair < end; ++pair) finishPair(device, pair, byAdjoint, words);
     });
 }
 
@@ -178,20 +222,28 @@ void CpuBackend::refine(float length, OutputWords words) noexcept {
   clipped_ = 0;
   const Rasters& projectors = engine_.venue.transport.projectors();
   for (std::size_t device = 0; device < projectors.devices(); ++device)
-    parallelFor(0, static_cast<std::size_t>(projectors.size(device).height), 8,
-                [&](std::size_t y) { finishLine(device, static_cast<int>(y), length, words); });
+    parallelFor(0, static_cast<std::size_t>(pairsOfLines(device)), 4,
+                [&](std::size_t pair) { finishPair(device, static_cast<int>(pair), length, words); });
 }
 
-void CpuBackend::finishLine(std::size_t device, int y, float length, OutputWords words) noexcept {
-  const Rasters& projectors = engine_.venue.transport.projectors();
-  const Size size = projectors.size(device);
-  const std::size_t first = 3 * (projectors.offset(device) + indexOf(size, {0, y}));
-  // Where nothing is free, C is 0 and p stays 0.
-  const std::size_t cut =
-      kernels_.update(&nodes_[first], preconditioner_ + first, &adjoint_[first],
-                      length * preconditionerScale_, 3 * static_cast<std::size_t>(size.width));
-  clipped_.fetch_add(cut, std::memory_order_relaxed);
-  if (!words.empty()) encodeLine(device, y, words);
+int CpuBackend::pairsOfLines(std::size_t device) const noexcept {
+  return (engine_.venue.transport.projectors().size(device).height + 1) / 2;
+}
+
+void CpuBackend::finishPair(std::size_t device, int pair, float length, OutputWords words) noexcept {
+  const transport::NodeLayout& layout = engine_.venue.transport.layout();
+  const Size size = layout.projectors().size(device);
+  for (int y = 2 * pair; y < std::min(2 * pair + 2, size.height); ++y) {
+    layout.addToLine(device, y, adjoint_);
+    const std::size_t first = 3 * (layout.projectors().offset(device) + indexOf(size, {0, y}));
+    // Where nothing is free, C is 0 and p stays 0.
+    const std::size_t cut =
+        kernels_.update(&nodes_[first], preconditioner_ + first, &adjoint_[first],
+                        length * preconditionerScale_, 3 * static_cast<std::size_t>(size.width));
+    clipped_.fetch_add(cut, std::memory_order_relaxed);
+    if (!words.empty()) encodeLine(device, y, words);
+  }
+  if (words.empty()) layout.fillMeansOfLine(device, pair, nodeValues());
 }
 
 void CpuBackend::encodeLine(std::size_t device, int y, OutputWords words) const noexcept {

@@ -37,9 +37,6 @@ class CpuBackend : public EngineBackend {
   using OutputWords = std::span<std::uint32_t>;
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
-  /// The target of some camera pixels, wanted = mixing c + offset, and its weight.
-  void fitTarget(std::size_t begin, std::size_t end, const transport::ColourBlock& mixing,
-                 float offset) noexcept;
   void warpOnly(OutputWords words) noexcept;
   /// p = clamp(M u).
   void invert() noexcept;
@@ -47,12 +44,17 @@ class CpuBackend : public EngineBackend {
   void correct(OutputWords words) noexcept;
   /// p = clamp(p + length C adjoint).
   void refine(float length, OutputWords words) noexcept;
-  /// The update of a refine() or a correct() on one line, and its words if requested.
-  void finishLine(std::size_t device, int y, float length, OutputWords words) noexcept;
+  /// p with its means; those of level 1 are kept up to date by whoever changes p for a pass through T.
+  std::span<float> nodeValues() noexcept { return {nodes_.data(), adjoint_.size()}; }
+  int pairsOfLines(std::size_t device) const noexcept;
+  /// The update of a refine() or a correct() on two lines, and their words if requested, otherwise their
+  /// means.
+  void finishPair(std::size_t device, int pair, float length, OutputWords words) noexcept;
   void encodeLine(std::size_t device, int y, OutputWords words) const noexcept;
-  /// One row of tiles of M u: put(p, value) for all its values where something is free.
+  /// One row of tiles of M u: put(p, values, count) for the lines of its tiles where something is free.
   template <typename Put>
   void putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept;
+  void findFreeTiles();
 
   /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r.
   void passThrough(Pass pass) noexcept;
@@ -73,10 +75,10 @@ class CpuBackend : public EngineBackend {
   inverse::WindowArrays windows_;
   std::array<float, 256> linearOfSrgb_{};
 
-  // Camera stacks.
-  std::vector<float> wanted_, held_, weight_, unmixed_, placed_;
-  // Where views differ in weight: `weight_` without the views' share, and their share of what is lit.
-  std::vector<float> reach_, weightedLit_;
+  // Per camera pixel, see ContentTarget.
+  std::vector<float> known_, reach_, wanted_, held_, unmixed_, placed_;
+  std::vector<float> weightedLit_;    // where views differ in weight: their share of what is lit
+  std::vector<PackedMixings> unmix_;  // of every slice of T's rows
   // Node values: p with its means, and the adjoint sums of the residual or of a part of the lit pixels.
   std::vector<float> nodes_, adjoint_, part_;
   PatchSums patchSums_;
@@ -86,7 +88,10 @@ class CpuBackend : public EngineBackend {
   float largestBound_ = 0.0f;
   const float* preconditioner_ = nullptr;  // C = scale * preconditioner
   float preconditionerScale_ = 1.0f;
-  ScratchPool scratch_;
+  ScratchPool scratch_, contentScratch_;
+  WarpTiles warp_;
+  enum class Free : std::uint8_t { none, some, all };
+  std::vector<Free> freeOfTile_;  // of the windows' tiles
   std::atomic<std::size_t> clipped_{0}, reachable_{0}, unreachable_{0};
   std::size_t freeValues_ = 0;
 };

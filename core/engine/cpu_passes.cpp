@@ -11,26 +11,21 @@ namespace relucent::engine {
 PatchRows CpuBackend::rowsOf(const TransportPatch& patch) const noexcept {
   const PackedTransport& transport = engine_.transport;
   return {{transport.squares().data() + patch.squareBegin, patch.squareEnd - patch.squareBegin},
-          transport.rows().data(),
-          transport.rows().data() + transport.rows().size(),
-          transport.groups().data(),
+          transport.rowSlices().data(),
+          transport.rowSlices().size(),
+          transport.groupSlices().data(),
           transport.leaves().data()};
 }
 
 CameraArrays CpuBackend::cameraArrays(const float* wanted) noexcept {
-  const bool isWeighted = content_->isWeighted;
-  return {wanted,
-          weight_.data(),
-          isWeighted ? reach_.data() : weight_.data(),
-          isWeighted ? weightedLit_.data() : content_->lit.data(),
-          windows_.unmix,
-          unmixed_.data()};
+  return {wanted, reach_.data(), content_->isWeighted ? weightedLit_.data() : content_->lit.data(),
+          unmixed_.data(), unmix_.data()};
 }
 
 void CpuBackend::passThrough(Pass pass) noexcept {
   const PackedTransport& transport = engine_.transport;
   const transport::NodeLayout& layout = engine_.venue.transport.layout();
-  layout.fillMeans({nodes_.data(), adjoint_.size()});
+  layout.fillMeansFrom(2, nodeValues());
   const bool correct = pass == Pass::correct;
   const CameraArrays camera = cameraArrays(correct ? held_.data() : wanted_.data());
   parallelFor(0, transport.patches().size(), 1, [&](std::size_t index) {
@@ -39,26 +34,29 @@ void CpuBackend::passThrough(Pass pass) noexcept {
     const std::size_t columns = patch.columnEnd - patch.columnBegin;
     ScratchPool::BorrowedBuffer loan(scratch_);
     float* to = loan.data();
-    for (std::size_t column = 0; column < columns; ++column, to += stepColumn) {
+    constexpr std::size_t ahead = 32;
+    for (std::size_t column = 0; column < columns; ++column, to += stepFloats) {
+      if (column + ahead < columns) __builtin_prefetch(&nodes_[3 * std::size_t{node[column + ahead]}]);
       std::memcpy(to, &nodes_[3 * std::size_t{node[column]}], 4 * sizeof(float));
       std::memset(to + 4, 0, 4 * sizeof(float));
     }
+    std::fill_n(to, stepFloats, 0.0f);  // what fills up rows
     (correct ? kernels_.correct : kernels_.step)(rowsOf(patch), camera, loan.data());
-    patchSums_.addPatch(index, loan.data() + 4, stepColumn, adjoint_.data(), waiting_.data());
+    patchSums_.addPatch(index, loan.data() + 4, stepFloats, adjoint_.data(), waiting_.data());
   });
   patchSums_.addStored(waiting_.data(), adjoint_.data());
-  layout.gatherMeansAdjoint(adjoint_);
+  layout.gatherAboveLines(adjoint_);
 }
 
 void CpuBackend::passBack(float reach, std::vector<float>& sums) noexcept {
   const PackedTransport& transport = engine_.transport;
-  const CameraArrays camera = cameraArrays(nullptr);
+  const CameraArrays camera = cameraArrays(wanted_.data());
   parallelFor(0, transport.patches().size(), 1, [&](std::size_t index) {
     const TransportPatch& patch = transport.patches()[index];
     ScratchPool::BorrowedBuffer loan(scratch_);
-    std::fill_n(loan.data(), sumColumn * (patch.columnEnd - patch.columnBegin), 0.0f);
+    std::fill_n(loan.data(), sumFloats * (patch.columnEnd - patch.columnBegin + 1), 0.0f);
     kernels_.bound(rowsOf(patch), camera, reach, loan.data());
-    patchSums_.addPatch(index, loan.data(), sumColumn, sums.data(), waiting_.data());
+    patchSums_.addPatch(index, loan.data(), sumFloats, sums.data(), waiting_.data());
   });
   patchSums_.addStored(waiting_.data(), sums.data());
   engine_.venue.transport.layout().gatherMeansAdjoint(sums);
@@ -66,9 +64,8 @@ void CpuBackend::passBack(float reach, std::vector<float>& sums) noexcept {
 
 /// What frames need for C: T^T W T 1 while all content is reachable.
 void CpuBackend::prepareBound() noexcept {
-  std::vector<float>& reach = content_->isWeighted ? reach_ : weight_;
-  for (std::size_t i = 0; i < reach.size(); ++i)
-    reach[i] = content_->warp.inside(i) && content_->weight[i] > 0.0f ? 1.0f : 0.0f;
+  for (std::size_t i = 0; i < reach_.size(); ++i)
+    reach_[i] = content_->warp.inside(i) && content_->weight[i] > 0.0f ? 1.0f : 0.0f;
   passBack(1.0f, part_);
   largestBound_ = 0.0f;
   constexpr float notFree = -1e30f;  // so that C is 0

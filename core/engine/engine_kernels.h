@@ -1,36 +1,55 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "relucent/engine/packed_transport.h"
+#include "relucent/engine/warp_tiles.h"
 #include "relucent/inverse/windows.h"
 
 namespace relucent::engine {
 
+/// What a target is made from and written to. Arrays over all camera pixels; four floats of which three are
+/// used are three channels and one that holds anything.
+struct ContentTarget {
+  std::array<float, 9> mixing{};  // row-major: target = mixing content + offset
+  float offset = 0.0f;
+  float unreachable = 0.0f;      // the weight of what cannot be reached
+  const float* known = nullptr;  // 8: black 3, and the weight of its view; flood 4
+  const float* unmix = nullptr;  // 3x3, row-major
+  float* reach = nullptr;        // 1: the weight without the share of its view
+  float* wanted = nullptr;       // 4: the target minus black; its weight
+  float* held = nullptr;         // 4: the same between 0 and flood; its weight
+  float* unmixed = nullptr;      // 4: `held` through `unmix`
+  float* placed = nullptr;       // 4: the content, where asked for
+};
+struct TargetCounts {
+  std::size_t usable = 0, reached = 0;  // of camera pixels
+};
+
 /// Inputs and outputs of a pass over T per camera pixel. Arrays over all camera pixels.
 struct CameraArrays {
-  const float* wanted = nullptr;  // 3: the target, minus black; and one value behind the last
-  const float* weight = nullptr;  // 1
-  const float* reach = nullptr;   // 1: the weight without its view's share
-  const float* lit = nullptr;  // 3: the signal with all free projector pixels at full drive, by view's share
-  const float* unmix = nullptr;  // 3x3, row-major
-  float* unmixed = nullptr;      // 4: the weighted residual through `unmix`, and a zero
+  const float* wanted = nullptr;         // 4: the target, minus black; its weight
+  const float* reach = nullptr;          // 1: the weight without the share of its view
+  const float* lit = nullptr;            // 3: the signal with all free projector pixels at full drive
+  float* unmixed = nullptr;              // 4: the weighted residual through `unmix`
+  const PackedMixings* unmix = nullptr;  // of every slice of rows
 };
 
-/// The squares of one patch, with the rows, groups and leaves of all of T. The leaves of a group, and those
-/// of a row, differ in their columns.
+/// The squares of one patch, with the slices and leaves of all of T.
 struct PatchRows {
   std::span<const PackedSquare> squares;
-  const PackedRow *row = nullptr, *rowEnd = nullptr;
-  const PackedGroup* group = nullptr;
-  const PackedLeaf* leaf = nullptr;
+  const RowSlice* rowSlice = nullptr;
+  std::size_t rowSlices = 0;
+  const GroupSlice* groupSlice = nullptr;
+  const LeavesAbreast* leaves = nullptr;
 };
 
-/// Floats per column in a pass over T, and in one that only sums.
-inline constexpr std::size_t stepColumn = 8, sumColumn = 4;
+/// Floats per column of a patch in a pass over T, and in one that only sums.
+inline constexpr std::size_t stepFloats = 8, sumFloats = 4;
 
 /// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly clipped.
 inline constexpr float visibleCut = 0.002f;
@@ -38,14 +57,18 @@ inline constexpr float visibleCut = 0.002f;
 /// The inner loops of the engine, for one instruction set. They differ only in rounding.
 struct EngineKernels {
   const char* instructions;
-  /// One tile of the windows: values[c * pixels + i] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
+  /// The content into one tile of camera pixels, and their targets. `part`: the tile's part of the content as
+  /// linear light, 4 a pixel.
+  void (*place)(const WarpTiles& warp, const WarpTiles::Tile& tile, const float* part,
+                const ContentTarget& target, TargetCounts& counts);
+  /// One tile of the windows: values[3 * i + c] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
   /// `clamped`: to 0 and 1.
   void (*window)(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
                  float* values);
   /// Product with T and its adjoint for one patch, reading its leaves once:
   ///   r = weight (wanted - T light),   sums += T^T r
-  /// `columns`: 8 floats a column, light and adjoint sums together, because they are needed together:
-  /// projector value 3, unused; sum 3, 0.
+  /// `columns`: 8 floats a column, light and adjoint sums together, so that what is read of the one brings
+  /// the other into the cache: projector value 3, unused; sum 3, 0.
   void (*step)(const PatchRows& patch, const CameraArrays& camera, float* columns);
   /// The same, and `unmixed` is written.
   void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);

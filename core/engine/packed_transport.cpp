@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "relucent/base/error.h"
@@ -14,8 +15,8 @@
 namespace relucent::engine {
 namespace {
 
-// Of the columns that 16 bits number some are for what fills up runs.
-constexpr std::size_t mostColumnsOfAPatch = 65536 - leavesTogether;
+// Of the columns that 16 bits number one is for what fills up rows.
+constexpr std::size_t mostColumnsOfAPatch = 65535;
 constexpr float largestCode = 32767.0f;
 using transport::Channels;
 using transport::ColourBlock;
@@ -35,7 +36,8 @@ struct Run {
 
 struct Row {
   Run leaves;
-  PackedRow packed;  // its group: in its square
+  ColourBlock own = ColourBlock::Zero(), shared = ColourBlock::Zero();  // `own` of the leaves' codes
+  PackedRow packed;                                                     // its group: in its square
 };
 
 struct Group {
@@ -147,8 +149,8 @@ Row packedRow(const RowLight& light, const std::vector<NodeShare>& far, const Ch
   const Channels scale = scalesOf(leaves);
   Row row;
   row.leaves = runOf(leaves, scale);
-  Eigen::Map<ColourBlock>(row.packed.own.data()) = scaledColumns(own, scale);
-  Eigen::Map<ColourBlock>(row.packed.shared.data()) = shared;
+  row.own = scaledColumns(own, scale);
+  row.shared = shared;
   return row;
 }
 
@@ -240,7 +242,7 @@ class SquarePacker {
                                                         [](std::size_t one) { return one != nobody; }));
       };
       square.groups.push_back({runOf(group.leaves, {scale, scale, scale}),
-                               {0, 0, group.parent, scale, rowsBefore(group.begin), rowsBefore(group.end)}});
+                               {group.parent, scale, rowsBefore(group.begin), rowsBefore(group.end)}});
     }
     for (std::size_t i = 0; i < pixel.size(); ++i) {
       if (pixel[i] == nobody) continue;
@@ -282,6 +284,23 @@ std::vector<std::uint32_t> nodesOf(const std::vector<Square>& squares) {
 
 }  // namespace
 
+void PackedMixings::set(std::size_t row, const ColourBlock& mixing) {
+  scale[row] = mixing.cwiseAbs().maxCoeff() / largestCode;
+  if (!(scale[row] > 0.0f)) return;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      code[k][row][c] = static_cast<std::int16_t>(
+          std::lround(mixing(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) / scale[row]));
+}
+
+ColourBlock PackedMixings::operator[](std::size_t row) const {
+  ColourBlock mixing;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      mixing(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) = scale[row] * code[k][row][c];
+  return mixing;
+}
+
 /// A patch on its way: its squares and the nodes that they touch.
 struct PackedTransport::Patch {
   std::vector<Square> squares;
@@ -307,6 +326,173 @@ void split(std::vector<Square> squares, std::vector<Patch>& done) {
 
 }  // namespace
 
+/// Puts the squares of one patch side by side into slices.
+class PackedTransport::PatchAppender {
+ public:
+  PatchAppender(PackedTransport& to, const Patch& patch) : to_(to), patch_(patch) {
+    TransportPatch appended;
+    appended.squareBegin = end(to_.square_);
+    appended.groupBegin = end(to_.group_);
+    appended.rowBegin = end(to_.row_);
+    appended.columnBegin = end(to_.node_);
+    to_.node_.insert(to_.node_.end(), patch.nodes.begin(), patch.nodes.end());
+    for (const Square& square : patch.squares) append(square);
+    appended.squareEnd = end(to_.square_);
+    appended.groupEnd = end(to_.group_);
+    appended.rowEnd = end(to_.row_);
+    appended.columnEnd = end(to_.node_);
+    to_.patches_.push_back(appended);
+  }
+
+ private:
+  template <typename List>
+  static std::uint32_t end(const List& list) {
+    return static_cast<std::uint32_t>(list.size());
+  }
+
+  void append(const Square& square) {
+    PackedSquare packed;
+    packed.groupSliceBegin = end(to_.groupSlice_);
+    packed.rowSliceBegin = end(to_.rowSlice_);
+    appendGroups(square.groups);
+    appendRows(square);
+    packed.groupSliceEnd = end(to_.groupSlice_);
+    packed.rowSliceEnd = end(to_.rowSlice_);
+    to_.square_.push_back(packed);
+  }
+
+  /// Parents first, since a slice's groups may be no parents of each other.
+  void appendGroups(const std::vector<Group>& groups) {
+    const std::uint32_t firstGroup = end(to_.group_);
+    std::vector<std::size_t> depth;
+    for (const Group& group : groups) {
+      depth.push_back(group.packed.parent == PackedGroup::none ? 0 : depth[group.packed.parent] + 1);
+      PackedGroup packed = group.packed;
+      if (packed.parent != PackedGroup::none) packed.parent += firstGroup;
+      packed.rowBegin += end(to_.row_);
+      packed.rowEnd += end(to_.row_);
+      to_.group_.push_back(packed);
+    }
+    for (std::size_t level = 0;; ++level) {
+      std::vector<std::size_t> order;
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        if (depth[i] == level) order.push_back(i);
+      if (order.empty()) return;
+      longestFirst(order, groups);
+      for (std::size_t first = 0; first < order.size(); first += rowsTogether) {
+        const std::span<const std::size_t> lanes = lanesFrom(order, first);
+        GroupSlice slice;
+        slice.place.fill(GroupSlice::nobody);
+        for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+          const PackedGroup& group = groups[lanes[lane]].packed;
+          slice.scale[lane] = group.scale;
+          slice.place[lane] = placeOf(lanes[lane]);
+          slice.parent[lane] = group.parent == PackedGroup::none ? std::uint8_t{0} : placeOf(group.parent);
+          to_.group_[firstGroup + lanes[lane]].slot =
+              static_cast<std::uint32_t>(rowsTogether * to_.groupSlice_.size() + lane);
+        }
+        appendLeaves(lanes, groups, slice);
+        to_.groupSlice_.push_back(slice);
+      }
+    }
+  }
+
+  void appendRows(const Square& square) {
+    const std::uint32_t firstRow = end(to_.row_);
+    const auto firstGroup = static_cast<std::uint32_t>(to_.group_.size() - square.groups.size());
+    std::vector<std::size_t> order;
+    for (const Row& row : square.rows) {
+      order.push_back(order.size());
+      PackedRow packed = row.packed;
+      if (packed.group != PackedGroup::none) packed.group += firstGroup;
+      to_.row_.push_back(packed);
+    }
+    longestFirst(order, square.rows);
+    for (std::size_t first = 0; first < order.size(); first += rowsTogether) {
+      const std::span<const std::size_t> lanes = lanesFrom(order, first);
+      RowSlice slice;
+      slice.pixel.fill(square.rows[lanes[0]].packed.pixel);
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        const Row& row = square.rows[lanes[lane]];
+        slice.pixel[lane] = row.packed.pixel;
+        slice.own.set(lane, row.own);
+        slice.shared.set(lane, row.shared);
+        if (row.packed.group != PackedGroup::none) slice.group[lane] = placeOf(row.packed.group);
+        to_.row_[firstRow + lanes[lane]].slot =
+            static_cast<std::uint32_t>(rowsTogether * to_.rowSlice_.size() + lane);
+      }
+      appendLeaves(lanes, square.rows, slice);
+      to_.rowSlice_.push_back(slice);
+    }
+  }
+
+  template <typename Owners>
+  static void longestFirst(std::vector<std::size_t>& order, const Owners& owners) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return owners[a].leaves.node.size() > owners[b].leaves.node.size();
+    });
+  }
+  static std::span<const std::size_t> lanesFrom(const std::vector<std::size_t>& order, std::size_t first) {
+    return std::span(order).subspan(first, std::min(rowsTogether, order.size() - first));
+  }
+  static std::uint8_t placeOf(std::size_t group) { return static_cast<std::uint8_t>(group + 1); }
+
+  template <typename Owners, typename Slice>
+  void appendLeaves(std::span<const std::size_t> lanes, const Owners& owners, Slice& slice) {
+    const auto filling = static_cast<std::uint16_t>(patch_.nodes.size());
+    slice.leafBegin = end(to_.leaf_);
+    slice.length = end(owners[lanes[0]].leaves.node);
+    for (std::size_t k = 0; k < slice.length; ++k) {
+      LeavesAbreast leaves;
+      for (std::size_t lane = 0; lane < rowsTogether; ++lane) {
+        leaves.of[lane] = {{}, filling};
+        if (lane >= lanes.size()) continue;
+        const Run& run = owners[lanes[lane]].leaves;
+        if (k < run.node.size()) leaves.of[lane] = {run.code[k], columnOf(run.node[k])};
+      }
+      to_.leaf_.push_back(leaves);
+    }
+  }
+
+  std::uint16_t columnOf(std::uint32_t node) const {
+    const auto place = std::lower_bound(patch_.nodes.begin(), patch_.nodes.end(), node);
+    return static_cast<std::uint16_t>(place - patch_.nodes.begin());
+  }
+
+  PackedTransport& to_;
+  const Patch& patch_;
+};
+
+namespace {
+
+template <typename Slice>
+std::vector<PackedLeaf> leavesAt(const std::vector<LeavesAbreast>& leaves, const std::vector<Slice>& slices,
+                                 std::uint32_t slot) {
+  const Slice& slice = slices[slot / rowsTogether];
+  std::vector<PackedLeaf> found;
+  for (std::uint32_t k = 0; k < slice.length; ++k)
+    found.push_back(leaves[slice.leafBegin + k].of[slot % rowsTogether]);
+  return found;
+}
+
+}  // namespace
+
+std::vector<PackedLeaf> PackedTransport::leavesOf(const PackedRow& row) const {
+  return leavesAt(leaf_, rowSlice_, row.slot);
+}
+
+std::vector<PackedLeaf> PackedTransport::leavesOf(const PackedGroup& group) const {
+  return leavesAt(leaf_, groupSlice_, group.slot);
+}
+
+ColourBlock PackedTransport::ownMixing(const PackedRow& row) const {
+  return rowSlice_[row.slot / rowsTogether].own[row.slot % rowsTogether];
+}
+
+ColourBlock PackedTransport::sharedMixing(const PackedRow& row) const {
+  return rowSlice_[row.slot / rowsTogether].shared[row.slot % rowsTogether];
+}
+
 PackedTransport::PackedTransport(const TransportMatrix& transport, const PackingSettings& settings) {
   require(settings.patchSide > 0, "patches of {} pixels", settings.patchSide);
   require(transport.storedLeaves() <= std::numeric_limits<std::uint32_t>::max(),
@@ -330,57 +516,13 @@ PackedTransport::PackedTransport(const TransportMatrix& transport, const Packing
       split(std::move(squares), patches[i]);
     });
     for (const std::vector<Patch>& ofPlace : patches)
-      for (const Patch& patch : ofPlace) append(patch);
+      for (const Patch& patch : ofPlace) PatchAppender(*this, patch);
   }
-}
-
-void PackedTransport::append(const Patch& patch) {
-  auto end = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-  TransportPatch appended;
-  appended.squareBegin = end(square_);
-  appended.groupBegin = end(group_);
-  appended.rowBegin = end(row_);
-  appended.columnBegin = end(node_);
-  auto addLeaves = [&](const Run& run) {
-    for (std::size_t i = 0; i < run.node.size(); ++i) {
-      const auto place = std::lower_bound(patch.nodes.begin(), patch.nodes.end(), run.node[i]);
-      leaf_.push_back({run.code[i], static_cast<std::uint16_t>(place - patch.nodes.begin())});
-    }
-    for (std::size_t filling = patch.nodes.size(); leaf_.size() % leavesTogether != 0; ++filling)
-      leaf_.push_back({{}, static_cast<std::uint16_t>(filling)});
-    return end(leaf_);
-  };
-  node_.insert(node_.end(), patch.nodes.begin(), patch.nodes.end());
-  for (const Square& square : patch.squares) {
-    const std::uint32_t firstGroup = end(group_), firstRow = end(row_);
-    for (const Group& group : square.groups) {
-      PackedGroup packed = group.packed;
-      packed.leafBegin = end(leaf_);
-      packed.leafEnd = addLeaves(group.leaves);
-      if (packed.parent != PackedGroup::none) packed.parent += firstGroup;
-      packed.rowBegin += firstRow;
-      packed.rowEnd += firstRow;
-      group_.push_back(packed);
-    }
-    for (const Row& row : square.rows) {
-      PackedRow packed = row.packed;
-      packed.leafBegin = end(leaf_);
-      packed.leafEnd = addLeaves(row.leaves);
-      if (packed.group != PackedGroup::none) packed.group += firstGroup;
-      row_.push_back(packed);
-    }
-    square_.push_back({firstGroup, end(group_), firstRow, end(row_)});
-  }
-  appended.squareEnd = end(square_);
-  appended.groupEnd = end(group_);
-  appended.rowEnd = end(row_);
-  appended.columnEnd = end(node_);
-  patches_.push_back(appended);
 }
 
 std::size_t PackedTransport::bytes() const {
-  return leaf_.size() * sizeof(PackedLeaf) + row_.size() * sizeof(PackedRow) +
-         group_.size() * sizeof(PackedGroup) + square_.size() * sizeof(PackedSquare) +
+  return leaf_.size() * sizeof(LeavesAbreast) + rowSlice_.size() * sizeof(RowSlice) +
+         groupSlice_.size() * sizeof(GroupSlice) + square_.size() * sizeof(PackedSquare) +
          node_.size() * sizeof(std::uint32_t);
 }
 

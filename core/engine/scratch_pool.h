@@ -16,6 +16,11 @@ class ScratchPool {
   ScratchPool(std::size_t buffers, std::size_t floats)
       : buffers_(buffers, std::vector<float>(floats)), taken_(new std::atomic_flag[buffers]{}) {}
 
+  /// Not while any is borrowed.
+  void resize(std::size_t floats) {
+    for (std::vector<float>& buffer : buffers_) buffer.assign(floats, 0.0f);
+  }
+
   /// A borrowed buffer.
   class BorrowedBuffer {
    public:

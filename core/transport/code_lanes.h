@@ -5,7 +5,7 @@
 #include <cstring>
 
 /// Four lanes of GCC's vector extensions, supported by Clang too: SSE on x86-64, NEON on arm64. Shared by the
-/// inner loops over 16-bit codes; no other file includes this.
+/// inner loops over 16-bit codes and over nodes; no other file includes this.
 namespace relucent::transport::detail {
 
 using Floats [[gnu::vector_size(16)]] = float;

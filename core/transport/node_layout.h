@@ -67,14 +67,26 @@ class NodeLayout {
   /// of the pixels, which come first; or adds the values of all nodes to the pixels, after which the coarser
   /// ones are invalid.
   /// Contract: 3 * count() values.
-  void fillMeans(std::span<float> nodeValues) const;
+  void fillMeans(std::span<float> nodeValues) const { fillMeansFrom(1, nodeValues); }
   void gatherMeansAdjoint(std::span<float> nodeValues) const;
+
+  /// Their parts, for loops that do something else with a line while it is in the cache. fillMeans() is
+  /// fillMeansOfLine() for every line of level 1, then fillMeansFrom(2). gatherMeansAdjoint() is
+  /// gatherAboveLines(), then addToLine() for every line of pixels. A level that a projector lacks is
+  /// skipped.
+  void fillMeansFrom(int level, std::span<float> nodeValues) const;
+  void fillMeansOfLine(std::size_t projector, int line, std::span<float> nodeValues) const;
+  void gatherAboveLines(std::span<float> nodeValues) const;
+  void addToLine(std::size_t projector, int line, std::span<float> nodeValues) const;
 
  private:
   struct Grid {
     Size size;
     std::size_t offset = 0;
   };
+  void fillLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const;
+  void spreadToLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const;
+
   Rasters projectors_;
   std::vector<std::vector<Grid>> grids_;  // [projector][level]
   std::size_t count_ = 0;

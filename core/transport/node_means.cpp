@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstring>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/transport/code_lanes.h"
 #include "relucent/transport/node_layout.h"
 
 namespace relucent::transport {
 namespace {
 
 constexpr std::size_t rowsOfATask = 16;
+
+using detail::Floats;
+using detail::load;
+
+void store(float* to, const Floats& values) {
+  std::memcpy(to, &values, sizeof values);
+}
 
 /// Where the blocks of one level lie along one side of a projector: all are `side` pixels long but the last,
 /// which the border may cut off.
@@ -45,10 +54,14 @@ void meansOfRow(const Cuts& columns, const Cuts& rows, int y, const float* upper
                 float* out) {
   const bool wholeRow = y < rows.whole();
   const int whole = wholeRow ? columns.whole() : 0;
-  for (int x = 0; x < whole; ++x, upper += 6, lower += 6, out += 3)
+  int x = 0;
+  // Four values at a time, of which the next node writes the last again.
+  for (; x + 1 < whole; ++x, upper += 6, lower += 6, out += 3)
+    store(out, 0.25f * ((load(upper) + load(upper + 3)) + (load(lower) + load(lower + 3))));
+  for (; x < whole; ++x, upper += 6, lower += 6, out += 3)
     for (int c = 0; c < 3; ++c) out[c] = 0.25f * ((upper[c] + upper[c + 3]) + (lower[c] + lower[c + 3]));
 
-  for (int x = whole; x < columns.blocks(); ++x, upper += 6, lower += 6, out += 3) {
+  for (; x < columns.blocks(); ++x, upper += 6, lower += 6, out += 3) {
     ChildWeights weights(columns, rows, x, y);
     const int right = columns.secondHalf(x) > 0 ? 3 : 0;
     for (int c = 0; c < 3; ++c)
@@ -62,14 +75,22 @@ void meansOfRow(const Cuts& columns, const Cuts& rows, int y, const float* upper
 void spreadRow(const Cuts& columns, const Cuts& rows, int y, bool upper, const float* from, float* to) {
   const bool wholeRow = y < rows.whole();
   const int whole = wholeRow ? columns.whole() : 0;
-  for (int x = 0; x < whole; ++x, from += 3, to += 6) {
+  int x = 0;
+  // Two nodes at a time: twelve values are three times four.
+  for (; x + 2 <= whole; x += 2, from += 6, to += 12) {
+    const Floats first = 0.25f * load(from), second = 0.25f * load(from + 2);
+    store(to, load(to) + __builtin_shufflevector(first, first, 0, 1, 2, 0));
+    store(to + 4, load(to + 4) + __builtin_shufflevector(first, second, 1, 2, 5, 6));
+    store(to + 8, load(to + 8) + __builtin_shufflevector(second, second, 3, 1, 2, 3));
+  }
+  for (; x < whole; ++x, from += 3, to += 6) {
     for (int c = 0; c < 3; ++c) {
       to[c] += 0.25f * from[c];
       to[c + 3] += 0.25f * from[c];
     }
   }
 
-  for (int x = whole; x < columns.blocks(); ++x, from += 3, to += 6) {
+  for (; x < columns.blocks(); ++x, from += 3, to += 6) {
     ChildWeights weights(columns, rows, x, y);
     const float left = (upper ? weights.upperLeft : weights.lowerLeft) / weights.sum;
     const float right = (upper ? weights.upperRight : weights.lowerRight) / weights.sum;
@@ -93,24 +114,29 @@ NodeStack NodeLayout::means(const ProjectorStack& pattern) const {
   return values;
 }
 
-void NodeLayout::fillMeans(std::span<float> values) const {
-  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
-    Size pixels = projectors_.size(projector);
-    for (int level = 1; level < levels(projector); ++level) {
-      const Grid& fine = grids_[projector][static_cast<std::size_t>(level - 1)];
-      const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
-      const Cuts columns(pixels.width, level, coarse.size.width);
-      const Cuts rows(pixels.height, level, coarse.size.height);
-      const std::size_t rowValues = 3 * static_cast<std::size_t>(fine.size.width);
-      parallelFor(0, static_cast<std::size_t>(coarse.size.height), rowsOfATask, [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        const float* upper = &values[3 * (fine.offset + indexOf(fine.size, {0, 2 * y}))];
-        const float* lower = rows.secondHalf(y) > 0 ? upper + rowValues : upper;
-        meansOfRow(columns, rows, y, upper, lower,
-                   &values[3 * (coarse.offset + indexOf(coarse.size, {0, y}))]);
-      });
-    }
-  }
+/// One line of a level from the next finer one.
+void NodeLayout::fillLine(std::size_t projector, int level, int line, std::span<float> values) const {
+  const Size pixels = projectors_.size(projector);
+  const Grid& fine = grids_[projector][static_cast<std::size_t>(level - 1)];
+  const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
+  const Cuts columns(pixels.width, level, coarse.size.width);
+  const Cuts rows(pixels.height, level, coarse.size.height);
+  const float* upper = &values[3 * (fine.offset + indexOf(fine.size, {0, 2 * line}))];
+  const float* lower =
+      rows.secondHalf(line) > 0 ? upper + 3 * static_cast<std::size_t>(fine.size.width) : upper;
+  meansOfRow(columns, rows, line, upper, lower,
+             &values[3 * (coarse.offset + indexOf(coarse.size, {0, line}))]);
+}
+
+void NodeLayout::fillMeansFrom(int first, std::span<float> values) const {
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector)
+    for (int level = first; level < levels(projector); ++level)
+      parallelFor(0, static_cast<std::size_t>(gridSize(projector, level).height), rowsOfATask,
+                  [&](std::size_t line) { fillLine(projector, level, static_cast<int>(line), values); });
+}
+
+void NodeLayout::fillMeansOfLine(std::size_t projector, int line, std::span<float> values) const {
+  if (levels(projector) > 1) fillLine(projector, 1, line, values);
 }
 
 ProjectorStack NodeLayout::meansAdjoint(NodeStack nodeValues) const {
@@ -120,22 +146,35 @@ ProjectorStack NodeLayout::meansAdjoint(NodeStack nodeValues) const {
   return ProjectorStack(static_cast<Stack&&>(nodeValues));
 }
 
+/// To one line of a level from the next coarser one.
+void NodeLayout::spreadToLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const {
+  const Size pixels = projectors_.size(projector);
+  const Grid& fine = grids_[projector][static_cast<std::size_t>(level)];
+  const Grid& coarse = grids_[projector][static_cast<std::size_t>(level + 1)];
+  const Cuts columns(pixels.width, level + 1, coarse.size.width);
+  const Cuts rows(pixels.height, level + 1, coarse.size.height);
+  spreadRow(columns, rows, line / 2, line % 2 == 0,
+            &nodeValues[3 * (coarse.offset + indexOf(coarse.size, {0, line / 2}))],
+            &nodeValues[3 * (fine.offset + indexOf(fine.size, {0, line}))]);
+}
+
+void NodeLayout::gatherAboveLines(std::span<float> nodeValues) const {
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector)
+    for (int level = levels(projector) - 2; level > 0; --level)
+      parallelFor(
+          0, static_cast<std::size_t>(gridSize(projector, level).height), 2 * rowsOfATask,
+          [&](std::size_t line) { spreadToLine(projector, level, static_cast<int>(line), nodeValues); });
+}
+
+void NodeLayout::addToLine(std::size_t projector, int line, std::span<float> nodeValues) const {
+  if (levels(projector) > 1) spreadToLine(projector, 0, line, nodeValues);
+}
+
 void NodeLayout::gatherMeansAdjoint(std::span<float> nodeValues) const {
-  for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
-    Size pixels = projectors_.size(projector);
-    for (int level = levels(projector) - 1; level > 0; --level) {
-      const Grid& fine = grids_[projector][static_cast<std::size_t>(level - 1)];
-      const Grid& coarse = grids_[projector][static_cast<std::size_t>(level)];
-      const Cuts columns(pixels.width, level, coarse.size.width);
-      const Cuts rows(pixels.height, level, coarse.size.height);
-      parallelFor(0, static_cast<std::size_t>(fine.size.height), 2 * rowsOfATask, [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        spreadRow(columns, rows, y / 2, y % 2 == 0,
-                  &nodeValues[3 * (coarse.offset + indexOf(coarse.size, {0, y / 2}))],
-                  &nodeValues[3 * (fine.offset + indexOf(fine.size, {0, y}))]);
-      });
-    }
-  }
+  gatherAboveLines(nodeValues);
+  for (std::size_t projector = 0; projector < grids_.size(); ++projector)
+    parallelFor(0, static_cast<std::size_t>(projectors_.size(projector).height), 2 * rowsOfATask,
+                [&](std::size_t line) { addToLine(projector, static_cast<int>(line), nodeValues); });
 }
 
 }  // namespace relucent::transport

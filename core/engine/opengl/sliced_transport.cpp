@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace relucent::engine {
 namespace {
@@ -12,22 +13,20 @@ constexpr std::uint32_t lanes = LeafSlices::lanes;
 /// Some leaves that belong to one row or one segment.
 struct Run {
   std::uint32_t owner = 0;  // row or column
-  std::uint32_t begin = 0, end = 0;
-  std::uint32_t length() const { return end - begin; }
+  std::vector<PackedLeaf> leaves;
 };
 
-/// Appends a patch's runs as slices, the longest first. `leafAt`: a run's leaf by its number.
-template <typename LeafAt>
-void append(LeafSlices& to, std::uint32_t base, std::vector<Run>& runs, const LeafAt& leafAt) {
+/// Appends a patch's runs as slices, the longest first.
+void append(LeafSlices& to, std::uint32_t base, std::vector<Run>& runs) {
   std::stable_sort(runs.begin(), runs.end(),
-                   [](const Run& a, const Run& b) { return a.length() > b.length(); });
+                   [](const Run& a, const Run& b) { return a.leaves.size() > b.leaves.size(); });
   for (std::size_t first = 0; first < runs.size(); first += lanes) {
-    const std::uint32_t longest = runs[first].length();
+    const std::size_t longest = runs[first].leaves.size();
     to.slices.push_back({static_cast<std::uint32_t>(to.leaves.size() / lanes), base});
-    for (std::uint32_t k = 0; k < longest; ++k) {
+    for (std::size_t k = 0; k < longest; ++k) {
       for (std::size_t lane = first; lane < first + lanes; ++lane) {
-        const bool filled = lane < runs.size() && k < runs[lane].length();
-        to.leaves.push_back(filled ? leafAt(runs[lane].begin + k) : PackedLeaf{});
+        const bool filled = lane < runs.size() && k < runs[lane].leaves.size();
+        to.leaves.push_back(filled ? runs[lane].leaves[k] : PackedLeaf{});
       }
     }
   }
@@ -36,41 +35,27 @@ void append(LeafSlices& to, std::uint32_t base, std::vector<Run>& runs, const Le
 /// Leaves that get the same share of what goes back: a row's or a group's.
 struct Receiver {
   std::uint32_t place = 0;  // in its patch's list
-  std::uint32_t begin = 0, end = 0;
+  std::vector<PackedLeaf> leaves;
 };
 
-/// A patch's leaves by columns.
-struct ByColumn {
-  std::vector<std::uint32_t> start;  // of a column's leaves
-  std::vector<PackedLeaf> leaves;    // their column is the place of what goes back to them
-
-  ByColumn(const PackedTransport& packed, std::size_t columns, const std::vector<Receiver>& receivers)
-      : start(columns + 1, 0) {
-    for (const Receiver& receiver : receivers)
-      for (std::uint32_t i = receiver.begin; i < receiver.end; ++i) ++start[packed.leaves()[i].column + 1u];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    leaves.resize(start.back());
-    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-    for (const Receiver& receiver : receivers) {
-      for (std::uint32_t i = receiver.begin; i < receiver.end; ++i) {
-        PackedLeaf leaf = packed.leaves()[i];
-        std::uint32_t& to = next[leaf.column];
-        leaf.column = static_cast<std::uint16_t>(receiver.place);
-        leaves[to++] = leaf;
-      }
+/// A patch's leaves by columns, cut into pieces that are not too long; every column that has any has one at
+/// least. Their column is the place of what goes back to them.
+std::vector<Run> segmentsOf(std::size_t columns, const std::vector<Receiver>& receivers) {
+  std::vector<Run> ofColumn(columns), segments;
+  for (const Receiver& receiver : receivers)
+    for (const PackedLeaf& leaf : receiver.leaves)
+      ofColumn[leaf.column].leaves.push_back({leaf.code, static_cast<std::uint16_t>(receiver.place)});
+  for (std::uint32_t column = 0; column < columns; ++column) {
+    const std::vector<PackedLeaf>& all = ofColumn[column].leaves;
+    for (std::size_t begin = 0; begin < all.size(); begin += SlicedTransport::longestSegment) {
+      const std::size_t end = std::min<std::size_t>(begin + SlicedTransport::longestSegment, all.size());
+      segments.push_back({column,
+                          {all.begin() + static_cast<std::ptrdiff_t>(begin),
+                           all.begin() + static_cast<std::ptrdiff_t>(end)}});
     }
   }
-
-  /// Its columns, cut into pieces that are not too long; every column has one at least.
-  std::vector<Run> segments() const {
-    std::vector<Run> runs;
-    for (std::uint32_t column = 0; column + 1 < start.size(); ++column)
-      for (std::uint32_t begin = start[column]; begin < start[column + 1];
-           begin += SlicedTransport::longestSegment)
-        runs.push_back({column, begin, std::min(begin + SlicedTransport::longestSegment, start[column + 1])});
-    return runs;
-  }
-};
+  return segments;
+}
 
 /// Cuts the patches into slices, one after the other.
 class Slicer {
@@ -85,9 +70,8 @@ class Slicer {
     std::vector<Receiver> receivers;
     const std::vector<std::uint32_t> slotOfGroup = addGroups(patch, firstBack, receivers);
     addRows(patch, firstBack, slotOfGroup, receivers);
-    const ByColumn columns(packed_, patch.columnEnd - patch.columnBegin, receivers);
-    std::vector<Run> segments = columns.segments();
-    append(result_.backward, firstBack, segments, [&](std::uint32_t i) { return columns.leaves[i]; });
+    std::vector<Run> segments = segmentsOf(patch.columnEnd - patch.columnBegin, receivers);
+    append(result_.backward, firstBack, segments);
     for (const Run& segment : segments)
       nodeOfSegment_.push_back(packed_.nodes()[patch.columnBegin + segment.owner]);
     nodeOfSegment_.resize(lanes * result_.backward.slices.size(), nodes_);
@@ -112,9 +96,9 @@ class Slicer {
 
  private:
   /// Without what fills it up.
-  Run runOf(const TransportPatch& patch, std::uint32_t owner, std::uint32_t begin, std::uint32_t end) const {
-    while (end > begin && packed_.leaves()[end - 1].column >= patch.columnEnd - patch.columnBegin) --end;
-    return {owner, begin, end};
+  static Run runOf(const TransportPatch& patch, std::uint32_t owner, std::vector<PackedLeaf> leaves) {
+    while (!leaves.empty() && leaves.back().column >= patch.columnEnd - patch.columnBegin) leaves.pop_back();
+    return {owner, std::move(leaves)};
   }
 
   /// Returns the groups' slots.
@@ -122,16 +106,15 @@ class Slicer {
                                        std::vector<Receiver>& receivers) {
     std::vector<Run> runs;
     for (std::uint32_t i = patch.groupBegin; i < patch.groupEnd; ++i)
-      runs.push_back(runOf(patch, i, packed_.groups()[i].leafBegin, packed_.groups()[i].leafEnd));
+      runs.push_back(runOf(patch, i, packed_.leavesOf(packed_.groups()[i])));
     const auto first = static_cast<std::uint32_t>(result_.groups.size());
-    append(result_.groupForward, patch.columnBegin, runs,
-           [&](std::uint32_t i) { return packed_.leaves()[i]; });
+    append(result_.groupForward, patch.columnBegin, runs);
     std::vector<std::uint32_t> slot(runs.size());
     for (std::uint32_t i = 0; i < runs.size(); ++i) slot[runs[i].owner - patch.groupBegin] = first + i;
     for (const Run& run : runs) {
       const PackedGroup& group = packed_.groups()[run.owner];
       const auto place = static_cast<std::uint32_t>(result_.backPlaces++);
-      receivers.push_back({place - firstBack, run.begin, run.end});
+      receivers.push_back({place - firstBack, run.leaves});
       result_.groups.push_back(
           {group.parent == PackedGroup::none ? SlicedTransport::none : slot[group.parent - patch.groupBegin],
            place, group.rowBegin, group.rowEnd, group.scale});
@@ -144,17 +127,20 @@ class Slicer {
                const std::vector<std::uint32_t>& slotOfGroup, std::vector<Receiver>& receivers) {
     std::vector<Run> runs;
     for (std::uint32_t i = patch.rowBegin; i < patch.rowEnd; ++i)
-      runs.push_back(runOf(patch, i, packed_.rows()[i].leafBegin, packed_.rows()[i].leafEnd));
-    append(result_.forward, patch.columnBegin, runs, [&](std::uint32_t i) { return packed_.leaves()[i]; });
+      runs.push_back(runOf(patch, i, packed_.leavesOf(packed_.rows()[i])));
+    append(result_.forward, patch.columnBegin, runs);
     for (const Run& run : runs) {
       const PackedRow& row = packed_.rows()[run.owner];
       const auto back = static_cast<std::uint32_t>(result_.backPlaces);
       result_.backPlaces += 2;
-      receivers.push_back({back - firstBack, run.begin, run.end});
+      receivers.push_back({back - firstBack, run.leaves});
       result_.groupBack[run.owner] = back + 1;
       const std::uint32_t group =
           row.group == PackedGroup::none ? SlicedTransport::none : slotOfGroup[row.group - patch.groupBegin];
-      result_.rows.push_back({row.pixel, row.own, row.shared, group, back});
+      SlicedTransport::Row slotted{row.pixel, {}, {}, group, back};
+      Eigen::Map<transport::ColourBlock>(slotted.own.data()) = packed_.ownMixing(row);
+      Eigen::Map<transport::ColourBlock>(slotted.shared.data()) = packed_.sharedMixing(row);
+      result_.rows.push_back(slotted);
     }
     result_.rows.resize(lanes * result_.forward.slices.size());
   }

@@ -29,19 +29,18 @@ Receiver receiverOf(const PackedTransport& packed, std::uint32_t rowBegin, std::
 Leaves leavesOf(const PackedTransport& packed) {
   Leaves all;
   for (const TransportPatch& patch : packed.patches()) {
-    auto add = [&](const Receiver& receiver, std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t i = begin; i < end; ++i)
-        if (packed.leaves()[i].code != Code{})
-          all.emplace(std::pair{receiver, packed.nodes()[patch.columnBegin + packed.leaves()[i].column]},
-                      packed.leaves()[i].code);
+    auto add = [&](const Receiver& receiver, const std::vector<PackedLeaf>& leaves) {
+      for (const PackedLeaf& leaf : leaves)
+        if (leaf.code != Code{})
+          all.emplace(std::pair{receiver, packed.nodes()[patch.columnBegin + leaf.column]}, leaf.code);
     };
     for (std::uint32_t g = patch.groupBegin; g < patch.groupEnd; ++g) {
       const PackedGroup& group = packed.groups()[g];
-      add(receiverOf(packed, group.rowBegin, group.rowEnd), group.leafBegin, group.leafEnd);
+      add(receiverOf(packed, group.rowBegin, group.rowEnd), packed.leavesOf(group));
     }
     for (std::uint32_t r = patch.rowBegin; r < patch.rowEnd; ++r) {
       const PackedRow& row = packed.rows()[r];
-      add({row.pixel, 0}, row.leafBegin, row.leafEnd);
+      add({row.pixel, 0}, packed.leavesOf(row));
     }
   }
   return all;
@@ -126,8 +125,8 @@ class TestSlicedTransport : public QObject {
     for (std::size_t r = 0; r < packed.rows().size(); ++r) {
       const PackedRow& packedRow = packed.rows()[r];
       const SlicedTransport::Row& row = rows.at(packedRow.pixel);
-      QCOMPARE(row.own, packedRow.own);
-      QCOMPARE(row.shared, packedRow.shared);
+      QCOMPARE(ColourBlock(Eigen::Map<const ColourBlock>(row.own.data())), packed.ownMixing(packedRow));
+      QCOMPARE(ColourBlock(Eigen::Map<const ColourBlock>(row.shared.data())), packed.sharedMixing(packedRow));
       QCOMPARE(sliced.groupBack[r], row.back + 1);
       std::uint32_t slot = row.group, group = packedRow.group;
       for (; group != PackedGroup::none;

@@ -127,6 +127,33 @@ class TestNodeLayout : public QObject {
     QVERIFY2(std::abs(left - right) < rounding * left, qPrintable(QString("%1 and %2").arg(left).arg(right)));
   }
 
+  void lineByLineIsAllAtOnce_data() { sizes_data(); }
+  /// The parts of which loops make fillMeans() and gatherMeansAdjoint() give the same bits.
+  void lineByLineIsAllAtOnce() {
+    QFETCH(QString, sizes);
+    const NodeLayout layout{Rasters(sizesOf(sizes))};
+    Random random{11};
+    std::vector<float> values(3 * layout.count());
+    for (float& value : values) value = random.uniformFloat();
+    std::vector<float> lines = values, all = values;
+    layout.fillMeans(all);
+    for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector)
+      for (int y = 0; layout.levels(projector) > 1 && y < layout.gridSize(projector, 1).height; ++y)
+        layout.fillMeansOfLine(projector, y, lines);
+    layout.fillMeansFrom(2, lines);
+    QVERIFY(lines == all);
+
+    lines = all = values;
+    layout.gatherMeansAdjoint(all);
+    layout.gatherAboveLines(lines);
+    for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector)
+      for (int y = 0; y < layout.projectors().size(projector).height; ++y)
+        layout.addToLine(projector, y, lines);
+    QVERIFY(std::equal(all.begin(),
+                       all.begin() + 3 * static_cast<std::ptrdiff_t>(layout.projectors().count()),
+                       lines.begin()));
+  }
+
   void breachesOfContractAreNamed() {
     NodeLayout layout((Rasters(Size{4, 4})));
     QVERIFY_EXCEPTION_THROWN(layout.node(layout.count()), std::logic_error);

@@ -114,5 +114,5 @@ function(relucent_test source)
   endif()
   # Qt Test has a limit of its own, 300 s for each function, whatever ctest allows.
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_RETURN_CODE 77
-    ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data")
+    ENVIRONMENT "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000;RELUCENT_CLI=$<TARGET_FILE_DIR:${name}>/relucent-cli;RELUCENT_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data;RELUCENT_TEST_DATA=${PROJECT_SOURCE_DIR}/tests/data")
 endfunction()

@@ -40,15 +40,14 @@ class TestDenseBox : public QObject {
  private slots:
   void agreesWithScipy_data() {
     QTest::addColumn<int>("index");
-    std::vector<BoxCase> cases = boxCases(QFINDTESTDATA("../../data/box_least_squares.json"), "dense");
+    std::vector<BoxCase> cases = boxCases("dense");
     QVERIFY(!cases.empty());
     for (std::size_t i = 0; i < cases.size(); ++i)
       QTest::newRow(qPrintable(cases[i].name)) << static_cast<int>(i);
   }
   void agreesWithScipy() {
     QFETCH(int, index);
-    BoxCase c = boxCases(QFINDTESTDATA("../../data/box_least_squares.json"),
-                         "dense")[static_cast<std::size_t>(index)];
+    BoxCase c = boxCases("dense")[static_cast<std::size_t>(index)];
     DenseBoxResult result = solveDenseBox(c.a(), c.b, {}, quiet);
     QVERIFY2(result.converged, qPrintable(QString::number(result.optimality)));
     // An optimality of 1e-9 leaves f this near its least value; SciPy was asked for 1e-14.

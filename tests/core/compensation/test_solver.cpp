@@ -97,10 +97,6 @@ Case scipyCase(const BoxCase& solved) {
   return made;
 }
 
-QString scipyFile() {
-  return QFINDTESTDATA("../../data/box_least_squares.json");
-}
-
 }  // namespace
 
 class TestSolver : public QObject {
@@ -127,7 +123,7 @@ class TestSolver : public QObject {
   void agreesWithScipy_data() {
     QTest::addColumn<int>("algorithm");
     QTest::addColumn<int>("index");
-    std::vector<BoxCase> cases = boxCases(scipyFile(), "transport");
+    std::vector<BoxCase> cases = boxCases("transport");
     QVERIFY(!cases.empty());
     for (Algorithm algorithm : allAlgorithms)
       for (std::size_t i = 0; i < cases.size(); ++i)
@@ -137,7 +133,7 @@ class TestSolver : public QObject {
   void agreesWithScipy() {
     QFETCH(int, algorithm);
     QFETCH(int, index);
-    BoxCase solved = boxCases(scipyFile(), "transport")[static_cast<std::size_t>(index)];
+    BoxCase solved = boxCases("transport")[static_cast<std::size_t>(index)];
     Case c = scipyCase(solved);
     ProjectorStack start(static_cast<std::size_t>(solved.x.size()), 0.5f);
     SolveResult result = solveConstrained(c.problem(), start, exact(algorithm), quiet);

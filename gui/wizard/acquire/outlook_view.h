@@ -6,7 +6,7 @@
 namespace relucent::gui {
 
 /// Of the pictures beside it, too: what stands in them before there are any is read whole.
-constexpr int leastPictureHeight = 120;
+constexpr int leastPictureHeight = 155;
 
 /// "31 dB, good".
 QString qualityText(double decibels);

@@ -92,6 +92,15 @@ MeasuredVenue withCamerasAt(const MeasuredVenue& measured, const SimulatedVenue&
   return venue;
 }
 
+/// How good pictures are does not depend on a sanitizer, which makes minutes of it; the code runs under it in
+/// other tests: test_view_settings, test_blending, test_venue.
+constexpr bool takesTooLong =
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    true;
+#else
+    false;
+#endif
+
 double psnrOf(const std::vector<MethodScore>& scores) {
   return scores.front().psnrReachable;
 }
@@ -250,6 +259,7 @@ class TestSeveralViews : public QObject {
   /// What several cameras are for: the picture is right from each of three sides, where a calibration from
   /// one side is wrong from the others.
   void threeViewsAreBetterThanOne() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;
@@ -315,6 +325,7 @@ class TestSeveralViews : public QObject {
   /// Whoever stands between the cameras, of whom nothing was measured, sees the picture within 3 dB of what
   /// he would see if a camera had stood there.
   void placesBetweenCameras() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
     QFETCH(QString, venue);
     // Where cameras are coarser than projectors, what lies between their pixels is nobody's wish.
     const fs::path path = calibrated(venue.toStdString(), {64, 48}, {64, 48});
@@ -367,6 +378,7 @@ class TestSeveralViews : public QObject {
   /// Pictures of their own are upright from each place, at a price that is told; between them nothing is
   /// wanted.
   void eachSideHasAPictureOfItsOwn() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;
@@ -406,6 +418,7 @@ class TestSeveralViews : public QObject {
   /// What several projectors are solved together for: blended from separate solves the dome is at least 3 dB
   /// worse, and its seams are seen.
   void theDomeIsSolvedTogether() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;

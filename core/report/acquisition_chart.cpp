@@ -48,9 +48,9 @@ std::string acquisitionChart(const pipeline::AcquisitionBenchResult& result) {
     trial.refined += run.refined;
   }
 
-  charts::Chart chart{.title = "Quality of compensation against photographs"};
-  chart.x = {1e99, 0.0, true, "Photographs"};
-  chart.y = {1e99, 0.0, false, "PSNR of refined, dB"};
+  charts::Chart chart{.title = "Quality of compensation against photographs",
+                      .x = {1e99, 0.0, true, "Photographs"},
+                      .y = {1e99, 0.0, false, "PSNR of refined, dB"}};
   constexpr std::array styles{"amber", "blue", "green", "red"};
   constexpr std::array markers{charts::Marker::circle, charts::Marker::square, charts::Marker::triangle,
                                charts::Marker::diamond};

@@ -115,9 +115,9 @@ class TestCoverage : public QObject {
     // Nothing is seen by what it scatters alone.
     const Size cells = coverage.cells;
     for (std::size_t i = 0; i < coverage.seen.size(); ++i) {
-      const Pixel cell = pixelAt(cells, i);
-      if ((cell.x + 1) * picture.width <= aside * cells.width ||
-          (cell.y + 1) * picture.height <= below * cells.height)
+      const Pixel at = pixelAt(cells, i);
+      if ((at.x + 1) * picture.width <= aside * cells.width ||
+          (at.y + 1) * picture.height <= below * cells.height)
         QCOMPARE(int{coverage.seen[i]}, 0);
     }
     // The other edges are in view as far as the picture is.

@@ -48,11 +48,11 @@ class TestHelpWindow : public QObject {
     auto* text = help.findChild<HelpText*>("help-text");
     auto* search = help.findChild<QLineEdit*>("help-search");
     auto sizes = [](const QTextDocument& document) {
-      QList<QVariant> sizes;
+      QList<QVariant> found;
       for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
         for (auto piece = block.begin(); !piece.atEnd(); ++piece)
-          sizes << piece.fragment().charFormat().property(QTextFormat::FontSizeAdjustment);
-      return sizes;
+          found << piece.fragment().charFormat().property(QTextFormat::FontSizeAdjustment);
+      return found;
     };
     const QList<HelpPage> pages = helpPages("en");
     for (int i = 0; i < pages.size(); ++i) {

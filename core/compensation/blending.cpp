@@ -75,9 +75,7 @@ Compensation solvedSeparately(const Compensator& compensator, const Target& targ
   std::size_t limited = 0, values = 0;
   for (std::size_t k = 0; k < projectors.devices(); ++k) {
     Progress solving = progress.part(1.0 / static_cast<double>(projectors.devices()), progress.stage());
-    ProjectorMask own(free.size(), 0);
-    const auto first = static_cast<std::ptrdiff_t>(projectors.offset(k));
-    std::copy_n(free.begin() + first, projectors.size(k).count(), own.begin() + first);
+    const ProjectorMask own = onlyOf(k, free, projectors);
     const CameraStack wanted = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
       return masks[k][i / 3] * (target.wanted[i] - venue.black[i]);
     });

@@ -24,20 +24,12 @@ CameraStack seenAfterSteps(const Compensator& compensator, const CameraStack& wa
   const ProjectorStack c = diagonalPreconditioner(problem);
   for (float step : compensator.settings().steps) {
     progress.checkpoint();
-    const ProjectorStack g = gradient(problem, p);
-    parallelFor(0, p.size(), 4096, [&](std::size_t j) { p[j] = clamp01(p[j] - step * c[j] * g[j]); });
+    takeStep(problem, c, step, p);
+    for (float& value : p) value = clamp01(value);
   }
   CameraStack seen = venue.transport.apply(p);
   parallelFor(0, seen.size(), 4096, [&](std::size_t i) { seen[i] += venue.black[i]; });
   return seen;
-}
-
-/// Of one camera's pixels, the others' being 0.
-std::vector<float> partOf(const std::vector<float>& all, const Rasters& cameras, std::size_t camera) {
-  std::vector<float> part(all.size(), 0.0f);
-  const auto first = static_cast<std::ptrdiff_t>(cameras.offset(camera));
-  std::copy_n(all.begin() + first, cameras.size(camera).count(), part.begin() + first);
-  return part;
 }
 
 }  // namespace
@@ -76,7 +68,7 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
       mask[i] = target.inside[row] != 0 && venue.usable[row] != 0;
     }
     if (std::ranges::count(mask, 0) == std::ssize(mask)) continue;
-    const CameraStack alone = seenWith(partOf(target.weight, cameras, camera));
+    const CameraStack alone = seenWith(onlyOf(camera, target.weight, cameras));
     const image::Image dearer = errorOf(together, camera, mask), cheaper = errorOf(alone, camera, mask);
     std::size_t worse = 0, pixels = 0;
     for (std::size_t i = 0; i < mask.size(); ++i) {
@@ -109,9 +101,7 @@ std::vector<Message> viewNotes(const MeasuredVenue& venue, const Target& target,
                                    "give it a picture of its own, or aim it there and measure again")
               .with(as::label(camera + 1)));
   }
-  const bool hasOwn = std::any_of(target.placements.begin() + 1, target.placements.end(),
-                                  [](const auto& placement) { return placement.has_value(); });
-  if (hasOwn && contradiction.share >= toldShare)
+  if (hasOwnPictures(target) && contradiction.share >= toldShare)
     notes.push_back(
         RELUCENT_ENGLISH_MESSAGE("compensation.views-contradict",
                                  "the views contradict each other: {} % of their pixels are visibly worse "

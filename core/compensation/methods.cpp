@@ -199,8 +199,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   if (method == Method::refined) {
     for (float step : settings_.steps) {
       progress.report(result.iterations / (settings_.steps.size() + 1.0));
-      ProjectorStack g = gradient(problem, result.projector);
-      parallelFor(0, g.size(), 4096, [&](std::size_t j) { result.projector[j] -= step * c[j] * g[j]; });
+      takeStep(problem, c, step, result.projector);
       result.clipped = finish(result.projector, free);
       ++result.iterations;
     }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 #include "relucent/compensation/constrained_iteration.h"
 
 namespace relucent::compensation {
@@ -74,6 +75,12 @@ ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem) {
 ProjectorStack gradient(const ConstrainedProblem& problem, const ProjectorStack& p) {
   checkShapes(problem);
   return detail::gradientFrom(problem, problem.transport.apply(p));
+}
+
+void takeStep(const ConstrainedProblem& problem, const ProjectorStack& preconditioner, float length,
+              ProjectorStack& p) {
+  const ProjectorStack g = gradient(problem, p);
+  parallelFor(0, g.size(), 4096, [&](std::size_t j) { p[j] -= length * preconditioner[j] * g[j]; });
 }
 
 SolveResult solveConstrained(const ConstrainedProblem& problem, const ProjectorStack& start,

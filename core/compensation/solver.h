@@ -63,6 +63,11 @@ ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem);
 /// grad f(p) = T^T W (T p - b), 0 on pixels that are not free.
 ProjectorStack gradient(const ConstrainedProblem& problem, const ProjectorStack& p);
 
+/// p <- p - length C grad f(p), not clamped; pixels that are not free stay as they are.
+/// `preconditioner`: C, of the same problem.
+void takeStep(const ConstrainedProblem& problem, const ProjectorStack& preconditioner, float length,
+              ProjectorStack& p);
+
 /// Solves from `start` (clamped first). The result is never worse than the start. Stop and keep: the best so
 /// far.
 /// Throws: Cancelled; Error{numerics} if T, b or w hold values that are not finite; Error{input} if the

@@ -23,6 +23,15 @@ Values stackOf(std::size_t count, const Value& value) {
   return stack;
 }
 
+/// The values of one device's pixels, the others' being 0. One value a pixel.
+template <typename Values>
+Values onlyOf(std::size_t device, const Values& all, const Rasters& rasters) {
+  Values only(all.size(), 0);
+  const auto first = static_cast<std::ptrdiff_t>(rasters.offset(device));
+  std::copy_n(all.begin() + first, rasters.size(device).count(), only.begin() + first);
+  return only;
+}
+
 /// The sum of term(i) over every i below `count`.
 template <typename Term>
 double sumOf(std::size_t count, const Term& term) {

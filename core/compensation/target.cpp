@@ -269,6 +269,11 @@ CameraMask placeable(const MeasuredVenue& venue, std::size_t camera) {
   return {begin, begin + static_cast<std::ptrdiff_t>(viewOf(venue, camera).count())};
 }
 
+bool hasOwnPictures(const Target& target) {
+  return std::any_of(target.placements.begin() + 1, target.placements.end(),
+                     [](const auto& placement) { return placement.has_value(); });
+}
+
 transport::ColourBlock meanColourMixing(const MeasuredVenue& venue) {
   std::vector<transport::ColourBlock> mixing = venue.transport.rowSums();
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();

@@ -78,6 +78,9 @@ struct Target {
   std::vector<float> viewWeight{};  // per camera, of its view; the largest is 1
 };
 
+/// Whether a view beyond the first has a quadrilateral of its own.
+bool hasOwnPictures(const Target& target);
+
 /// K: the mean colour mixing of the venue,
 ///   K = mean over the usable pixels of diag(B_i 1)^-1 B_i,   B_i = the row sum of T.
 /// Every row of K sums to one, so grey content stays grey.

@@ -221,11 +221,6 @@ class UnseenPlaces {
   compensation::ViewMap map_;
 };
 
-bool liesOnSurface(const compensation::Target& target) {
-  return std::none_of(target.placements.begin() + 1, target.placements.end(),
-                      [](const auto& placement) { return placement.has_value(); });
-}
-
 double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uint8_t>& whole) {
   std::size_t inPart = 0;
   std::size_t inWhole = 0;
@@ -306,7 +301,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       score.others.push_back({reachableOf(camera), {}});
     std::optional<compensation::Target> elsewhere;
     CameraMask reachableElsewhere;
-    if (unseen && liesOnSurface(target)) {
+    if (unseen && !hasOwnPictures(target)) {
       elsewhere = unseen->target(target);
       reachableElsewhere = unseen->judge().reachable(*elsewhere);
       for (std::size_t place = 0; place < unseen->judge().views(); ++place)

@@ -4,6 +4,7 @@
 #include "app/show_command.h"
 #include "app/wizard_command.h"
 #include "content/media_thread.h"
+#include "desktop/platform_choice.h"
 
 namespace {
 
@@ -18,6 +19,7 @@ int runShow(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (relucent::gui::asksForNoScreen(argc, argv)) return runShow<QCoreApplication>(argc, argv);
+  relucent::gui::choosePlatform();
   relucent::gui::chooseMediaBackend();
   if (relucent::gui::asksForWizard(argc, argv)) return relucent::gui::runWizardCommand(argc, argv);
   QGuiApplication::setQuitOnLastWindowClosed(false);

@@ -2,8 +2,10 @@
 #include "output/opengl_surface.h"
 
 #include <QOpenGLFunctions>
+#include <algorithm>
 #include <utility>
 
+#include "desktop/wayland_window.h"
 #include "output/shared_gl.h"
 
 namespace relucent::gui {
@@ -70,7 +72,9 @@ void OpenGlSurface::draw(const DrivePicture& picture, const QImage& overlay) {
   if (!begin()) return;
   QOpenGLFunctions* gl = context_->functions();
   QSize native = nativeSize(window_);
-  gl->glViewport(0, 0, native.width(), native.height());
+  // Its upper left part, where Qt draws more than the display has; OpenGL counts from below.
+  gl->glViewport(0, std::max(0, drawnSize(window_).height() - native.height()), native.width(),
+                 native.height());
   gl->glDisable(GL_BLEND);
   gl->glDisable(GL_DITHER);
   gl->glClearColor(0.0f, 0.0f, 0.0f, 1.0f);

@@ -33,6 +33,7 @@ void RasterSurface::draw(const DrivePicture& drive, const QImage& overlay) {
   {
     QPainter painter(store_.paintDevice());
     painter.setCompositionMode(QPainter::CompositionMode_Source);
+    painter.fillRect(place, Qt::black);
     painter.drawImage(QPoint(), all);
   }
   store_.endPaint();

@@ -4,6 +4,8 @@
 #include <QGuiApplication>
 #include <cmath>
 
+#include "desktop/wayland_compositor.h"
+
 namespace relucent::gui {
 
 ScreenIdentity identityOf(const QScreen& screen) {
@@ -52,6 +54,8 @@ QSize nativeSize(QSize scaled, double ratio) {
 }
 
 QSize nativeSize(const QScreen& screen) {
+  if (WaylandCompositor* compositor = WaylandCompositor::instance())
+    if (const QSize pixels = compositor->pixelsOf(screen); !pixels.isEmpty()) return pixels;
   return nativeSize(screen.geometry().size(), screen.devicePixelRatio());
 }
 

@@ -39,7 +39,8 @@ QScreen* findScreen(const ScreenIdentity& wanted);
 int nativeLength(int scaled, double ratio);
 /// A size on a desktop that scales by `ratio`, in the display's physical pixels.
 QSize nativeSize(QSize scaled, double ratio);
-/// The screen's size in physical pixels, independent of the desktop's scaling.
+/// The screen's size in physical pixels, independent of the desktop's scaling: the display's mode where the
+/// desktop tells it.
 QSize nativeSize(const QScreen& screen);
 
 QJsonObject toJson(const ScreenIdentity& identity);

@@ -6,6 +6,7 @@
 #include <QOpenGLFunctions>
 #include <string>
 
+#include "desktop/wayland_window.h"
 #include "output/opengl_surface.h"
 #include "output/raster_surface.h"
 #include "output/screen_identity.h"
@@ -47,6 +48,7 @@ std::unique_ptr<WindowSurface> surfaceFor(QWindow& window) {
 }
 
 QSize nativeSize(const QWindow& window) {
+  if (cropOf(window)) return nativeSize(*window.screen());
   return nativeSize(window.size(), window.devicePixelRatio());
 }
 

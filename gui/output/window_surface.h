@@ -31,7 +31,8 @@ bool hasGraphicsCard();
 /// By OpenGL, or in memory if that is not available.
 std::unique_ptr<WindowSurface> surfaceFor(QWindow& window);
 
-/// A window's size in its display's physical pixels.
+/// A window's size in its display's physical pixels: the upper left part of what Qt draws for it, if that is
+/// more (desktop/exact_crop.h).
 QSize nativeSize(const QWindow& window);
 /// Position of a picture in a window: aligned to the display's pixels, an odd remainder at the right and
 /// bottom.

@@ -6766,6 +6766,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>في جلسة Wayland أزل QT_QPA_PLATFORM=xcb من البيئة؛ وإلا فأزل قواعد سطح المكتب لنوافذ Relucent، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6798,6 +6805,13 @@ projector %2</source>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>أوقف توفير الطاقة للشاشة وشاشة التوقف في إعدادات سطح المكتب، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>يضع سطح المكتب صورة جهاز العرض على الشاشة {} بدلاً من ذلك</translation>
     </message>
 </context>
 <context>

@@ -6618,6 +6618,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>nehmen Sie in einer Wayland-Sitzung QT_QPA_PLATFORM=xcb aus der Umgebung; sonst entfernen Sie die Regeln des Desktops für Fenster von Relucent, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6650,6 +6657,13 @@ Projektor %2</translation>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>schalten Sie seinen Energiesparmodus und den Bildschirmschoner in den Einstellungen des Desktops aus, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>der Desktop stellt das Bild des Projektors stattdessen auf den Bildschirm {}</translation>
     </message>
 </context>
 <context>

@@ -6618,6 +6618,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>en una sesión Wayland, quite QT_QPA_PLATFORM=xcb del entorno; si no, quite las reglas del escritorio para las ventanas de Relucent e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6650,6 +6657,13 @@ proyector %2</translation>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>desactive su ahorro de energía y el salvapantallas en los ajustes del escritorio e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>el escritorio pone la imagen del proyector en la pantalla {} en su lugar</translation>
     </message>
 </context>
 <context>

@@ -6618,6 +6618,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>dans une session Wayland, retirez QT_QPA_PLATFORM=xcb de l’environnement ; sinon, supprimez les règles du bureau pour les fenêtres de Relucent, puis réessayez</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6650,6 +6657,13 @@ projecteur %2</translation>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>désactivez sa mise en veille et l’économiseur d’écran dans les réglages du bureau, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>le bureau place l’image du projecteur sur l’écran {} à la place</translation>
     </message>
 </context>
 <context>

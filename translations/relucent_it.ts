@@ -6618,6 +6618,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>in una sessione Wayland togliere QT_QPA_PLATFORM=xcb dall’ambiente; altrimenti togliere le regole del desktop per le finestre di Relucent, poi riprovare</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6650,6 +6657,13 @@ proiettore %2</translation>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>disattivarne il risparmio energetico e il salvaschermo nelle impostazioni del desktop, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>il desktop mette invece l’immagine del proiettore sullo schermo {}</translation>
     </message>
 </context>
 <context>

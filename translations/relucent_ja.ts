@@ -6581,6 +6581,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>Wayland セッションでは環境から QT_QPA_PLATFORM=xcb を外してください。それ以外では Relucent のウィンドウに対するデスクトップの規則を外してから、再試行してください</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6613,6 +6620,13 @@ projector %2</source>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>デスクトップの設定で省電力機能とスクリーンセーバーをオフにしてから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>デスクトップがプロジェクターの画像を別の画面 {} に表示しています</translation>
     </message>
 </context>
 <context>

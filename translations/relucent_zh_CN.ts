@@ -6581,6 +6581,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-xwayland</name>
+    <message>
+        <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
+        <translation>在 Wayland 会话中，请从环境中去掉 QT_QPA_PLATFORM=xcb；否则请去掉桌面对 Relucent 窗口的规则，然后重试</translation>
+    </message>
+</context>
+<context>
     <name>show.restore-resolution</name>
     <message>
         <source>set its resolution back in the desktop&apos;s settings, then try again</source>
@@ -6613,6 +6620,13 @@ projector %2</source>
     <message>
         <source>switch off its power saving and the screen saver in the desktop&apos;s settings, then try again</source>
         <translation>请在桌面设置中关闭节能功能和屏幕保护程序，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>show.window-elsewhere</name>
+    <message>
+        <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
+        <translation>桌面把投影机的画面放到了屏幕 {} 上</translation>
     </message>
 </context>
 <context>

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "desktop/window_place.h"
+
 namespace relucent::gui {
 namespace {
 
@@ -16,6 +18,13 @@ std::chrono::milliseconds refreshOf(const QScreen* screen) {
   const double rate = screen->refreshRate() > 1.0 ? screen->refreshRate() : 60.0;
   return std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(1.0 / rate));
 }
+
+/// A window that was seen for so many swaps stands where it will: desktops move it about at first.
+constexpr int swapsUntilBelieved = 3;
+/// And may take so long to get there, milliseconds.
+constexpr qint64 longestWay = 1000;
+/// Elsewhere, it tries again after so many seconds, then twice as many, up to the longest pause.
+constexpr int shortestPause = 2, longestPause = 60;
 
 /// Windows that are operated stand on that screen.
 bool hidesWindows(const QScreen* screen) {
@@ -29,13 +38,16 @@ bool hidesWindows(const QScreen* screen) {
 }  // namespace
 
 ProjectorWindow::ProjectorWindow(ScreenIdentity display, QWindow* parent)
-    : QWindow(parent), display_(std::move(display)), surface_(surfaceFor(*this)) {
+    : QWindow(parent), display_(std::move(display)), onWayland_(*this), surface_(surfaceFor(*this)) {
   setFlags(Qt::Window | Qt::FramelessWindowHint | Qt::WindowStaysOnTopHint);
   setCursor(Qt::BlankCursor);
   setTitle(display_.connector);
   refreshing_.setTimerType(Qt::PreciseTimer);
   refreshing_.setSingleShot(true);
   connect(&refreshing_, &QTimer::timeout, this, &ProjectorWindow::drawn);
+  returning_.setSingleShot(true);
+  connect(&returning_, &QTimer::timeout, this, &ProjectorWindow::screenCame);
+  connect(this, &QWindow::screenChanged, this, &ProjectorWindow::look);
   connect(qGuiApp, &QGuiApplication::screenRemoved, this, &ProjectorWindow::screenGone);
   connect(qGuiApp, &QGuiApplication::screenAdded, this, &ProjectorWindow::screenCame);
 }
@@ -61,8 +73,15 @@ void ProjectorWindow::shine() {
 }
 
 void ProjectorWindow::stop() {
-  wanted_ = false;
+  wanted_ = lost_ = false;
+  returning_.stop();
+  returns_ = 0;
+  vanish();
+}
+
+void ProjectorWindow::vanish() {
   on_ = nullptr;
+  onWayland_.forget();
   hide();
 }
 
@@ -87,6 +106,7 @@ void ProjectorWindow::blacken() {
 
 void ProjectorWindow::goTo(QScreen* screen) {
   on_ = screen;
+  doubt();
   connect(screen, &QScreen::geometryChanged, this, &ProjectorWindow::follow, Qt::UniqueConnection);
   setScreen(screen);
   setGeometry(screen->geometry());
@@ -105,8 +125,9 @@ void ProjectorWindow::follow() {
 
 void ProjectorWindow::screenGone(QScreen* screen) {
   if (screen != on_) return;
-  on_ = nullptr;
-  hide();
+  elsewhere_.clear();
+  lost_ = true;
+  vanish();
   Q_EMIT displayLost();
 }
 
@@ -114,8 +135,45 @@ void ProjectorWindow::screenCame() {
   if (!wanted_ || on_ != nullptr) return;
   QScreen* screen = findScreen(display_);
   if (screen == nullptr) return;
+  returning_.stop();
   goTo(screen);
-  Q_EMIT displayFound();
+}
+
+bool ProjectorWindow::stands() const {
+  return standsOn(*this, *on_, {on_->geometry().topLeft(), nativeSize(*on_)});
+}
+
+/// The desktop may have moved it.
+void ProjectorWindow::look() {
+  if (on_ == nullptr || !proven_ || stands()) return;
+  doubt();
+  update();
+}
+
+void ProjectorWindow::doubt() {
+  proven_ = false;
+  swaps_ = 0;
+  doubted_.start();
+}
+
+/// After each swap of black.
+void ProjectorWindow::prove() {
+  if (on_ == nullptr) return;
+  if (++swaps_ < swapsUntilBelieved) return update();
+  if (!stands()) return doubted_.hasExpired(longestWay) ? leave() : update();
+  proven_ = true;
+  returns_ = 0;
+  elsewhere_.clear();
+  if (std::exchange(lost_, false)) Q_EMIT displayFound();
+  update();
+}
+
+void ProjectorWindow::leave() {
+  elsewhere_ = screen() != nullptr && screen() != on_ ? screen()->name() : QString("?");
+  lost_ = true;
+  vanish();
+  returning_.start(std::chrono::seconds(std::min(longestPause, shortestPause << std::min(returns_++, 10))));
+  Q_EMIT displayLost();
 }
 
 void ProjectorWindow::update() {
@@ -137,15 +195,28 @@ void ProjectorWindow::draw() {
   fresh_ = true;
   if (!isExposed() || refreshing_.isActive()) return;
   fresh_ = false;
-  surface_->draw(picture_, overlay_);
+  onWayland_.prepare();
+  if (proven_)
+    surface_->draw(picture_, overlay_);
+  else
+    surface_->draw({}, {});
   if (!surface_->keepsStep()) return refreshing_.start(refreshOf(screen()));
-  Q_EMIT frameSwapped();
+  drawn();
 }
 
 /// The display has shown all of what was drawn last.
 void ProjectorWindow::drawn() {
+  if (!proven_) return prove();
   if (fresh_) return draw();
   Q_EMIT frameSwapped();
+}
+
+void ProjectorWindow::moveEvent(QMoveEvent*) {
+  look();
+}
+
+void ProjectorWindow::resizeEvent(QResizeEvent*) {
+  look();
 }
 
 void ProjectorWindow::keyPressEvent(QKeyEvent* event) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
 #include <QTimer>
 #include <QWindow>
 #include <memory>
 
+#include "desktop/wayland_window.h"
 #include "output/screen_identity.h"
 #include "output/window_surface.h"
 
@@ -13,8 +15,9 @@ namespace relucent::gui {
 
 /// The window of one projector: full screen on its display, pixel for pixel, black until it gets a picture.
 /// When its display disappears the window hides, since the desktop would otherwise move it to the operator's
-/// screen; when the display returns it is shown again. Drawn by OpenGL in sync with the display, or without
-/// it, then at most at the display's rate.
+/// screen; when the display returns it is shown again. It stays black until the display server says that it
+/// stands on its display, leaves at once when the desktop puts it elsewhere, and tries again later. Drawn by
+/// OpenGL in sync with the display, or without it, then at most at the display's rate.
 class ProjectorWindow : public QWindow {
   Q_OBJECT
 
@@ -36,6 +39,8 @@ class ProjectorWindow : public QWindow {
   void stop();
   /// Whether it is on its display now.
   bool isShining() const;
+  /// The screen where the desktop had put it instead when it left last; empty: it did not.
+  const QString& elsewhere() const { return elsewhere_; }
   /// Its display's size in pixels; empty while it is absent.
   QSize displaySize() const;
 
@@ -50,7 +55,8 @@ class ProjectorWindow : public QWindow {
  Q_SIGNALS:
   /// The last picture is displayed: swapped, or with the display server long enough.
   void frameSwapped();
-  /// The display was unplugged or switched off: this window is not visible anywhere.
+  /// The display was unplugged or switched off, or the desktop had put the window elsewhere(): it is not
+  /// visible anywhere.
   void displayLost();
   /// The display is back with the window on it.
   void displayFound();
@@ -63,18 +69,34 @@ class ProjectorWindow : public QWindow {
   bool event(QEvent* event) override;
   void exposeEvent(QExposeEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void moveEvent(QMoveEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void screenGone(QScreen* screen);
   void screenCame();
   void goTo(QScreen* screen);
+  void vanish();
   void follow();
+  bool stands() const;
+  void look();
+  void doubt();
+  void prove();
+  void leave();
   void draw();
   void drawn();
 
   ScreenIdentity display_;
   bool wanted_ = false;
   QScreen* on_ = nullptr;  // where it is shown; nullptr while hidden
+  bool proven_ = false;    // to stand there
+  int swaps_ = 0;          // of black, since that was doubted
+  QElapsedTimer doubted_;
+  bool lost_ = false;  // and not found since
+  QString elsewhere_;
+  QTimer returning_;  // from elsewhere
+  int returns_ = 0;
+  WaylandWindow onWayland_;
   DrivePicture picture_;
   QImage overlay_;
   bool fresh_ = false;  // not drawn yet

@@ -60,8 +60,11 @@ void Show::open() {
     for (const ScreenIdentity& display : displaysFor(renderer->projectors(), settings_.displays)) {
       auto window = std::make_unique<ProjectorWindow>(display);
       QString name = display.connector;
-      connect(window.get(), &ProjectorWindow::displayLost, this, [this, name] {
-        log_.warn("display lost: " + name);
+      connect(window.get(), &ProjectorWindow::displayLost, this, [this, name, window = window.get()] {
+        log_.warn(window->elsewhere().isEmpty()
+                      ? "display lost: " + name
+                      : QString("the desktop put the picture for %1 on %2: it left at once, and tries again")
+                            .arg(name, window->elsewhere()));
         writeHealth(state_);
       });
       connect(window.get(), &ProjectorWindow::displayFound, this, [this, name] {

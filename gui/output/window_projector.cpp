@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "desktop/awake.h"
+#include "desktop/wayland_window.h"
 #include "output/projector_window.h"
 #include "relucent/base/error.h"
 
@@ -27,6 +28,8 @@ constexpr int patience = 20;
 constexpr qint64 longestChange = 2000;
 /// And be asleep for so many times as long as it needs to wake.
 constexpr int longestSleep = 4;
+/// The desktop may put the window elsewhere for so long, milliseconds: some tries.
+constexpr qint64 longestStray = 8000;
 /// Swaps after the window came up until it is believed to stand where it should: desktops move it about.
 constexpr int swapsUntilSettled = 3;
 
@@ -62,12 +65,11 @@ pipeline::ScreenRigSettings::Display displayOf(const QScreen& screen) {
 }
 
 QString unusableReason(const QScreen& screen) {
-  const double scale = screen.devicePixelRatio();
-  if (QGuiApplication::platformName().startsWith("wayland") && scale != std::round(scale))
-    return Translated::tr(
-               "The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
-        .arg(scale);
-  return {};
+  if (canBeExactOn(screen)) return {};
+  const double scale = static_cast<double>(nativeSize(screen).width()) / screen.geometry().width();
+  return Translated::tr(
+             "The desktop scales this screen by %1, which blurs every pixel. Set its scale to 100 %.")
+      .arg(QString::number(scale, 'g', 3));
 }
 
 /// What the two threads tell each other.
@@ -79,6 +81,7 @@ struct WindowProjector::Shared {
   bool stands = false;   // the last one, ever since
   quint64 answered = 0;  // questions
   QSize wrongSize;       // of the screen, if it is not the projector's
+  QString elsewhere;     // the screen where the desktop puts the window instead
   bool asleep = false;   // the display
 };
 
@@ -129,9 +132,13 @@ class WindowProjector::Stage : public QObject {
     connect(window_.get(), &ProjectorWindow::frameSwapped, this, [this] { swapped(); });
     connect(window_.get(), &ProjectorWindow::displayLost, this, [this] {
       broken();
+      setElsewhere(window_->elsewhere());
       reportWaiting(true);
     });
-    connect(window_.get(), &ProjectorWindow::displayFound, this, [this] { shownAgain(); });
+    connect(window_.get(), &ProjectorWindow::displayFound, this, [this] {
+      setElsewhere({});
+      shownAgain();
+    });
     connect(window_.get(), &ProjectorWindow::displayChanged, this, [this] {
       broken();
       shownAgain();
@@ -186,6 +193,11 @@ class WindowProjector::Stage : public QObject {
     shared_->told.wakeAll();
   }
 
+  void setElsewhere(const QString& screen) {
+    QMutexLocker lock(&shared_->guard);
+    shared_->elsewhere = screen;
+  }
+
   void broken() {
     QMutexLocker lock(&shared_->guard);
     shared_->stands = false;
@@ -230,7 +242,7 @@ template <typename Done>
 void WindowProjector::waitFor(Done done) {
   require(QThread::currentThread() != stage_->thread(), "the interface would wait for itself");
   // Desktops pass through other sizes when a screen is plugged in, and displays take their time to wake.
-  QElapsedTimer wrong, asleep;
+  QElapsedTimer wrong, asleep, elsewhere;
   auto lasts = [](QElapsedTimer& timer, bool holds, qint64 longest) {
     if (!holds)
       timer.invalidate();
@@ -258,6 +270,16 @@ void WindowProjector::waitFor(Done done) {
               "show.switch-off-power-saving",
               "switch off its power saving and the screen saver in the desktop's settings, then try again"),
           name_);
+    if (lasts(elsewhere, !shared_->elsewhere.isEmpty(), longestStray))
+      throw Error(ErrorKind::device,
+                  RELUCENT_MESSAGE("show.window-elsewhere",
+                                   "the desktop puts the projector's picture on the screen {} instead")
+                      .with(shared_->elsewhere.toStdString()),
+                  RELUCENT_MESSAGE(
+                      "show.no-xwayland",
+                      "in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away "
+                      "the desktop's rules for windows of Relucent, then try again"),
+                  name_);
     shared_->told.wait(&shared_->guard, patience);
   }
 }

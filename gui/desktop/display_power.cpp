@@ -80,7 +80,8 @@ DisplayPower::State DisplayPower::state() const {
 
 QString DisplayPower::problem() const {
   return state() == State::unknown
-             ? "whether the displays are awake is not known: there is no X server to ask"
+             ? "there is no X server to tell whether the displays are awake: have them never sleep, in the "
+               "desktop's settings"
              : QString();
 }
 

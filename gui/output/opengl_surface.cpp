@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/opengl_surface.h"
 
+#include <QOffscreenSurface>
 #include <QOpenGLFunctions>
 #include <algorithm>
 #include <utility>
@@ -20,7 +21,13 @@ OpenGlSurface::~OpenGlSurface() {
 
 void OpenGlSurface::forget() {
   if (context_ == nullptr) return;
-  context_->makeCurrent(&window_);
+  // Under Wayland a hidden window has nothing to draw on.
+  QOffscreenSurface instead;
+  if (!context_->makeCurrent(&window_)) {
+    instead.setFormat(context_->format());
+    instead.create();
+    context_->makeCurrent(&instead);
+  }
   picture_ = {};
   overlay_ = {};
   blitter_.destroy();

@@ -39,9 +39,18 @@ std::function<Command()> addExportOptions(CLI::App* sub) {
       ->type_name("FILE.npz");
   sub->add_option("--maps", command->settings.maps, "Black level, flood image and masks as OpenEXR")
       ->type_name("DIR");
+  sub->add_option("--mpcdi", command->settings.mpcdi,
+                  "Warp and blend for media servers: VESA MPCDI, profile 2d, a region for each projector")
+      ->type_name("FILE.mpcdi");
+  sub->add_option("--player-maps", command->settings.playerMaps,
+                  "The same as ST maps (EXR), masks (PNG) and responses (.cube), one of each a projector")
+      ->type_name("DIR");
+  addSize(sub, "--canvas", command->settings.canvas, "Pixels of the content that a media server plays")
+      ->default_str("1920x1080");
   return [command] {
     for (const Message& problem : problems(command->settings))
-      throw WrongUsage(english(problem) + ": give --transport, --leaves, --inverse or --maps");
+      throw WrongUsage(english(problem) +
+                       ": give --transport, --leaves, --inverse, --maps, --mpcdi or --player-maps");
     return Command(*command);
   };
 }

@@ -82,6 +82,8 @@ class Correspondence {
                      static_cast<float>(sums[3 * j + 1] / sums[3 * j + 2])};
   }
 
+  const std::vector<Place>& places() const { return place_; }
+
   Place placeOf(const DirectReader& reader, std::size_t row) const {
     std::vector<DirectLight> seen;
     reader.read(row, seen);
@@ -149,6 +151,16 @@ void fill(std::span<Place> map, std::span<const std::uint8_t> usable, Size size)
     }
 }
 
+/// What is known at first: every pixel of the first camera is where it is.
+ViewMap firstView(const Rasters& cameras) {
+  ViewMap map(cameras.count(), {unknown, unknown});
+  for (std::size_t row = 0; row < cameras.size(0).count(); ++row) {
+    const Pixel at = pixelAt(cameras.size(0), row);
+    map[row] = {static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f};
+  }
+  return map;
+}
+
 }  // namespace
 
 ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& usable,
@@ -156,11 +168,7 @@ ViewMap viewMap(const transport::TransportMatrix& transport, const CameraMask& u
   const Rasters& cameras = transport.cameras();
   require(usable.size() == cameras.count(), "{} flags for {} camera pixels", usable.size(), cameras.count());
   if (cameras.devices() < 2) return {};
-  ViewMap map(cameras.count(), {unknown, unknown});
-  for (std::size_t row = 0; row < cameras.size(0).count(); ++row) {
-    const Pixel at = pixelAt(cameras.size(0), row);
-    map[row] = {static_cast<float>(at.x) + 0.5f, static_cast<float>(at.y) + 0.5f};
-  }
+  ViewMap map = firstView(cameras);
   const DirectReader reader(transport, settings);
   Correspondence correspondence(transport);
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
@@ -201,6 +209,21 @@ ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMas
     fill({map.data() + begin, count}, {usableOthers.data() + begin, count}, cameras.size(camera));
   }
   return map;
+}
+
+std::vector<Place> projectorPlaces(const transport::TransportMatrix& transport, const CameraMask& usable,
+                                   const ViewMap& views, const DirectLightSettings& settings) {
+  const Rasters& cameras = transport.cameras();
+  require(usable.size() == cameras.count() && (views.empty() || views.size() == cameras.count()),
+          "{} flags and {} places for {} camera pixels", usable.size(), views.size(), cameras.count());
+  const ViewMap map = views.empty() ? firstView(cameras) : views;
+  const DirectReader reader(transport, settings);
+  Correspondence correspondence(transport);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), count = cameras.size(camera).count();
+    correspondence.learn(reader, {map.data() + begin, count}, {usable.data() + begin, count}, begin);
+  }
+  return correspondence.places();
 }
 
 std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras) {

@@ -32,6 +32,12 @@ ViewMap viewMapInto(const transport::TransportMatrix& transport, const CameraMas
                     const ViewMap& views, const transport::TransportMatrix& others,
                     const CameraMask& usableOthers, const DirectLightSettings& settings = {});
 
+/// a_j: where in the first camera's view lies what each projector pixel lights; NaN: no usable pixel of any
+/// camera sees it directly. `views`: as of MeasuredVenue. Shape: the pixels of all projectors.
+std::vector<std::array<float, 2>> projectorPlaces(const transport::TransportMatrix& transport,
+                                                  const CameraMask& usable, const ViewMap& views,
+                                                  const DirectLightSettings& settings = {});
+
 /// Cameras beyond the first in whose view nothing is known: they share no lit place with those before them.
 /// Shapes: the pixels of `cameras`.
 std::vector<std::size_t> camerasApart(const ViewMap& map, const Rasters& cameras);

@@ -16,6 +16,9 @@ struct ExportSettings {
   std::filesystem::path leaves;   // T as it is kept: a column for every node of the projectors' mean pyramids
   std::filesystem::path inverse;  // the inverse operator, SciPy BSR, 3x3 blocks; empty: not wanted
   std::filesystem::path maps;     // folder for black, flood, reachability, flags as EXR; empty: not wanted
+  std::filesystem::path mpcdi;    // warp and blend for media servers, see mapping/; empty: not wanted
+  std::filesystem::path playerMaps;  // the same as plain pictures, and colour tables; empty: not wanted
+  Size canvas{1920, 1080};           // pixels of the content that media servers play
   std::uint64_t mostBytes = std::uint64_t{2} << 30;  // of `transport`, see expandedToPixels()
 };
 std::vector<Message> problems(const ExportSettings& settings);

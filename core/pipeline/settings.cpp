@@ -205,7 +205,7 @@ Problems problems(const EvaluateSettings& settings) {
 
 Problems problems(const ExportSettings& settings) {
   if (!settings.transport.empty() || !settings.leaves.empty() || !settings.inverse.empty() ||
-      !settings.maps.empty())
+      !settings.maps.empty() || !settings.mpcdi.empty() || !settings.playerMaps.empty())
     return {};
   return {RELUCENT_ENGLISH_MESSAGE("calibration.nothing-to-export", "nothing was chosen to export")};
 }

@@ -69,6 +69,15 @@ class TestCommands : public QObject {
     double error = difference(measured, truth.transport()).frobenius;
     QVERIFY2(error < 0.08, qPrintable(QString::number(error)));
 
+    const QString players = folder.filePath("players");
+    Run mapped = runCli({"export", calibration, "--mpcdi", folder.filePath("venue.mpcdi"), "--player-maps",
+                         players, "--canvas", "64x48"});
+    QVERIFY2(mapped.status == 0, mapped.errors.constData());
+    QVERIFY2(mapped.output.contains(" dB, Relucent with "), mapped.output.constData());
+    for (const char* file :
+         {"venue.mpcdi", "players/st-1.exr", "players/mask-1.png", "players/response-1.cube"})
+      QVERIFY2(QFileInfo(folder.filePath(file)).size() > 0, file);
+
     QString matrix = folder.filePath("T.npz");
     Run written = runCli({"export", calibration, "--transport", matrix});
     QVERIFY2(written.status == 0, written.errors.constData());

@@ -198,6 +198,12 @@ class TestArguments : public QObject {
     QVERIFY(parsed<Evaluate>("evaluate d").settings.methods.empty());
 
     QCOMPARE(parsed<Export>("export d --transport T.npz").settings.transport, std::filesystem::path("T.npz"));
+    const pipeline::ExportSettings players =
+        parsed<Export>("export d --mpcdi v.mpcdi --player-maps maps --canvas 800x600").settings;
+    QCOMPARE(players.mpcdi, std::filesystem::path("v.mpcdi"));
+    QCOMPARE(players.playerMaps, std::filesystem::path("maps"));
+    QCOMPARE(players.canvas, Size({800, 600}));
+    QCOMPARE(parsed<Export>("export d --mpcdi v.mpcdi").settings.canvas, Size({1920, 1080}));
     QVERIFY(!parsed<Relight>("relight d --image a.png --out o.exr").dual);
     QVERIFY(parsed<Relight>("dual d --out o.exr").dual);
     Separate separate = parsed<Separate>("separate d --reach 0.1 --out o");
@@ -294,7 +300,7 @@ class TestArguments : public QObject {
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");
     QTest::newRow("nothing to export")
-        << QByteArray("export d") << QByteArray("--transport, --leaves, --inverse or --maps");
+        << QByteArray("export d") << QByteArray("--transport, --leaves, --inverse, --maps, --mpcdi or --player-maps");
     QTest::newRow("half a rig") << QByteArray("calibrate d --projector-command a")
                                 << QByteArray("external programs need");
     QTest::newRow("rig without a size")

@@ -71,6 +71,27 @@ std::vector<std::vector<bool>> placedTogether(const Target& target) {
   return groups;
 }
 
+/// Of what the groups bid for every projector pixel, the content's and then the highest.
+template <typename BidsOf>
+ContentCorrespondence answered(const std::vector<std::vector<bool>>& groups, const Target& target,
+                               std::size_t pixels, const BidsOf& bidsOf) {
+  ContentCorrespondence content{std::vector<std::int32_t>(pixels, -1), ProjectorMask(pixels, 0)};
+  std::vector<Bid> answers(pixels, 0);
+  for (const std::vector<bool>& group : groups) {
+    const std::vector<Bid> highest = bidsOf(group);
+    for (std::size_t j = 0; j < pixels; ++j) {
+      const std::int32_t row = rowOf(highest[j]);
+      if (row < 0) continue;
+      const bool inside = target.inside[static_cast<std::size_t>(row)] != 0;
+      if (std::pair(inside, highest[j]) < std::pair(content.free[j] != 0, answers[j])) continue;
+      content.brightest[j] = row;
+      content.free[j] = inside;
+      answers[j] = highest[j];
+    }
+  }
+  return content;
+}
+
 }  // namespace
 
 std::vector<std::int32_t> brightestCorrespondence(const transport::TransportMatrix& transport,
@@ -91,28 +112,39 @@ ContentCorrespondence contentCorrespondence(const transport::TransportMatrix& tr
     return {brightest, contentPixels(brightest, target)};
 
   const Rasters& cameras = transport.cameras();
-  ContentCorrespondence content{std::vector<std::int32_t>(brightest.size(), -1),
-                                ProjectorMask(brightest.size(), 0)};
-  std::vector<Bid> answered(brightest.size(), 0);
-  for (const std::vector<bool>& group : groups) {
+  return answered(groups, target, brightest.size(), [&](const std::vector<bool>& group) {
     CameraMask asked(usable.size(), 0);
     for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
       if (group[camera])
         std::copy_n(usable.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera)),
                     cameras.size(camera).count(),
                     asked.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera)));
-    const std::vector<Bid> highest = highestBids(transport, asked, settings);
-    for (std::size_t j = 0; j < highest.size(); ++j) {
-      const std::int32_t row = rowOf(highest[j]);
-      if (row < 0) continue;
-      const bool inside = target.inside[static_cast<std::size_t>(row)] != 0;
-      if (std::pair(inside, highest[j]) < std::pair(content.free[j] != 0, answered[j])) continue;
-      content.brightest[j] = row;
-      content.free[j] = inside;
-      answered[j] = highest[j];
-    }
+    return highestBids(transport, asked, settings);
+  });
+}
+
+ViewCorrespondence::ViewCorrespondence(const transport::TransportMatrix& transport, const CameraMask& usable,
+                                       const DirectLightSettings& settings) {
+  const Rasters& cameras = transport.cameras();
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    CameraMask asked(usable.size(), 0);
+    const auto first = static_cast<std::ptrdiff_t>(cameras.offset(camera));
+    std::copy_n(usable.begin() + first, cameras.size(camera).count(), asked.begin() + first);
+    highest_.push_back(highestBids(transport, asked, settings));
   }
-  return content;
+}
+
+ContentCorrespondence ViewCorrespondence::of(const Target& target) const {
+  const std::size_t pixels = highest_.front().size();
+  return answered(placedTogether(target), target, pixels, [&](const std::vector<bool>& group) {
+    std::vector<Bid> highest(pixels, 0);
+    for (std::size_t camera = 0; camera < highest_.size(); ++camera) {
+      if (!group[camera]) continue;
+      parallelFor(0, pixels, 16384,
+                  [&](std::size_t j) { highest[j] = std::max(highest[j], highest_[camera][j]); });
+    }
+    return highest;
+  });
 }
 
 ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {

@@ -35,4 +35,19 @@ ContentCorrespondence contentCorrespondence(const transport::TransportMatrix& tr
                                             const std::vector<std::int32_t>& brightest,
                                             const DirectLightSettings& settings);
 
+/// contentCorrespondence() for any weights of the views, from what each of them sees alone: found once.
+class ViewCorrespondence {
+ public:
+  ViewCorrespondence(const transport::TransportMatrix& transport, const CameraMask& usable,
+                     const DirectLightSettings& settings);
+
+  /// Of the target `inside`, `placements` and `viewWeight` are used.
+  ContentCorrespondence of(const Target& target) const;
+
+ private:
+  /// Per camera: of every projector pixel the brightest camera pixel, below its light, see
+  /// correspondence.cpp.
+  std::vector<std::vector<std::uint64_t>> highest_;
+};
+
 }  // namespace relucent::compensation

@@ -6,6 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/compensation/white_levels.h"
 
 namespace relucent::compensation {
 namespace {
@@ -171,50 +172,6 @@ void lieOnSurface(const MeasuredVenue& venue, std::size_t camera, Target& target
   });
 }
 
-/// The brightest white that all but `percentile` percent of the usable pixels inside can show, each pixel
-/// counted by the weight of its view.
-float whiteLevel(const MeasuredVenue& venue, const Target& target, double percentile) {
-  struct Pixel {
-    float most, weight;
-  };
-  std::vector<Pixel> brightest;
-  double all = 0.0;
-  const Rasters& cameras = venue.transport.cameras();
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
-    const float weight = target.viewWeight[camera];
-    const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
-    for (std::size_t i = begin; i < end && weight > 0.0f; ++i) {
-      if (!target.inside[i] || !venue.usable[i]) continue;
-      float least = venue.flood[3 * i] + venue.black[3 * i];
-      for (std::size_t c = 1; c < 3; ++c)
-        least = std::min(least, venue.flood[3 * i + c] + venue.black[3 * i + c]);
-      brightest.push_back({least, weight});
-      all += static_cast<double>(weight);
-    }
-  }
-  if (brightest.empty())
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("compensation.corners-enclose-nothing-lit",
-                                 "the corners of the content enclose no pixel that the projector lights"),
-        RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
-                                 "move the corners into the lit part of the camera's view"));
-  std::ranges::sort(brightest, {}, &Pixel::most);
-  // With equal weights the first whose rank is not less than that share of the last one's.
-  const double share = percentile / 100.0 * (all - all / static_cast<double>(brightest.size()));
-  double passed = 0.0;
-  auto chosen = brightest.begin();
-  while ((passed += static_cast<double>(chosen->weight)) <= share && chosen + 1 != brightest.end()) ++chosen;
-  if (!(chosen->most > 0.0f))
-    throw Error(
-        ErrorKind::input,
-        RELUCENT_ENGLISH_MESSAGE("compensation.colour-hardly-seen",
-                                 "some colour of the projector hardly reaches the camera within the content"),
-        RELUCENT_ENGLISH_MESSAGE("compensation.move-corners-into-lit-part",
-                                 "move the corners into the lit part of the camera's view"));
-  return chosen->most;
-}
-
 }  // namespace
 
 std::vector<Message> problems(const TargetSettings& settings) {
@@ -314,7 +271,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   }
   target.corners = target.placements.front()->corners;
 
-  float white = whiteLevel(venue, target, settings.reachablePercentile);
+  const float white = WhiteLevels(venue, target.inside).at(target.viewWeight, settings.reachablePercentile);
   target.white = {white, white, white};
   transport::ColourBlock mixing = meanColourMixing(venue);
   auto lift = static_cast<float>(settings.blackLift);

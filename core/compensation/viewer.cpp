@@ -18,7 +18,13 @@ double squaredDistance(const Position& a, const Position& b) {
   return sum;
 }
 
-double widest(std::span<const Position> positions) {
+}  // namespace
+
+bool isFinite(const Position& position) {
+  return std::ranges::all_of(position, [](double value) { return std::isfinite(value); });
+}
+
+double widestDistance(std::span<const Position> positions) {
   double most = 0.0;
   for (std::size_t a = 0; a < positions.size(); ++a)
     for (std::size_t b = a + 1; b < positions.size(); ++b)
@@ -26,16 +32,10 @@ double widest(std::span<const Position> positions) {
   return std::sqrt(most);
 }
 
-}  // namespace
-
-bool isFinite(const Position& position) {
-  return std::ranges::all_of(position, [](double value) { return std::isfinite(value); });
-}
-
 std::vector<double> viewerWeights(std::span<const Position> cameras, const Position& viewer) {
   require(!cameras.empty() && isFinite(viewer) && std::ranges::all_of(cameras, isFinite),
           "a viewer and {} cameras whose positions must be finite", cameras.size());
-  const double scale = widest(cameras);
+  const double scale = widestDistance(cameras);
   if (!(scale > 0.0)) return std::vector<double>(cameras.size(), 1.0 / static_cast<double>(cameras.size()));
 
   // The point of a polytope that is nearest to the origin, as non-negative least squares: with a row of ones
@@ -87,11 +87,20 @@ bool MovingViewer::moveTo(const Position& position, Time now) {
   return true;
 }
 
-Position MovingViewer::at(Time now) const {
-  if (!last_) return sweetSpot_;
+double MovingViewer::presence(Time now) const {
+  if (!last_) return 0.0;
   const Time since = now - told_ - settings_.patience;
-  if (since <= Time(0.0)) return *last_;
+  if (since <= Time(0.0)) return 1.0;
+  // Nobody sees the rest, and a picture that does not change need not be computed.
+  constexpr double least = 1e-3;
   const double share = std::exp(-since / settings_.glide);
+  return share >= least ? share : 0.0;
+}
+
+Position MovingViewer::at(Time now) const {
+  const double share = presence(now);
+  if (share == 1.0) return *last_;
+  if (share == 0.0) return sweetSpot_;
   Position position = sweetSpot_;
   for (std::size_t k = 0; k < position.size(); ++k) position[k] += share * ((*last_)[k] - sweetSpot_[k]);
   return position;

@@ -17,6 +17,8 @@ namespace relucent::compensation {
 using Position = std::array<double, 3>;
 
 bool isFinite(const Position& position);
+/// Between any two of them; 0 of one or none.
+double widestDistance(std::span<const Position> positions);
 
 /// What the measured views count for a viewer who stands anywhere, from where their cameras stand: the place
 /// in the cameras' convex hull that is nearest to him, made of those that are nearest to it,
@@ -35,17 +37,25 @@ struct ViewerMotionSettings {
 std::vector<Message> problems(const ViewerMotionSettings& settings);
 
 /// A viewer whose position is told now and then.
-///   x(t) = x_last until t_last + patience, then  s + (x_last - s) exp(-(t - t_last - patience) / glide)
-/// Before anything is told he stands at the sweet spot s. Times are of one clock, and do not run back.
+///   a(t) = 1 until t_last + patience, then  exp(-(t - t_last - patience) / glide),  and 0 once below 1/1000
+///   x(t) = s + a(t) (x_last - s)
+/// Before anything is told he stands at the sweet spot s, and a is 0. Times are of one clock, and do not run
+/// back.
 class MovingViewer {
  public:
   using Time = std::chrono::duration<double>;
 
-  explicit MovingViewer(const Position& sweetSpot, const ViewerMotionSettings& settings = {});
+  explicit MovingViewer(const Position& sweetSpot = {}, const ViewerMotionSettings& settings = {});
 
   /// Positions that are not finite are not listened to: false.
   bool moveTo(const Position& position, Time now);
   Position at(Time now) const;
+  /// a: how much the last position still holds.
+  double presence(Time now) const;
+  /// As it was told; none before.
+  const std::optional<Position>& last() const { return last_; }
+  /// At the sweet spot again at once.
+  void leave() { last_.reset(); }
 
  private:
   Position sweetSpot_;

@@ -158,6 +158,20 @@ class TestViewer : public QObject {
     QVERIFY((viewer.at(Time(13.2)) == Position{1.0, 1.0, 1.0}));
   }
 
+  /// Law: how much the last position holds is 1, falls without a jump that anybody sees, and is 0 in the end.
+  void presenceOfAViewer() {
+    MovingViewer viewer;
+    QVERIFY(viewer.presence(Time(5.0)) == 0.0 && !viewer.last());
+    viewer.moveTo({1.0, 2.0, 3.0}, Time(10.0));
+    QVERIFY(viewer.presence(Time(12.0)) == 1.0 && viewer.last() == Position({1.0, 2.0, 3.0}));
+    QVERIFY(std::abs(viewer.presence(Time(13.0)) - std::exp(-1.0)) < 1e-12);
+    QVERIFY(viewer.presence(Time(18.9)) >= 1e-3 && viewer.presence(Time(18.92)) == 0.0);
+    viewer.moveTo({1.0, 2.0, 3.0}, Time(20.0));
+    QVERIFY(viewer.presence(Time(20.0)) == 1.0);
+    viewer.leave();
+    QVERIFY(viewer.presence(Time(20.0)) == 0.0);
+  }
+
   void motionThatCannotBe() {
     QVERIFY(problems(ViewerMotionSettings()).empty());
     const std::vector<Message> found = problems(ViewerMotionSettings{Time(-1.0), Time(0.0)});

@@ -17,6 +17,9 @@ struct FrameRequest {
   int steps = 2;            // K: number of refinement steps
   float brightness = 1.0f;  // of the content's white, relative to the target's
   float blackLift = 0.0f;   // share of white added to black
+  /// Starts from what was projected last instead of from the windows, where there is something: no M and no
+  /// correction, only the steps, from the first on, so that what is wanted now grows in none of them.
+  bool fromLast = false;
 };
 
 /// Timing and statistics of a frame.
@@ -37,6 +40,11 @@ class EngineBackend {
   /// Switches to content of another size. May allocate. `content` must outlive its use.
   /// Throws: Error{device} if the device is out of memory or gone.
   virtual void setContent(const EngineContent& content) = 0;
+  /// Takes over what ViewFollower changed in the content that was set; what was projected last stays.
+  /// Throws: as setContent().
+  virtual void contentFollowed() = 0;
+  /// What counts as projected last: a projector stack, 0 to 1.  Throws: as setContent().
+  virtual void startFrom(std::span<const float> projector) = 0;
   /// One frame. `frame.size` must be what setContent() was given. `words`: one 32-bit word for each pixel of
   /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` are invalid.
   virtual bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,

@@ -63,15 +63,36 @@ void CpuBackend::setContent(const EngineContent& content) {
   for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &nodes_})
     std::fill(values->begin(), values->end(), 0.0f);
   std::fill(reach_.begin(), reach_.end(), 0.0f);
-  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 3] = content.weight[i];
-  weightedLit_.assign(content.isWeighted ? content.lit.size() : 0, 0.0f);
-  for (std::size_t i = 0; i < weightedLit_.size(); ++i)
-    weightedLit_[i] = content.weight[i / 3] * content.lit[i];
+  hasLast_ = false;
   warp_ = WarpTiles(content.warp, engine_.venue.transport.cameras());
   contentScratch_.resize(4 * (warp_.mostPixels + WarpTiles::together));
+  takeWeights();
+}
+
+void CpuBackend::takeWeights() {
+  const EngineContent& content = *content_;
+  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 3] = content.weight[i];
+  weightedLit_.resize(content.isWeighted ? content.lit.size() : 0);
+  parallelFor(0, weightedLit_.size(), 4096,
+              [&](std::size_t i) { weightedLit_[i] = content.weight[i / 3] * content.lit[i]; });
   findFreeTiles();
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
   prepareBound();
+}
+
+void CpuBackend::contentFollowed() {
+  require(content_ != nullptr, "content that follows was not set");
+  takeWeights();
+  for (std::size_t j = 0; j < content_->free.size(); ++j)
+    if (!content_->free[j]) std::fill_n(&nodes_[3 * j], 3, 0.0f);
+}
+
+void CpuBackend::startFrom(std::span<const float> projector) {
+  require(content_ != nullptr && projector.size() == 3 * engine_.brightest.size(),
+          "{} values of {} projector pixels", projector.size(), engine_.brightest.size());
+  for (std::size_t i = 0; i < projector.size(); ++i)
+    nodes_[i] = content_->free[i / 3] ? clamp01(projector[i]) : 0.0f;
+  hasLast_ = true;
 }
 
 bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
@@ -82,10 +103,18 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
   if (request.compensated) {
     const std::vector<float>& lengths = engine_.settings.compensator.steps;
     const int steps = std::clamp(request.steps, 0, static_cast<int>(lengths.size()));
-    invert();
-    passThrough(Pass::correct);
-    makePreconditioner();
-    correct(steps == 0 ? words : OutputWords{});
+    const bool goesOn = request.fromLast && hasLast_;
+    if (goesOn) {
+      makePreconditioner();
+      clipped_ = 0;
+      fillMeans();
+      if (steps == 0) encodeAll(words);
+    } else {
+      invert();
+      passThrough(Pass::correct);
+      makePreconditioner();
+      correct(steps == 0 ? words : OutputWords{});
+    }
     Clock::time_point refining = Clock::now();
     for (; report.steps < steps; ++report.steps)
       refine(lengths[static_cast<std::size_t>(report.steps)],
@@ -96,6 +125,7 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
   }
   if (freeValues_ > 0) report.clipped = static_cast<double>(clipped_) / static_cast<double>(freeValues_);
   report.seconds = Clock::now() - begin;
+  hasLast_ = request.compensated;
   return true;
 }
 
@@ -130,10 +160,7 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
     for (std::size_t c = 0; c < 3; ++c)
       nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) : 0.0f;
   });
-  const Rasters& projectors = venue.transport.projectors();
-  for (std::size_t device = 0; device < projectors.devices(); ++device)
-    parallelFor(0, static_cast<std::size_t>(projectors.size(device).height), 8,
-                [&](std::size_t y) { encodeLine(device, static_cast<int>(y), words); });
+  encodeAll(words);
 }
 
 void CpuBackend::findFreeTiles() {
@@ -224,6 +251,20 @@ void CpuBackend::refine(float length, OutputWords words) noexcept {
   for (std::size_t device = 0; device < projectors.devices(); ++device)
     parallelFor(0, static_cast<std::size_t>(pairsOfLines(device)), 4,
                 [&](std::size_t pair) { finishPair(device, static_cast<int>(pair), length, words); });
+}
+
+void CpuBackend::fillMeans() noexcept {
+  for (std::size_t device = 0; device < engine_.venue.transport.projectors().devices(); ++device)
+    parallelFor(0, static_cast<std::size_t>(pairsOfLines(device)), 4, [&](std::size_t pair) {
+      engine_.venue.transport.layout().fillMeansOfLine(device, static_cast<int>(pair), nodeValues());
+    });
+}
+
+void CpuBackend::encodeAll(OutputWords words) const noexcept {
+  const Rasters& projectors = engine_.venue.transport.projectors();
+  for (std::size_t device = 0; device < projectors.devices(); ++device)
+    parallelFor(0, static_cast<std::size_t>(projectors.size(device).height), 8,
+                [&](std::size_t y) { encodeLine(device, static_cast<int>(y), words); });
 }
 
 int CpuBackend::pairsOfLines(std::size_t device) const noexcept {

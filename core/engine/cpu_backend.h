@@ -22,6 +22,8 @@ class CpuBackend : public EngineBackend {
 
   std::string_view name() const override { return name_; }
   void setContent(const EngineContent& content) override;
+  void contentFollowed() override;
+  void startFrom(std::span<const float> projector) override;
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
 
@@ -38,6 +40,10 @@ class CpuBackend : public EngineBackend {
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
   void warpOnly(OutputWords words) noexcept;
+  /// What depends on weights and on what is free.
+  void takeWeights();
+  /// The means of level 1 of what was projected last.
+  void fillMeans() noexcept;
   /// p = clamp(M u).
   void invert() noexcept;
   /// p = clamp(p + m M u + a C adjoint) with the settings' shares m and a.
@@ -51,6 +57,7 @@ class CpuBackend : public EngineBackend {
   /// means.
   void finishPair(std::size_t device, int pair, float length, OutputWords words) noexcept;
   void encodeLine(std::size_t device, int y, OutputWords words) const noexcept;
+  void encodeAll(OutputWords words) const noexcept;
   /// One row of tiles of M u: put(p, values, count) for the lines of its tiles where something is free.
   template <typename Put>
   void putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept;
@@ -94,6 +101,7 @@ class CpuBackend : public EngineBackend {
   std::vector<Free> freeOfTile_;  // of the windows' tiles
   std::atomic<std::size_t> clipped_{0}, reachable_{0}, unreachable_{0};
   std::size_t freeValues_ = 0;
+  bool hasLast_ = false;  // nodes_ hold what was projected last
 };
 
 }  // namespace relucent::engine

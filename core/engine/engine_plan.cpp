@@ -95,6 +95,8 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   result.white = target.white[0];
   result.warp = ContentWarp(content, target.placements, venue.transport.cameras(), venue.views);
   result.weight = weightsOf(venue, target);
+  result.viewWeight = target.viewWeight;
+  result.placements = target.placements;
   result.isWeighted = std::ranges::any_of(target.viewWeight, [](float weight) { return weight != 1.0f; });
 
   compensation::ContentCorrespondence correspondence = contentCorrespondence(

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,12 @@ struct EngineContent {
   float white = 0.0f;               // wanted signal of the content's white
   ProjectorMask free;               // per projector pixel: it belongs to the content; the others are black
   std::vector<std::int32_t> brightest;  // i*(j), see contentCorrespondence()
-  CameraStack lit;            // camera stack: the signal with all free projector pixels at full drive
-  std::vector<float> weight;  // per camera pixel: of its view, the largest 1; 0 where it is not usable
-  bool isWeighted = false;    // a view has less weight than another
+  CameraStack lit;                // camera stack: the signal with all free projector pixels at full drive
+  std::vector<float> weight;      // per camera pixel: of its view, the largest 1; 0 where it is not usable
+  bool isWeighted = false;        // a view has less weight than another
+  std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
+  std::vector<std::optional<compensation::Placement>> placements;  // as Target's
+  std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

@@ -42,9 +42,22 @@ void FallbackBackend::goOver(const Message& why) {
 
 void FallbackBackend::setContent(const EngineContent& content) {
   content_ = &content;
-  if (!makeOther_) return backend_->setContent(content);
+  change([&content](EngineBackend& backend) { backend.setContent(content); });
+}
+
+void FallbackBackend::contentFollowed() {
+  change([](EngineBackend& backend) { backend.contentFollowed(); });
+}
+
+void FallbackBackend::startFrom(std::span<const float> projector) {
+  change([projector](EngineBackend& backend) { backend.startFrom(projector); });
+}
+
+template <typename Change>
+void FallbackBackend::change(const Change& change) {
+  if (!makeOther_) return change(*backend_);
   try {
-    backend_->setContent(content);
+    change(*backend_);
   } catch (const Error& error) {
     goOver(error.summary());
   }

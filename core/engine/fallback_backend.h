@@ -39,6 +39,9 @@ class FallbackBackend : public EngineBackend {
   std::string_view name() const override { return backend_->name(); }
   /// Also switches if the device cannot hold the content. Throws: as the other back end.
   void setContent(const EngineContent& content) override;
+  /// The other back end has nothing that was projected last.
+  void contentFollowed() override;
+  void startFrom(std::span<const float> projector) override;
   /// False only if the other one is lost too.
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
@@ -49,6 +52,9 @@ class FallbackBackend : public EngineBackend {
 
  private:
   void goOver(const Message& why);
+  /// Switches if the device cannot.
+  template <typename Change>
+  void change(const Change& change);
 
   std::unique_ptr<EngineBackend> backend_;
   Make makeOther_;  // empty once it was used

@@ -16,12 +16,17 @@ struct OpenGlBackend::Objects {
   explicit Objects(const EngineVenue& engine);
 
   void setContent(const EngineContent& content);
+  /// What depends on what is free; `last`: with what was projected last.
+  void takeFree(std::span<const float> last);
+  void takeLight(std::span<const float> last);
+  void takeWeights() noexcept;
   void render(const ContentFrame& frame, const FrameRequest& request, int steps) noexcept;
   void place(const ContentFrame& frame, const FrameRequest& request) noexcept;
   void upload(const ContentFrame& frame) noexcept;
   void showPlaced() noexcept;
-  /// p = clamp(M u), or with the correction.
-  void invert(bool correction) noexcept;
+  enum class Inversion { first, correction, last };
+  /// p = clamp(M u), or with the correction; last: p as it is, with what follows from it, and C.
+  void invert(Inversion which) noexcept;
   /// The residual and its adjoint sums of all nodes.
   void passThrough(bool correction) noexcept;
   /// Adds the adjoint sums of coarser nodes to their pixels, and ends a step by an update of p.
@@ -55,8 +60,9 @@ struct OpenGlBackend::Objects {
   const EngineVenue& engine;
   const EngineContent* content = nullptr;
 
-  GlProgram placing{shaders::place};
-  GlProgram windows{shaders::windows}, windowsCorrected{shaders::windows, {"CORRECTION"}};
+  GlProgram placing{shaders::place, {"WEIGHTS"}};
+  GlProgram windows{shaders::windows}, windowsCorrected{shaders::windows, {"CORRECTION"}},
+      windowsOfLast{shaders::windows, {"CORRECTION", "LAST"}};
   GlProgram means{shaders::means}, gather{shaders::gather};
   GlProgram groupForwardBoth{shaders::group_forward}, groupLightBoth{shaders::group_light};
   GlProgram groupBackwardStep{shaders::group_backward},
@@ -67,7 +73,7 @@ struct OpenGlBackend::Objects {
   GlProgram sumLongStep{shaders::sum_nodes, {"LONG"}},
       sumLongCorrected{shaders::sum_nodes, {"LONG", "CORRECTION"}};
   GlProgram spreadStep{shaders::spread}, spreadCorrected{shaders::spread, {"CORRECTION"}};
-  GlProgram brightness{shaders::brightness}, brightnessLast{shaders::brightness, {"LAST"}};
+  GlProgram brightness{shaders::brightness, {"WEIGHTS"}}, brightnessLast{shaders::brightness, {"LAST"}};
   GlProgram showing{shaders::show_placed}, encoding{shaders::encode};
 
   GlBuffer tiles, windowRows, windowWeights;
@@ -77,6 +83,8 @@ struct OpenGlBackend::Objects {
   std::size_t columns = 0, groupSlots = 0, longCount = 0, nodeCount = 0, cameraPixels = 0,
               projectorPixels = 0;
   std::size_t freeValues = 0;
+  std::uint64_t freeVersion = 0;  // EngineContent's
+  bool hasLast = false;           // `light` holds what was projected last
 
   // Six vectors a camera pixel, see common.glsl; `known` is the content of `camera`.
   std::vector<float> known;

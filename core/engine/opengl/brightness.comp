@@ -18,9 +18,10 @@ void main() {
 #else
   vec2 sum = vec2(0.0);
   for (uint i = invocation(); i < pixels; i += 64u * 64u) {
-    float weight = camera[cameraStride * i + cameraBlack].w;
+    vec4 flood = camera[cameraStride * i + cameraFlood];
+    float weight = weightOf(camera[cameraStride * i + cameraBlack].w, flood.w);
     if (weight == 0.0) continue;
-    vec3 light = camera[cameraStride * i + cameraFlood].xyz * placed[i].xyz;
+    vec3 light = flood.xyz * placed[i].xyz;
     sum += weight * vec2(dot(light, wanted[i].xyz), dot(light, light));
   }
   part[lane] = sum;

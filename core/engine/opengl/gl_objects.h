@@ -84,6 +84,9 @@ class GlProgram {
   void setPairs(int location, std::span<const std::uint32_t> values) const noexcept {
     glProgramUniform2uiv(name_, location, static_cast<GLsizei>(values.size() / 2), values.data());
   }
+  void setFloats(int location, std::span<const float> values) const noexcept {
+    glProgramUniform1fv(name_, location, static_cast<GLsizei>(values.size()), values.data());
+  }
   void setMatrix(int location, const float* rowMajor) const noexcept {
     glProgramUniformMatrix3fv(name_, location, 1, GL_TRUE, rowMajor);
   }

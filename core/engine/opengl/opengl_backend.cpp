@@ -36,8 +36,13 @@ std::vector<float> knownOf(const compensation::MeasuredVenue& venue, const inver
     float* to = &known[knownFloats * i];
     std::copy_n(&venue.black[3 * i], 3, to);
     std::copy_n(&venue.flood[3 * i], 3, to + 4);
+    to[3] = venue.usable[i] != 0 ? 1.0f : 0.0f;
     std::copy_n(windows.unmix + 9 * i, 9, to + 12);
   }
+  const Rasters& cameras = venue.transport.cameras();
+  for (std::size_t view = 0; view < cameras.devices(); ++view)
+    for (std::size_t i = cameras.offset(view); i < cameras.offset(view) + cameras.size(view).count(); ++i)
+      known[knownFloats * i + 7] = static_cast<float>(view);
   return known;
 }
 
@@ -151,19 +156,34 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   static_assert(sizeof(ContentWarp::Footprint) == 20);
   footprints = GlBuffer(warp.footprints());
   weights = GlBuffer(warp.weights());
-  for (std::size_t i = 0; i < cameraPixels; ++i) {
-    known[knownFloats * i + 3] = next.weight[i];
-    std::copy_n(&next.lit[3 * i], 3, &known[knownFloats * i + 8]);
-  }
-  brightest.write(0, next.brightest.data(), sizeof(std::int32_t) * projectorPixels);
-  camera.write(0, known.data(), known.size() * sizeof(float));
-
-  std::vector<float> free(4 * projectorPixels);
-  for (std::size_t j = 0; j < projectorPixels; ++j) free[4 * j + 3] = next.free[j] ? 1.0f : 0.0f;
-  light.write(0, free.data(), free.size() * sizeof(float));
-  freeValues = 3 * static_cast<std::size_t>(std::count(next.free.begin(), next.free.end(), 1));
-  for (GlBuffer* buffer : {&wanted, &unmixed, &placed, &nodeLight}) buffer->clear();
   content = &next;
+  hasLast = false;
+  takeFree({});
+  takeWeights();
+  for (GlBuffer* buffer : {&wanted, &unmixed, &placed, &nodeLight}) buffer->clear();
+}
+
+void OpenGlBackend::Objects::takeWeights() noexcept {
+  for (const GlProgram* program : {&placing, &brightness}) program->setFloats(16, content->viewWeight);
+}
+
+void OpenGlBackend::Objects::takeFree(std::span<const float> last) {
+  freeVersion = content->freeVersion;
+  for (std::size_t i = 0; i < cameraPixels; ++i)
+    std::copy_n(&content->lit[3 * i], 3, &known[knownFloats * i + 8]);
+  brightest.write(0, content->brightest.data(), sizeof(std::int32_t) * projectorPixels);
+  camera.write(0, known.data(), known.size() * sizeof(float));
+  takeLight(last);
+  freeValues = 3 * static_cast<std::size_t>(std::count(content->free.begin(), content->free.end(), 1));
+}
+
+void OpenGlBackend::Objects::takeLight(std::span<const float> last) {
+  std::vector<float> values(4 * projectorPixels);
+  for (std::size_t j = 0; j < projectorPixels; ++j) {
+    if (!last.empty()) std::copy_n(&last[3 * j], 3, &values[4 * j]);
+    values[4 * j + 3] = content->free[j] ? 1.0f : 0.0f;
+  }
+  light.write(0, values.data(), values.size() * sizeof(float));
 }
 
 OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context)
@@ -188,8 +208,40 @@ void OpenGlBackend::setContent(const EngineContent& content) {
     objects_->setContent(content);
     if (!context_->failed()) return;
   }
+  throwLost();
+}
+
+void OpenGlBackend::throwLost() const {
   throw Error(ErrorKind::device, RELUCENT_MESSAGE("engine.graphics-card-lost", "the graphics card was lost"),
               RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"), name_);
+}
+
+void OpenGlBackend::contentFollowed() {
+  require(objects_->content != nullptr, "content that follows was not set");
+  GlContext::Current current(*context_);
+  if (current && !lost_) {
+    objects_->takeWeights();
+    if (objects_->content->freeVersion != objects_->freeVersion) {
+      std::vector<float> light(4 * objects_->projectorPixels), last(3 * objects_->projectorPixels);
+      objects_->light.read(0, light.data(), light.size() * sizeof(float));
+      for (std::size_t j = 0; j < objects_->projectorPixels; ++j) std::copy_n(&light[4 * j], 3, &last[3 * j]);
+      objects_->takeFree(last);
+    }
+    if (!context_->failed()) return;
+  }
+  throwLost();
+}
+
+void OpenGlBackend::startFrom(std::span<const float> projector) {
+  require(objects_->content != nullptr && projector.size() == 3 * objects_->projectorPixels,
+          "{} values of {} projector pixels", projector.size(), objects_->projectorPixels);
+  GlContext::Current current(*context_);
+  if (current && !lost_) {
+    objects_->takeLight(projector);
+    objects_->hasLast = true;
+    if (!context_->failed()) return;
+  }
+  throwLost();
 }
 
 template <typename Deliver>

@@ -21,6 +21,8 @@ class OpenGlBackend : public EngineBackend {
 
   std::string_view name() const override { return name_; }
   void setContent(const EngineContent& content) override;
+  void contentFollowed() override;
+  void startFrom(std::span<const float> projector) override;
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
   bool sharesTextures() const override;
@@ -40,6 +42,7 @@ class OpenGlBackend : public EngineBackend {
 
  private:
   struct Objects;
+  [[noreturn]] void throwLost() const;
   /// `deliver` takes the words of a frame that has been computed.
   template <typename Deliver>
   bool renderTo(const ContentFrame& frame, const FrameRequest& request, const Deliver& deliver,

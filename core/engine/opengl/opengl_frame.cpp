@@ -26,18 +26,20 @@ void OpenGlBackend::Objects::render(const ContentFrame& picture, const FrameRequ
                                     int steps) noexcept {
   place(picture, request);
   if (request.compensated) {
-    invert(false);
+    const bool goesOn = request.fromLast && hasLast;
+    invert(goesOn ? Inversion::last : Inversion::first);
     passThrough(true);
     spread(true, 0.0f);
-    invert(true);
+    invert(goesOn ? Inversion::last : Inversion::correction);
+    const std::vector<float>& lengths = engine.settings.compensator.steps;
     refining.take();
-    for (int step = 0; step < steps; ++step)
-      takeStep(engine.settings.compensator.steps[static_cast<std::size_t>(step)]);
+    for (int step = 0; step < steps; ++step) takeStep(lengths[static_cast<std::size_t>(step)]);
     refined.take();
   } else {
     showPlaced();
   }
   encode();
+  hasLast = request.compensated;
 }
 
 void OpenGlBackend::Objects::upload(const ContentFrame& picture) noexcept {
@@ -77,13 +79,15 @@ void OpenGlBackend::Objects::showPlaced() noexcept {
   counters.clear();
 }
 
-void OpenGlBackend::Objects::invert(bool correction) noexcept {
+void OpenGlBackend::Objects::invert(Inversion which) noexcept {
   const compensation::CompensatorSettings& settings = engine.settings.compensator;
   const inverse::WindowArrays arrays = engine.inverse.view();
   const Rasters& projectors = engine.venue.transport.projectors();
-  const GlProgram& program = correction ? windowsCorrected : windows;
-  if (correction) {
-    counters.clear(0, sizeof(std::uint32_t));
+  const GlProgram& program = which == Inversion::first  ? windows
+                             : which == Inversion::last ? windowsOfLast
+                                                        : windowsCorrected;
+  if (which != Inversion::first) counters.clear(0, sizeof(std::uint32_t));
+  if (which == Inversion::correction) {
     program.set(8, static_cast<float>(settings.correctionByInverse));
     program.set(9, static_cast<float>(settings.correctionByAdjoint));
   }
@@ -212,7 +216,7 @@ void OpenGlBackend::Objects::encode() noexcept {
 double OpenGlBackend::applyWindows() noexcept {
   GlContext::Current current(*context_);
   objects_->refining.take();
-  objects_->invert(false);
+  objects_->invert(Objects::Inversion::first);
   objects_->refined.take();
   return objects_->refined.seconds() - objects_->refining.seconds();
 }

@@ -58,12 +58,13 @@ void main() {
 
   uint c = cameraStride * i;
   vec4 black = camera[c + cameraBlack];
-  vec3 flood = camera[c + cameraFlood].xyz;
+  vec4 known = camera[c + cameraFlood];
+  vec3 flood = known.xyz;
   vec3 value = white * (lift + (1.0 - lift) * (mixing * mean));
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);
-  wanted[i] = vec4(rest, black.w * (reachable ? 1.0 : unreachableWeight));
+  wanted[i] = vec4(rest, weightOf(black.w, known.w) * (reachable ? 1.0 : unreachableWeight));
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
   unmixed[i] = vec4(unmix * clamp(rest, vec3(0.0), max(flood, vec3(0.0))), 0.0);
 }

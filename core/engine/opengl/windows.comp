@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The windows. Two pixels of a tile and their three channels an invocation, so that the invocations of a
 // tile read whole runs of weights. The first time p = clamp(M u); with CORRECTION
-// p = clamp(p + m M u + a C adjoint), and C itself.
+// p = clamp(p + m M u + a C adjoint), and C itself; with LAST, too, p stays, and M is not read.
 layout(std430, binding = 0) readonly buffer Tiles { uvec4 tileAt[]; };  // first row, scale of each channel
 layout(std430, binding = 1) readonly buffer Rows { uint row[]; };
 layout(std430, binding = 2) readonly buffer Weights { uint codePair[]; };
@@ -38,7 +38,11 @@ uint store(uint tile, uint inTile, vec3 value) {
   float least = 1e-7 * uintBitsToFloat(largestBound);
   vec3 c = mix(vec3(0.0), before.w / bound, greaterThan(bound, vec3(least)));
   sums[2u * j + 1u] = vec4(c, 0.0);
+#ifdef LAST
+  value = before.w * before.xyz;
+#else
   value = before.xyz + byInverse * before.w * value + byAdjoint * c * sums[2u * j].xyz;
+#endif
   uint cut = visiblyCut(value);
 #else
   value *= before.w;
@@ -58,7 +62,11 @@ void main() {
   if (tile < firstTile + tiles) {
     vec3 even = vec3(0.0), odd = vec3(0.0);
     uvec4 here = tileAt[tile];
+#ifdef LAST
+    uint end = here.x;
+#else
     uint end = tileAt[tile + 1u].x;
+#endif
     for (uint k = here.x; k < end; ++k) {
       vec3 u = unmixed[row[k]].xyz;
       uint place = 3u * pairs * k + pair - firstWord;

@@ -4,6 +4,7 @@
 #include "core/engine/engine_backends.h"
 #include "relucent/base/error.h"
 #include "relucent/engine/fallback_backend.h"
+#include "relucent/engine/view_follower.h"
 
 using namespace relucent;
 using namespace relucent::engine;
@@ -23,6 +24,12 @@ class FailingBackend : public EngineBackend {
       throw Error(ErrorKind::device, Message::plain("no memory left"), Message::plain("try again"));
     cpu_.setContent(content);
   }
+  void contentFollowed() override {
+    takeOrFail([this] { cpu_.contentFollowed(); });
+  }
+  void startFrom(std::span<const float> projector) override {
+    takeOrFail([&] { cpu_.startFrom(projector); });
+  }
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override {
     if (frames_-- <= 0) return false;
@@ -35,6 +42,12 @@ class FailingBackend : public EngineBackend {
   }
 
  private:
+  void takeOrFail(const std::function<void()>& take) const {
+    if (frames_ <= 0)
+      throw Error(ErrorKind::device, Message::plain("the card is gone"), Message::plain("try again"));
+    take();
+  }
+
   CpuBackend cpu_;
   int frames_;
   bool takesContent_;
@@ -82,6 +95,43 @@ class TestFallbackBackend : public QObject {
     QCOMPARE(told.size(), std::size_t{lost ? 1u : 0u});
     if (lost) QVERIFY(told[0].starts_with("scripted: ") && told[0].find("CPU") != std::string::npos);
     QCOMPARE(backend.name().starts_with("CPU"), lost);
+  }
+
+  /// Law: lost while content follows a viewer, or is given a start, the other one has what it follows to.
+  void losesNoViewer_data() {
+    QTest::addColumn<bool>("starts");
+    QTest::newRow("follows") << false;
+    QTest::newRow("starts") << true;
+  }
+  void losesNoViewer() {
+    QFETCH(bool, starts);
+    EngineScene made = engineSceneOf("two views");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::natural, {37, 28}, 3);
+    EngineContent placed = prepareContent(engine, content.size());
+    ViewFollower follower(engine, placed);
+    int told = 0;
+    FallbackBackend backend(
+        std::make_unique<FailingBackend>(engine, 1), [&] { return std::make_unique<CpuBackend>(engine); },
+        [&](const Message&) { ++told; });
+    backend.setContent(placed);
+    std::vector<std::uint32_t> words(engine.brightest.size()), expected(words.size());
+    FrameReport report;
+    QVERIFY(backend.render(frameOf(content), {}, words, report));
+    follower.follow(std::vector<double>{0.25, 0.75}, placed);
+    if (starts) {
+      backend.startFrom(ProjectorStack(3 * words.size(), 0.5f));
+    } else {
+      backend.contentFollowed();
+    }
+    QCOMPARE(told, 1);
+    FrameRequest request;
+    request.fromLast = !starts;
+    QVERIFY(backend.render(frameOf(content), request, words, report));
+    CpuBackend alone(engine);
+    alone.setContent(placed);
+    QVERIFY(alone.render(frameOf(content), {}, expected, report));
+    QVERIFY(words == expected);
   }
 
   /// Law: lost while it renders to textures, the frame is there to be rendered to memory.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/engine/view_follower.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
+#include "relucent/compensation/stacks.h"
+
+namespace relucent::engine {
+namespace {
+
+/// Each is as large as the words of all projectors and the pictures of all cameras.
+constexpr std::size_t mostKept = 8;
+
+CameraMask insideOf(const EngineContent& content, std::size_t pixels) {
+  CameraMask inside(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) inside[i] = content.warp.inside(i);
+  return inside;
+}
+
+}  // namespace
+
+ViewFollower::ViewFollower(const EngineVenue& engine, const EngineContent& content)
+    : engine_(engine),
+      white_(engine.venue, insideOf(content, engine.venue.usable.size())),
+      correspondence_(engine.venue.transport, seesProjection(engine.venue),
+                      compensation::DirectLightSettings{}) {
+  target_.inside = insideOf(content, engine.venue.usable.size());
+  target_.placements = content.placements;
+  for (std::size_t view = 0; view < content.viewWeight.size(); ++view)
+    shows_.push_back(white_.isPossible(view, engine.settings.target.reachablePercentile));
+}
+
+const ViewFollower::Lit& ViewFollower::litFor(const std::vector<bool>& views) {
+  if (const auto known = lit_.find(views); known != lit_.end()) return known->second;
+  if (lit_.size() == mostKept) lit_.clear();
+  compensation::ContentCorrespondence found = correspondence_.of(target_);
+  const auto full = compensation::stackOf<ProjectorStack>(
+      3 * found.free.size(), [&](std::size_t j) { return found.free[j / 3] ? 1.0f : 0.0f; });
+  Lit lit{std::move(found.free), std::move(found.brightest), engine_.venue.transport.apply(full),
+          ++versions_};
+  return lit_.emplace(views, std::move(lit)).first->second;
+}
+
+std::vector<double> ViewFollower::weightsFor(std::span<const compensation::Position> cameras,
+                                             std::span<const double> home,
+                                             const compensation::Position& viewer, double presence) const {
+  constexpr double least = 1e-3;
+  std::vector<double> weights = compensation::viewerWeights(cameras, viewer);
+  double near = 0.0, all = 0.0;
+  for (std::size_t view = 0; view < weights.size(); ++view) {
+    weights[view] *= shows(view) ? home[view] : 0.0;
+    near += weights[view];
+    all += home[view];
+  }
+  if (!(near > 0.0)) return {};
+  for (std::size_t view = 0; view < weights.size(); ++view) {
+    const double share = home[view] / all;
+    weights[view] = std::max(presence * weights[view] / near + (1.0 - presence) * share, least * share);
+  }
+  return weights;
+}
+
+void ViewFollower::follow(std::span<const double> weights, EngineContent& content) {
+  const Rasters& cameras = engine_.venue.transport.cameras();
+  const double most = weights.empty() ? 0.0 : std::ranges::max(weights);
+  require(weights.size() == cameras.devices() && most > 0.0, "{} weights, at most {}, of {} views",
+          weights.size(), most, cameras.devices());
+  std::vector<bool> asked;
+  content.viewWeight.clear();
+  for (double weight : weights) {
+    content.viewWeight.push_back(static_cast<float>(weight / most));
+    asked.push_back(content.viewWeight.back() > 0.0f);
+  }
+  target_.viewWeight = content.viewWeight;
+  content.isWeighted = std::ranges::any_of(content.viewWeight, [](float weight) { return weight != 1.0f; });
+  content.white = white_.at(content.viewWeight, engine_.settings.target.reachablePercentile);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
+    parallelFor(begin, end, 16384, [&](std::size_t i) {
+      content.weight[i] = engine_.venue.usable[i] != 0 ? content.viewWeight[camera] : 0.0f;
+    });
+  }
+  const Lit& lit = litFor(asked);
+  if (content.freeVersion == lit.version) return;
+  content.free = lit.free;
+  content.brightest = lit.brightest;
+  content.lit = lit.lit;
+  content.freeVersion = lit.version;
+}
+
+}  // namespace relucent::engine

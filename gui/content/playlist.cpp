@@ -90,6 +90,10 @@ void Playlist::openNext(qsizetype after) {
     }
     index = 0;
   }
+  open(index);
+}
+
+void Playlist::open(qsizetype index) {
   openingIndex_ = index;
   opening_ = startedInBackground([item = settings_.items[index], canvas = canvas_] {
     return std::shared_ptr<ContentSource>(openContent(item, canvas));
@@ -142,6 +146,21 @@ Playlist::Status Playlist::status() const {
   return status_;
 }
 
+void Playlist::playItem(qsizetype index) {
+  require(index >= 0 && index < settings_.items.size(), "item {} of {}", index, settings_.items.size());
+  QMutexLocker lock(&statusGuard_);
+  wanted_ = index;
+}
+
+void Playlist::openWanted() {
+  QMutexLocker lock(&statusGuard_);
+  if (!wanted_) return;
+  ended_ = false;
+  jumps_ = true;
+  next_ = {};
+  open(*std::exchange(wanted_, std::nullopt));
+}
+
 ContentPicture Playlist::at(ContentTime time) {
   ContentPicture picture = pictureAt(time);
   QMutexLocker lock(&statusGuard_);
@@ -153,10 +172,12 @@ ContentPicture Playlist::pictureAt(ContentTime time) {
   if (!current_.source || time < last_) begin(time);
   last_ = time;
   if (!current_.source) return {};
+  openWanted();
 
   while (nextIsReady(time)) {
     ContentTime fade = fadeBetween(current_, next_);
-    ContentTime fadeBegin = std::max(current_.begin + lengthOf(current_) - fade, next_.begin);
+    ContentTime fadeBegin =
+        jumps_ ? next_.begin : std::max(current_.begin + lengthOf(current_) - fade, next_.begin);
     if (time < fadeBegin) break;
     next_.begin = fadeBegin;
     ContentTime into = time - fadeBegin;
@@ -165,6 +186,7 @@ ContentPicture Playlist::pictureAt(ContentTime time) {
                          static_cast<double>(into.count()) / static_cast<double>(fade.count())),
               nextFrameNumber()};
     current_ = std::exchange(next_, {});
+    jumps_ = false;
     openNext(current_.index);
   }
   return frameOf(current_, time);

@@ -7,6 +7,7 @@
 #include <QString>
 #include <QStringList>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "content/canvas.h"
@@ -62,6 +63,10 @@ class Playlist : public ContentSource {
     std::vector<Message>
         skipped;  // the items that could not be read so far, one sentence each, the newest last
   };
+  /// Another item, from 0, with the usual fade as soon as it is ready. May be called from any thread.
+  /// Contract: it is one of the list's.
+  void playItem(qsizetype index);
+
   /// State after the last frame. May be called from any thread.
   Status status() const;
 
@@ -77,6 +82,8 @@ class Playlist : public ContentSource {
   ContentTime fadeBetween(const Playing& item, const Playing& next) const;
   void begin(ContentTime now);
   void openNext(qsizetype after);
+  void open(qsizetype index);
+  void openWanted();
   bool nextIsReady(ContentTime now);
   ContentPicture frameOf(const Playing& item, ContentTime time);
 
@@ -85,12 +92,14 @@ class Playlist : public ContentSource {
   Playing current_, next_;
   QFuture<Outcome<std::shared_ptr<ContentSource>>> opening_;
   qsizetype openingIndex_ = -1;
+  bool jumps_ = false;  // the next one need not wait for the present one's end
   bool ended_ = false;
   ContentTime last_{0};
   ContentTime tryAgain_{0};  // after nothing could be read
   std::vector<Message> skipped_;
   mutable QMutex statusGuard_;
   Status status_;
+  std::optional<qsizetype> wanted_;  // of playItem(), guarded too
 };
 
 }  // namespace relucent::gui

@@ -92,6 +92,37 @@ class TestPlaylist : public QObject {
     QCOMPARE(grey(settledAt(playlist, 1h)), 20);
   }
 
+  /// At once, if it can be read, and from there on in order.
+  void jumpsToAnItem() {
+    Playlist playlist(list({10, 20, 30, -1, 40}, 2.0, 0.0), small);
+    QCOMPARE(grey(settledAt(playlist, 0s)), 10);
+    playlist.playItem(2);
+    QCOMPARE(grey(playlist.at(100ms)), 10);  // still being read
+    QCOMPARE(grey(settledAt(playlist, 200ms)), 30);
+    QCOMPARE(playlist.status().playing, qsizetype{2});
+    QCOMPARE(grey(settledAt(playlist, 2100ms)), 30);
+    playlist.playItem(3);  // which is gone: the one behind it
+    playlist.at(2150ms);
+    settledAt(playlist, 2160ms);
+    QCOMPARE(grey(settledAt(playlist, 2180ms)), 40);
+    QCOMPARE(grey(settledAt(playlist, 4100ms)), 40);
+    QCOMPARE(grey(settledAt(playlist, 4200ms)), 10);
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, playlist.playItem(5));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, playlist.playItem(-1));
+  }
+
+  /// Also where nothing would come any more.
+  void jumpsFromTheEnd() {
+    PlaylistSettings once = list({10, 20}, 2.0, 0.0);
+    once.loop = false;
+    Playlist playlist(once, small);
+    QCOMPARE(grey(settledAt(playlist, 0s)), 10);
+    QCOMPARE(grey(settledAt(playlist, 9s)), 20);
+    playlist.playItem(0);
+    playlist.at(9100ms);
+    QCOMPARE(grey(settledAt(playlist, 9200ms)), 10);
+  }
+
   void goingBackBeginsAnew() {
     Playlist playlist(list({10, 20, 30}, 2.0, 0.0), small);
     QCOMPARE(grey(settledAt(playlist, 0s)), 10);

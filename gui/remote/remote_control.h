@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QObject>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "remote/osc_message.h"
+#include "remote/osc_server.h"
+#include "remote/remote_actions.h"
+
+namespace relucent::gui {
+
+/// An address that is listened to.
+struct RemoteCommand {
+  const char* address;
+  const char* arguments;    // for people: "0 or 1"
+  const char* what;         // a sentence for the table
+  std::size_t least, most;  // arguments
+  /// Why it cannot be carried out; empty: done.
+  Message (*run)(RemoteActions& actions, const std::vector<OscArgument>& arguments);
+  /// The present value; nullptr: it has none.
+  std::vector<OscArgument> (*value)(const RemoteState& state);
+};
+/// All of them: the one table, from which README and tests take theirs.
+std::span<const RemoteCommand> remoteCommands();
+
+/// Carries out OSC messages. An address without arguments, where it needs some, asks for its value. Whoever
+/// sent it is answered with the value, or with /error ADDRESS SENTENCE. The position of the viewer comes many
+/// times a second: it is answered by errors only, and by each once a minute. Where a feedback address is set,
+/// every value goes there whenever it changes, and all of them at first.
+class RemoteControl : public QObject {
+  Q_OBJECT
+
+ public:
+  static constexpr std::size_t mostSentences = 10;
+
+  /// `server` and `actions` must outlive it.
+  RemoteControl(OscServer& server, RemoteActions& actions, std::optional<OscPlace> feedback,
+                QObject* parent = nullptr);
+
+  /// Sends what has changed since the last time to the feedback address. Whoever changes the state by other
+  /// means calls it.
+  void report();
+
+ Q_SIGNALS:
+  /// A sentence for the log: why a message cannot be carried out; the same once a minute, and no more than
+  /// `mostSentences` of all.
+  void warned(const QString& sentence);
+
+ private:
+  void obey(const OscMessage& message, const OscPlace& from);
+  /// `kind`: what else differs in the sentences of one kind is not told again.
+  void refuse(const OscMessage& message, const OscPlace& from, const QString& kind, const QString& sentence);
+  bool isNew(const QString& kind);
+
+  OscServer& server_;
+  RemoteActions& actions_;
+  std::optional<OscPlace> feedback_;
+  std::vector<std::vector<OscArgument>> reported_;  // of each command
+  std::set<QString> told_;                          // kinds of sentences in the minute that began at
+  OscServer::Time minute_;
+};
+
+}  // namespace relucent::gui

@@ -47,6 +47,19 @@ const QCommandLineOption backend("backend",
                                  "Device for computing: cpu, opengl (including software renderers), or "
                                  "automatic, a graphics card if there is one.",
                                  "NAME", "automatic");
+const QCommandLineOption cameraPosition("camera-position",
+                                        "Where a camera stands, in the units in which the viewer's position "
+                                        "is told; once for each, for viewers who "
+                                        "move. Default: as the calibration has it.",
+                                        "X,Y,Z");
+const QCommandLineOption osc("osc", "Listen to OSC remote controls on this UDP port.", "PORT");
+const QCommandLineOption oscAddress(
+    "osc-address",
+    "The address of this computer on which to listen to them; 0.0.0.0: on all. "
+    "Whoever reaches it controls the show.",
+    "ADDRESS", "127.0.0.1");
+const QCommandLineOption oscFeedback("osc-feedback", "Tell every change to this address by OSC.",
+                                     "HOST:PORT");
 const QCommandLineOption installService(
     "install-service",
     "Start this show at every log-in and restart it after a failure: a systemd user unit.");
@@ -61,11 +74,39 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--content", contentFromRoot(parser.value(content)),
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
-  for (const QCommandLineOption& option : {schedule, canvas, backend})
+  for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
+  for (const QCommandLineOption& option : {schedule, canvas, backend, osc, oscAddress, oscFeedback})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive})
     if (parser.isSet(option)) again << "--" + option.names().first();
   return again;
+}
+
+/// Of "x,y" or "x,y,z".
+compensation::Position positionFrom(const QString& text) {
+  const QStringList parts = text.split(',');
+  compensation::Position position{};
+  bool isPosition = parts.size() == 2 || parts.size() == 3;
+  for (qsizetype k = 0; k < parts.size() && isPosition; ++k)
+    position[static_cast<std::size_t>(k)] = parts[k].toDouble(&isPosition);
+  if (!isPosition || !compensation::isFinite(position))
+    throw WrongArguments(QString("'%1' is no camera's position: write x,y or x,y,z, camera after camera")
+                             .arg(text)
+                             .toStdString());
+  return position;
+}
+
+std::optional<OscPlace> oscPlaceOf(const QCommandLineParser& parser) {
+  if (!parser.isSet(osc)) {
+    if (parser.isSet(oscAddress) || parser.isSet(oscFeedback))
+      throw WrongArguments("--osc-address and --osc-feedback need --osc PORT");
+    return std::nullopt;
+  }
+  const OscPlace place{QHostAddress(parser.value(oscAddress)), parser.value(osc).toUShort()};
+  if (place.port == 0) throw WrongArguments("the port of --osc must be 1 to 65535");
+  if (place.host.isNull())
+    throw WrongArguments("the address to listen on must be a number, as 127.0.0.1 or 0.0.0.0");
+  return place;
 }
 
 ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder) {
@@ -88,6 +129,15 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   settings.content.loop = settings.content.loop || parser.isSet(loop);
   settings.displays = parser.values(display);
   settings.adaptiveRange = parser.isSet(adaptive);
+  for (const QString& position : parser.values(cameraPosition))
+    settings.cameras.push_back(positionFrom(position));
+  settings.osc = oscPlaceOf(parser);
+  if (parser.isSet(oscFeedback)) {
+    settings.oscFeedback = oscPlaceFrom(parser.value(oscFeedback));
+    if (!settings.oscFeedback)
+      throw WrongArguments(
+          "the feedback address must be HOST:PORT with a number as host, as 192.168.1.20:9000");
+  }
   settings.folder = folder;
   return settings;
 }
@@ -99,14 +149,16 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.setApplicationDescription(
       "Plays content in a calibrated venue, with compensation, until it is terminated.\n"
       "Keys at the projector: C compensation on and off, space freeze, B black, T test charts,\n"
-      "O overlay.");
+      "O overlay. Arrow keys and page up and down move the viewer where the cameras' positions\n"
+      "are known, Home ends that.");
   QCommandLineOption help = parser.addHelpOption(), version = parser.addVersionOption();
   parser.addPositionalArgument("show", "Play a calibrated venue.", "show");
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content, loop, schedule, display, canvas, adaptive, backend, log, installService,
-                     installAutostart, removeService, removeAutostart});
+  parser.addOptions({content, loop, schedule, display, canvas, adaptive, backend, cameraPosition, osc,
+                     oscAddress, oscFeedback, log, installService, installAutostart, removeService,
+                     removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))

@@ -54,7 +54,8 @@ int run(const PlayShow& play) {
         [] {
           SharedGl* shared = SharedGl::instance();
           return shared != nullptr ? shared->host() : nullptr;
-        });
+        },
+        settings.cameras);
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

@@ -15,6 +15,8 @@ class ContentClock {
   explicit ContentClock(Now now = std::chrono::steady_clock::now);
 
   ContentTime time() const;
+  /// Of the steady clock, paused or not.
+  std::chrono::steady_clock::time_point now() const { return now_(); }
   bool isPaused() const { return paused_; }
   void pause();
   void resume();

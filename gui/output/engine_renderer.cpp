@@ -17,12 +17,33 @@ namespace {
 /// Of a frame's time, what computing may take: the rest is for upload, swap and whatever else runs.
 constexpr double shareOfBudget = 0.7;
 
+/// Empty if not all are known, or there are no two.
+std::vector<compensation::Position> positionsOf(const std::vector<compensation::ViewSettings>& views,
+                                                std::size_t cameras) {
+  std::vector<compensation::Position> positions;
+  for (const compensation::ViewSettings& view : views)
+    if (view.position) positions.push_back(*view.position);
+  if (positions.size() != cameras || cameras < 2) positions.clear();
+  return positions;
+}
+
+void checkCount(const std::vector<compensation::Position>& positions, std::size_t cameras) {
+  if (positions.empty() || positions.size() == cameras) return;
+  throw Error(ErrorKind::input,
+              RELUCENT_ENGLISH_MESSAGE("show.camera-positions-differ",
+                                       "{} positions are given, and the calibration has {} cameras")
+                  .with(positions.size(), cameras),
+              RELUCENT_ENGLISH_MESSAGE("show.give-position-of-every-camera",
+                                       "give the position of every camera, from the first on"));
+}
+
 }  // namespace
 
 EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
                                bool adaptiveRange, Progress& progress,
                                const engine::FallbackBackend::Notify& notify, engine::BackendChoice choice,
-                               const engine::MakeGlHost& host)
+                               const engine::MakeGlHost& host,
+                               const std::vector<compensation::Position>& cameras)
     : canvas_(canvas) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(calibration, calibration::CalibrationFolder::Access::read);
@@ -36,6 +57,12 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   backend_ = engine::makeBackend(*venue_, choice, notify, host);
   backend_->setContent(*content_);
   if (adaptiveRange) range_.emplace(*venue_, *content_);
+  const std::size_t views = calibration_.venue.transport.cameras().devices();
+  checkCount(cameras, views);
+  if (views > 1) cameras_ = cameras.empty() ? positionsOf(settings.target.views, views) : cameras;
+  for (std::size_t view = 0; view < views; ++view)
+    home_.push_back(view < settings.target.views.size() ? settings.target.views[view].weight : 1.0);
+  if (!cameras_.empty()) follower_.emplace(*venue_, *content_);
   const compensation::Method method = chosen.content.method;
   // Brightness that follows the content is the engine's.
   if (!adaptiveRange || method != compensation::Method::refined)
@@ -68,10 +95,20 @@ int EngineRenderer::stepsFor(const RenderRequest& request) {
 
 RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request,
                                      const Outdated& outdated) {
-  if (!still_ || !request.thorough || !request.compensated) return framed(content, request);
+  // Brightness is the engine's.
+  if (!still_ || !request.thorough || !request.compensated || request.brightness != 1.0)
+    return framed(content, request);
   Stopwatch watch;
-  if (const compensation::Compensation* solved = still_->solve(content, outdated))
+  if (const compensation::Compensation* solved =
+          still_->solve(content, outdated, weightsFor(request.viewer))) {
+    if (follower_) {
+      follow(request.viewer);
+      backend_->startFrom(solved->projector);
+      number_ = content.number;
+      last_ = request;
+    }
     return encoded(*solved, watch.seconds());
+  }
   RenderRequest inHaste = request;
   inHaste.thorough = false;
   return framed(content, inHaste);
@@ -79,6 +116,19 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
 
 void EngineRenderer::interrupt() {
   if (still_) still_->interrupt();
+}
+
+std::vector<double> EngineRenderer::weightsFor(const std::optional<FrameViewer>& viewer) const {
+  if (!follower_ || !viewer) return {};
+  return follower_->weightsFor(cameras_, home_, viewer->position, viewer->presence);
+}
+
+void EngineRenderer::follow(const std::optional<FrameViewer>& viewer) {
+  if (!follower_ || viewer == followed_) return;
+  const std::vector<double> weights = weightsFor(viewer);
+  follower_->follow(weights.empty() ? home_ : weights, *content_);
+  backend_->contentFollowed();
+  followed_ = viewer;
 }
 
 RenderedFrame EngineRenderer::framed(const ContentPicture& content, const RenderRequest& request) {
@@ -102,11 +152,18 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   engine::FrameRequest wanted;
   wanted.compensated = request.compensated;
   wanted.steps = stepsFor(request);
+  wanted.brightness = static_cast<float>(request.brightness);
+  follow(request.viewer);
+  // The same picture for somebody who has walked on: not from the beginning.
+  wanted.fromLast = follower_ && request.compensated && !request.thorough && content.number == number_ &&
+                    last_.compensated &&
+                    (request.viewer != last_.viewer || request.brightness != last_.brightness);
+  if (wanted.fromLast) wanted.steps = std::max(wanted.steps, 1);
   bool settled = true;
   if (range_ && request.compensated) {
     auto now = std::chrono::steady_clock::now();
     engine::DisplayRange range = range_->follow(frame, now - std::exchange(rangeAsked_, now));
-    wanted.brightness = range.brightness;
+    wanted.brightness *= range.brightness;
     wanted.blackLift = range.blackLift;
     settled = range_->settled();
   }
@@ -114,6 +171,8 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   RenderedFrame rendered;
   rendered.drives = computed(frame, wanted, report);
   if (request.compensated && !request.thorough) budget_->add(report);
+  number_ = content.number;
+  last_ = request;
 
   rendered.clipped = report.clipped;
   rendered.steps = report.steps;

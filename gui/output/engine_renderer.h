@@ -14,6 +14,7 @@
 #include "relucent/engine/engine_plan.h"
 #include "relucent/engine/fallback_backend.h"
 #include "relucent/engine/step_budget.h"
+#include "relucent/engine/view_follower.h"
 #include "relucent/pipeline/measured_venue.h"
 
 namespace relucent::gui {
@@ -26,15 +27,18 @@ class EngineRenderer : public FrameRenderer {
   /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called
   /// once, on the rendering thread, when a graphics card is lost or unusable and the processor takes over.
   /// `host`: of SharedGl; with it pictures stay on the graphics card where they are computed there.
-  /// Throws: as loadCalibration(), prepareVenue() and prepareContent().
+  /// `cameras`: where they stand; empty: as the calibration's content has it. Throws: as loadCalibration(),
+  /// prepareVenue() and prepareContent(); Error{input} if these are not as many as the cameras.
   EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
                  Progress& progress, const engine::FallbackBackend::Notify& notify = {},
                  engine::BackendChoice choice = engine::BackendChoice::automatic,
-                 const engine::MakeGlHost& host = {});
+                 const engine::MakeGlHost& host = {},
+                 const std::vector<compensation::Position>& cameras = {});
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }
   QString name() const override;
+  std::vector<compensation::Position> cameras() const override { return cameras_; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override;
   void interrupt() override;
@@ -48,6 +52,9 @@ class EngineRenderer : public FrameRenderer {
   /// Views of `words_`, one per projector.
   std::vector<DrivePicture> drives() const;
   int stepsFor(const RenderRequest& request);
+  /// Weights of the views for that viewer; empty: as the calibration has them.
+  std::vector<double> weightsFor(const std::optional<FrameViewer>& viewer) const;
+  void follow(const std::optional<FrameViewer>& viewer);
 
   Canvas canvas_;
   pipeline::MeasuredCalibration calibration_;
@@ -61,6 +68,14 @@ class EngineRenderer : public FrameRenderer {
   CardPictures cards_{{}};
   std::optional<engine::StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // refresh time of the budget
+
+  std::vector<compensation::Position> cameras_;  // empty: nobody can be followed
+  std::vector<double> home_;                     // weights of the views as the calibration has them
+  std::optional<engine::ViewFollower> follower_;
+  std::optional<FrameViewer> followed_;
+  // What the back end has projected last, to go on from.
+  std::uint64_t number_ = 0;
+  RenderRequest last_;
 };
 
 }  // namespace relucent::gui

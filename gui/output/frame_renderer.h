@@ -4,19 +4,32 @@
 #include <QSize>
 #include <QString>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "content/canvas.h"
 #include "content/content_source.h"
 #include "output/drive_picture.h"
+#include "relucent/compensation/viewer.h"
 
 namespace relucent::gui {
 
+/// For whom a frame is: a viewer at a place, in the units of the cameras' positions, who counts beside whom
+/// the content is otherwise for.
+struct FrameViewer {
+  compensation::Position position{};
+  double presence = 1.0;  // 0: not at all, 1: he alone
+
+  bool operator==(const FrameViewer&) const = default;
+};
+
 /// Options of a frame besides its content.
 struct RenderRequest {
-  bool compensated = true;      // false: only placed, not corrected
-  bool thorough = false;        // as well as possible, without a time limit: for still pictures
-  double seconds = 1.0 / 60.0;  // that there are for it otherwise
+  bool compensated = true;              // false: only placed, not corrected
+  bool thorough = false;                // as well as possible, without a time limit: for still pictures
+  double seconds = 1.0 / 60.0;          // that there are for it otherwise
+  double brightness = 1.0;              // of white, relative to the calibration's
+  std::optional<FrameViewer> viewer{};  // none: as the calibration's content has it
 
   bool operator==(const RenderRequest&) const = default;
 };
@@ -43,6 +56,8 @@ class FrameRenderer {
   virtual Canvas canvas() const = 0;
   /// Name of the device, for display.
   virtual QString name() const = 0;
+  /// Where all cameras stand, for RenderRequest::viewer; empty: not known, or there is only one.
+  virtual std::vector<compensation::Position> cameras() const { return {}; }
   /// A thorough rendering that becomes `outdated` may end early with the result of a fast one.
   /// Throws: Error{device} if no device is left.
   virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request,

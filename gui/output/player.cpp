@@ -39,7 +39,8 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
       renderer_(std::move(renderer)),
       content_(std::move(content)),
       windows_(std::move(windows)),
-      clock_(std::move(clock)) {
+      clock_(std::move(clock)),
+      cameras_(renderer_->cameras()) {
   require(windows_.size() == renderer_->projectors().size(), "{} windows for {} projectors", windows_.size(),
           renderer_->projectors().size());
   pace_.setTimerType(Qt::PreciseTimer);
@@ -88,11 +89,13 @@ void Player::beginFrame() {
   begun_.start();
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
+  request_.viewer = viewer();
   working_.setFuture(startedInBackground([renderer = renderer_, content = chart_ ? chartContent_ : content_,
                                           request = request_, clock = clock_, time, last = last_]() -> Frame {
     ContentPicture picture = content->at(time);
     if (picture.image.isNull()) return {};
     bool same = picture.number == last.content && request.compensated == last.request.compensated &&
+                request.brightness == last.request.brightness && request.viewer == last.request.viewer &&
                 !last.rendered.drives.empty();
     bool rests = same && last.rendered.settled;
     if (rests && (last.request.thorough || time - last.since < standsStill)) return last;
@@ -180,6 +183,35 @@ void Player::setCompensated(bool compensated) {
   renderer_->interrupt();
 }
 
+void Player::setBrightness(double brightness) {
+  request_.brightness = brightness;
+  renderer_->interrupt();
+}
+
+bool Player::moveViewer(const compensation::Position& position) {
+  if (!canFollowViewers() || !viewer_.moveTo(position, viewerTime())) return false;
+  renderer_->interrupt();
+  return true;
+}
+
+std::optional<FrameViewer> Player::viewer() const {
+  const double presence = viewer_.presence(viewerTime());
+  if (presence == 0.0) return std::nullopt;
+  return FrameViewer{*viewer_.last(), presence};
+}
+
+bool Player::walk(std::size_t axis, double steps) {
+  if (!canFollowViewers()) return false;
+  compensation::Position place{};
+  for (const compensation::Position& camera : cameras_)
+    for (std::size_t k = 0; k < place.size(); ++k)
+      place[k] += camera[k] / static_cast<double>(cameras_.size());
+  if (viewer()) place = *viewer_.last();
+  constexpr double stepsAcross = 20.0;
+  place[axis] += steps / stepsAcross * compensation::widestDistance(cameras_);
+  return moveViewer(place);
+}
+
 void Player::setOverlay(bool shown) {
   shown ? overlayed_.start() : overlayed_.stop();
   present();
@@ -218,6 +250,23 @@ bool Player::handleKey(int key) {
       return true;
     case Qt::Key_O:
       setOverlay(!hasOverlay());
+      return true;
+    case Qt::Key_Left:
+      return walk(0, -1.0);
+    case Qt::Key_Right:
+      return walk(0, 1.0);
+    case Qt::Key_Down:
+      return walk(1, -1.0);
+    case Qt::Key_Up:
+      return walk(1, 1.0);
+    case Qt::Key_PageDown:
+      return walk(2, -1.0);
+    case Qt::Key_PageUp:
+      return walk(2, 1.0);
+    case Qt::Key_Home:
+      if (!canFollowViewers()) return false;
+      viewer_.leave();
+      renderer_->interrupt();
       return true;
     default:
       return false;

@@ -46,6 +46,12 @@ class Player : public QObject {
   void setCompensated(bool compensated);
   /// Shows figures over the picture, updated twice a second.
   void setOverlay(bool shown);
+  /// Of white, relative to the calibration's.
+  void setBrightness(double brightness);
+  /// The picture is for a viewer at this place, until he has not been heard of for two seconds; then it
+  /// becomes again what it was without him. Whether it can be: the places of all cameras are known, and this
+  /// one is finite.
+  bool moveViewer(const compensation::Position& position);
   /// Other content from the next frame on, of the renderer's canvas.
   void setContent(std::shared_ptr<ContentSource> content);
   /// A test chart instead of the content; none: the content, which has continued meanwhile.
@@ -53,12 +59,17 @@ class Player : public QObject {
   bool isFrozen() const { return clock_.isPaused(); }
   bool isBlack() const { return black_; }
   bool isCompensated() const { return request_.compensated; }
+  double brightness() const { return request_.brightness; }
+  /// For whom the picture is now; none: no viewer has been heard of lately.
+  std::optional<FrameViewer> viewer() const;
+  bool canFollowViewers() const { return !cameras_.empty(); }
   bool hasOverlay() const { return overlayed_.isActive(); }
   std::optional<TestChart> chart() const { return chart_; }
 
   /// Handles a key pressed at a projector's window or the operator's view: C compensation on and off, space
-  /// freeze, B black, T the next test chart and after the last one the content, O overlay. Returns whether
-  /// the key is used.
+  /// freeze, B black, T the next test chart and after the last one the content, O overlay; where the cameras'
+  /// places are known, the arrow keys and page up and down walk along the axes x, y and z, a twentieth of the
+  /// widest distance of two cameras each, and Home ends it. Returns whether the key is used.
   bool handleKey(int key);
 
  Q_SIGNALS:
@@ -86,6 +97,8 @@ class Player : public QObject {
   void frameReady();
   void present();
   void nextChart();
+  bool walk(std::size_t axis, double steps);
+  compensation::MovingViewer::Time viewerTime() const { return clock_.now().time_since_epoch(); }
 
   std::shared_ptr<FrameRenderer> renderer_;
   std::shared_ptr<ContentSource> content_;
@@ -103,6 +116,8 @@ class Player : public QObject {
   std::deque<Shown> recent_;
   QElapsedTimer running_;
   std::uint64_t frames_ = 0, late_ = 0;
+  std::vector<compensation::Position> cameras_;
+  compensation::MovingViewer viewer_;
 };
 
 }  // namespace relucent::gui

@@ -46,6 +46,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
     }
   });
   open();
+  listen();
 }
 
 Show::~Show() {
@@ -55,6 +56,7 @@ Show::~Show() {
 void Show::open() {
   std::unique_ptr<FrameRenderer> renderer = make_([this](const QString& sentence) { log_.warn(sentence); });
   renderer_ = renderer->name();
+  const RemoteState before = state();
   player_.reset();
   if (windows_.empty()) {
     for (const ScreenIdentity& display : displaysFor(renderer->projectors(), settings_.displays)) {
@@ -82,6 +84,12 @@ void Show::open() {
   for (const auto& window : windows_) windows.push_back(window.get());
   player_ = std::make_unique<Player>(std::move(renderer), content_, std::move(windows));
   connect(player_.get(), &Player::failed, this, &Show::tryAgain, Qt::QueuedConnection);
+  connect(player_.get(), &Player::shown, this, &Show::tellControl);
+  // Whoever made it black wants it black after a failure, too.
+  setBlack(before.black);
+  setCompensated(before.compensated);
+  setBrightness(before.brightness);
+  setChart(before.chart);
 }
 
 void Show::wakeDisplays() {
@@ -122,6 +130,7 @@ void Show::look() {
   }
   slept_ = slept;
   wakeDisplays();
+  listen();
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
   writeHealth(state_);
@@ -144,6 +153,81 @@ void Show::stop() {
   if (state_ == ShowState::stopped) return;
   log_.tell("stopped");
   writeHealth(ShowState::stopped);
+}
+
+void Show::listen() {
+  if (!settings_.osc || server_) return;
+  try {
+    server_ = std::make_unique<OscServer>(*settings_.osc);
+  } catch (const Error& error) {
+    const QString why = error.what();
+    if (why != whyNoOsc_) log_.warn(why);
+    whyNoOsc_ = why;
+    return;
+  }
+  RemoteActions& actions = *this;
+  control_ = std::make_unique<RemoteControl>(*server_, actions, settings_.oscFeedback);
+  const auto warn = [this](const QString& sentence) { log_.warn(sentence); };
+  connect(server_.get(), &OscServer::warned, this, warn);
+  connect(control_.get(), &RemoteControl::warned, this, warn);
+  log_.tell(
+      QString("listening to OSC at %1:%2").arg(server_->place().host.toString()).arg(server_->place().port));
+}
+
+std::optional<OscPlace> Show::osc() const {
+  return server_ ? std::optional(server_->place()) : std::nullopt;
+}
+
+void Show::tellControl() {
+  if (control_) control_->report();
+}
+
+RemoteState Show::state() const {
+  RemoteState state;
+  state.items = settings_.content.items.size();
+  if (content_) state.item = content_->status().playing;
+  if (!player_) return state;
+  state.paused = player_->isPlaying() && player_->isFrozen();
+  state.black = player_->isBlack();
+  state.compensated = player_->isCompensated();
+  state.brightness = player_->brightness();
+  state.chart = player_->chart();
+  return state;
+}
+
+void Show::setPaused(bool paused) {
+  // Outside its hours it stands still anyhow.
+  if (player_->isPlaying()) player_->setFrozen(paused);
+}
+
+void Show::setBlack(bool black) {
+  player_->setBlack(black);
+}
+
+void Show::setCompensated(bool compensated) {
+  player_->setCompensated(compensated);
+}
+
+void Show::setBrightness(double brightness) {
+  player_->setBrightness(brightness);
+}
+
+void Show::setChart(std::optional<TestChart> chart) {
+  player_->setChart(chart);
+}
+
+void Show::playItem(qsizetype index) {
+  content_->playItem(index);
+}
+
+Message Show::moveViewer(const compensation::Position& position) {
+  if (!player_->canFollowViewers())
+    return RELUCENT_ENGLISH_MESSAGE("show.camera-positions-unknown",
+                                    "where the cameras stand is not known, or there is only one: give the "
+                                    "position of every camera with --camera-position");
+  if (!player_->moveViewer(position))
+    return RELUCENT_ENGLISH_MESSAGE("show.viewer-not-finite", "the viewer's position must be finite numbers");
+  return {};
 }
 
 void Show::writeHealth(ShowState state) {

@@ -13,6 +13,7 @@
 #include "output/show_log.h"
 #include "output/show_settings.h"
 #include "relucent/base/message.h"
+#include "remote/remote_control.h"
 
 namespace relucent::gui {
 
@@ -28,8 +29,9 @@ constexpr EnumNames<ShowState> namesOf(ShowState) {
 }
 
 /// An unattended show: opens the displays, plays during its hours and shows black outside them, writes a log
-/// and a health file, and starts again after a failure. After a suspend content continues where it was.
-class Show : public QObject {
+/// and a health file, and starts again after a failure. After a suspend content continues where it was. Is
+/// controlled by OSC where it is asked to.
+class Show : public QObject, private RemoteActions {
   Q_OBJECT
 
  public:
@@ -44,6 +46,8 @@ class Show : public QObject {
   /// Shows black, closes the windows, and completes log and health file.
   void stop();
   Player& player() { return *player_; }
+  /// Where remote controls are listened to; none: nowhere, or the place is taken.
+  std::optional<OscPlace> osc() const;
   /// Checks the clock and the displays, and writes the health file. Called automatically every ten seconds.
   void look();
 
@@ -55,6 +59,18 @@ class Show : public QObject {
   bool isTime() const;
   void tryAgain(const relucent::Message& sentence);
   void writeHealth(ShowState state);
+  /// Again with every look while the place is taken.
+  void listen();
+  void tellControl();
+
+  RemoteState state() const override;
+  void setPaused(bool paused) override;
+  void setBlack(bool black) override;
+  void setCompensated(bool compensated) override;
+  void setBrightness(double brightness) override;
+  void setChart(std::optional<TestChart> chart) override;
+  void playItem(qsizetype index) override;
+  Message moveViewer(const compensation::Position& position) override;
 
   ShowSettings settings_;
   MakeRenderer make_;
@@ -70,6 +86,9 @@ class Show : public QObject {
   int failures_ = 0;
   qsizetype toldSkipped_ = 0;
   ShowState state_ = ShowState::starting;
+  std::unique_ptr<OscServer> server_;
+  std::unique_ptr<RemoteControl> control_;
+  QString whyNoOsc_;
 };
 
 }  // namespace relucent::gui

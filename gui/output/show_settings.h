@@ -9,7 +9,9 @@
 #include "content/playlist.h"
 #include "output/daily_hours.h"
 #include "output/screen_identity.h"
+#include "relucent/compensation/viewer.h"
 #include "relucent/engine/fallback_backend.h"
+#include "remote/osc_server.h"
 
 namespace relucent::gui {
 
@@ -21,8 +23,11 @@ struct ShowSettings {
   Canvas canvas;
   bool adaptiveRange = false;  // brightness and offset follow the content
   engine::BackendChoice backend = engine::BackendChoice::automatic;
-  std::optional<DailyHours> hours;  // daily hours of play; none: always
-  QString folder;                   // folder of the log and the health file
+  std::optional<DailyHours> hours;              // daily hours of play; none: always
+  std::vector<compensation::Position> cameras;  // where they stand; empty: as the calibration has it
+  std::optional<OscPlace> osc;                  // where remote controls are listened to; none: nowhere
+  std::optional<OscPlace> oscFeedback;          // who is told of every change
+  QString folder;                               // folder of the log and the health file
 };
 
 /// The displays of the projectors. A named one may be absent: the show waits for it. If none is named, for

@@ -54,9 +54,9 @@ StillSolver::StillSolver(const pipeline::MeasuredCalibration& calibration,
       method_(method),
       compensator_(calibration.venue, calibration.inverse, with(clustering)) {}
 
-const compensation::Compensation* StillSolver::solve(const ContentPicture& content,
-                                                     const Outdated& outdated) {
-  if (content.number == number_ && !last_.projector.empty()) return &last_;
+const compensation::Compensation* StillSolver::solve(const ContentPicture& content, const Outdated& outdated,
+                                                     const std::vector<double>& viewWeights) {
+  if (content.number == number_ && viewWeights == viewWeights_ && !last_.projector.empty()) return &last_;
   auto stop = std::make_shared<StopRequest>();
   {
     std::scoped_lock lock(guard_);
@@ -65,9 +65,14 @@ const compensation::Compensation* StillSolver::solve(const ContentPicture& conte
   try {
     Watch watch(outdated, *stop);
     Progress progress(watch, *stop);
-    compensation::Target target = fitTarget(linearOf(content.image), calibration_.venue, target_);
+    compensation::TargetSettings settings = target_;
+    if (!viewWeights.empty()) settings.views.resize(viewWeights.size());
+    for (std::size_t view = 0; view < viewWeights.size(); ++view)
+      settings.views[view].weight = viewWeights[view];
+    compensation::Target target = fitTarget(linearOf(content.image), calibration_.venue, settings);
     last_ = compensator_.solve(method_, target, progress);
     number_ = content.number;
+    viewWeights_ = viewWeights;
     return &last_;
   } catch (const Cancelled&) {
     return nullptr;

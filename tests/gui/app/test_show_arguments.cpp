@@ -31,11 +31,37 @@ class TestShowArguments : public QObject {
 
  private slots:
   void everyOptionArrives() {
-    ShowSettings settings =
-        parsed<PlayShow>({"show", "venue", "--content", "a.png", "--schedule", "18:00-02:30", "--screen",
-                          "HDMI-1", "--screen", "DP-2", "--canvas", "1280x720", "--adaptive-range",
-                          "--backend", "cpu", "--log", "logs"})
-            .settings;
+    ShowSettings settings = parsed<PlayShow>({"show",
+                                              "venue",
+                                              "--content",
+                                              "a.png",
+                                              "--schedule",
+                                              "18:00-02:30",
+                                              "--screen",
+                                              "HDMI-1",
+                                              "--screen",
+                                              "DP-2",
+                                              "--canvas",
+                                              "1280x720",
+                                              "--adaptive-range",
+                                              "--backend",
+                                              "cpu",
+                                              "--log",
+                                              "logs",
+                                              "--osc",
+                                              "7700",
+                                              "--osc-address",
+                                              "0.0.0.0",
+                                              "--osc-feedback",
+                                              "192.168.1.20:9000",
+                                              "--camera-position",
+                                              "-1,2.5",
+                                              "--camera-position",
+                                              "1,2.5,0.5"})
+                                .settings;
+    QVERIFY((settings.osc == OscPlace{QHostAddress("0.0.0.0"), 7700}));
+    QVERIFY((settings.oscFeedback == OscPlace{QHostAddress("192.168.1.20"), 9000}));
+    QVERIFY((settings.cameras == std::vector<compensation::Position>{{-1, 2.5, 0}, {1, 2.5, 0.5}}));
     QCOMPARE(settings.calibration, std::filesystem::path("venue"));
     QCOMPARE(settings.content.items.size(), qsizetype{1});
     QVERIFY((settings.hours == DailyHours{{18, 0}, {2, 30}}));
@@ -50,6 +76,7 @@ class TestShowArguments : public QObject {
     ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "chart:grid"}).settings;
     QCOMPARE(settings.backend, BackendChoice::automatic);
     QVERIFY(!settings.adaptiveRange && !settings.hours && settings.displays.isEmpty());
+    QVERIFY(!settings.osc && !settings.oscFeedback && settings.cameras.empty());
     QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
     QCOMPARE(settings.canvas.size, QSize(1920, 1080));
   }
@@ -72,6 +99,28 @@ class TestShowArguments : public QObject {
                 .arguments.contains("screen:HDMI-1"));
   }
 
+  void controlsOfWhatIsInstalledAreTheSame() {
+    const QStringList said{"show",
+                           "v",
+                           "--content",
+                           "chart:grid",
+                           "--osc",
+                           "7700",
+                           "--osc-feedback",
+                           "[::1]:9000",
+                           "--camera-position",
+                           "0,1",
+                           "--camera-position",
+                           "2,1"};
+    const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    const ShowSettings first = parsed<PlayShow>(said).settings,
+                       again = parsed<PlayShow>(wanted.arguments).settings;
+    QVERIFY(again.osc == first.osc && again.oscFeedback == first.oscFeedback &&
+            again.cameras == first.cameras);
+    // Nobody else hears it unless told so.
+    QVERIFY((again.osc == OscPlace{QHostAddress(QHostAddress::LocalHost), 7700}) && again.oscFeedback);
+  }
+
   void isTakenAwayWithoutSayingWhat() {
     QCOMPARE(parsed<UninstallShow>({"show", "--remove-service"}).start, Start::service);
     QCOMPARE(parsed<UninstallShow>({"show", "--remove-autostart"}).start, Start::autostart);
@@ -81,7 +130,8 @@ class TestShowArguments : public QObject {
     QString help = parsed<TextToPrint>({"--help"}).text;
     for (const char* option :
          {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--backend",
-          "--log", "--install-service", "--install-autostart", "--remove-service"})
+          "--log", "--osc", "--osc-address", "--osc-feedback", "--camera-position", "--install-service",
+          "--install-autostart", "--remove-service"})
       QVERIFY2(help.contains(option), option);
   }
 
@@ -97,6 +147,15 @@ class TestShowArguments : public QObject {
     QTest::newRow("no size") << right + QStringList{"--canvas", "7x7"} << "WIDTHxHEIGHT";
     QTest::newRow("no backend") << right + QStringList{"--backend", "fast"} << "automatic";
     QTest::newRow("no hours") << right + QStringList{"--schedule", "9-5"} << "HH:MM-HH:MM";
+    QTest::newRow("no port") << right + QStringList{"--osc", "0"} << "1 to 65535";
+    QTest::newRow("no number") << right + QStringList{"--osc", "desk"} << "1 to 65535";
+    QTest::newRow("no address") << right + QStringList{"--osc", "7700", "--osc-address", "here"}
+                                << "127.0.0.1";
+    QTest::newRow("no feedback") << right + QStringList{"--osc", "7700", "--osc-feedback", "desk:1"}
+                                 << "HOST:PORT";
+    QTest::newRow("feedback alone") << right + QStringList{"--osc-feedback", "127.0.0.1:1"} << "--osc PORT";
+    QTest::newRow("no position") << right + QStringList{"--camera-position", "1"} << "x,y or x,y,z";
+    QTest::newRow("an endless one") << right + QStringList{"--camera-position", "1,inf"} << "x,y or x,y,z";
     QTest::newRow("no time between") << right + QStringList{"--schedule", "09:00-09:00"} << "HH:MM-HH:MM";
   }
   void wrongOnesAreNamed() {

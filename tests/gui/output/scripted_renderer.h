@@ -19,10 +19,14 @@ class ScriptedRenderer : public FrameRenderer {
   std::vector<QSize> projectors() const override { return {projectorSize}; }
   Canvas canvas() const override { return {projectorSize, compensation::Fit::fill}; }
   QString name() const override { return "scripted"; }
+  std::vector<compensation::Position> cameras() const override { return positions; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override {
     ++rendered;
     thorough = request.thorough;
+    presence = request.viewer ? request.viewer->presence : 0.0;
+    viewerX = request.viewer ? request.viewer->position[0] : 0.0;
+    brightness = request.brightness;
     if (endless && thorough) {
       while (!outdated() && !interrupted) std::this_thread::yield();
       interrupted = false;
@@ -37,6 +41,8 @@ class ScriptedRenderer : public FrameRenderer {
   void interrupt() override { interrupted = true; }
   std::atomic<int> rendered{0};
   std::atomic<bool> broken{false}, thorough{false}, restless{false}, interrupted{false};
+  std::vector<compensation::Position> positions;                     // of cameras; before a player has it
+  std::atomic<double> presence{0.0}, viewerX{0.0}, brightness{0.0};  // of the last frame
   std::atomic<bool> endless{false};  // pictures that stand, until somebody wants them no longer
 };
 

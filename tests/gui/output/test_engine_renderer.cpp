@@ -12,6 +12,7 @@
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/compensate.h"
 #include "relucent/pipeline/pictures.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace relucent::compensation;
@@ -67,7 +68,7 @@ class TestEngineRenderer : public QObject {
  private slots:
   void initTestCase() {
     Progress silent;
-    for (const char* name : {"corner", "plain"}) {
+    for (const char* name : {"corner", "plain", "statue3"}) {
       VenueSettings venue;
       venue.name = name;
       venue.projector = {40, 30};
@@ -101,6 +102,67 @@ class TestEngineRenderer : public QObject {
           QVERIFY2(std::abs(code - std::lround(255.0f * wanted.at(x, y, c))) <= 1,
                    qPrintable(QString("%1, %2: %3").arg(x).arg(y).arg(code)));
         }
+  }
+
+  /// Whoever stands at a camera, or between them, has what the pipeline solves for him there; and when he has
+  /// gone, all have what they had.
+  void aViewerIsFollowed() {
+    Progress silent;
+    const std::vector<Position> places{{-1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+    EngineRenderer renderer(root() / "statue3", {{contentSize.width, contentSize.height}, Fit::fit}, false,
+                            silent, {}, BackendChoice::cpu, {}, places);
+    QVERIFY(renderer.cameras() == places);
+    const Outdated needed = [] { return false; };
+    RenderRequest request;
+    request.seconds = 1e9;  // all steps
+    const RenderedFrame home = renderer.render({colours(), 1}, request, needed);
+    request.thorough = true;
+    const RenderedFrame best = renderer.render({colours(), 1}, request, needed);
+
+    CompensateSettings settings;
+    settings.image = root() / "colours.png";
+    settings.out = root() / "viewer-out";
+    colours().save(QString::fromStdString(settings.image.string()));
+    settings.target = targetOf(ContentSettings());
+    for (const Position& place : places) settings.target.views.push_back({1.0, {}, {}, place});
+    for (const Position& viewer : {Position{1, 0, 0}, Position{0.4, 0.5, 0.0}}) {
+      request.viewer = FrameViewer{viewer, 1.0};
+      const std::vector<double> weights = viewerWeights(places, viewer);
+      for (std::size_t view = 0; view < places.size(); ++view)
+        settings.target.views[view].weight = std::max(weights[view], 1e-3 / 3.0);
+      compensate(root() / "statue3", settings, silent);
+      // From what was there before, step by step, as nearly as it can be had in haste; then as well as
+      // possible.
+      request.thorough = false;
+      QVERIFY(renderer.render({colours(), 1}, request, needed).drives[0].image() != best.drives[0].image());
+      request.thorough = true;
+      const RenderedFrame frame = renderer.render({colours(), 1}, request, needed);
+      for (std::size_t projector = 0; projector < 2; ++projector) {
+        const Image wanted =
+            readPicture(settings.out / (projector == 0 ? "pattern.png" : "pattern-2.png")).encoded;
+        const QImage drive = frame.drives[projector].image();
+        for (int y = 0; y < wanted.height(); ++y)
+          for (int x = 0; x < wanted.width(); ++x)
+            for (int c = 0; c < 3; ++c)
+              QVERIFY(std::abs(drive.constScanLine(y)[4 * x + c] -
+                               std::lround(255.0f * wanted.at(x, y, c))) <= 1);
+      }
+    }
+    request.viewer.reset();
+    QVERIFY(renderer.render({colours(), 1}, request, needed).drives[0].image() == best.drives[0].image());
+    request.thorough = false;
+    QVERIFY(renderer.render({colours(), 2}, request, needed).drives[0].image() == home.drives[0].image());
+  }
+
+  void positionsOfOtherCamerasAreRefused() {
+    Progress silent;
+    const auto sentence = sentenceOf(
+        [&] {
+          EngineRenderer(root() / "statue3", {{contentSize.width, contentSize.height}, Fit::fit}, false,
+                         silent, {}, BackendChoice::cpu, {}, {{0, 0, 0}, {1, 0, 0}});
+        },
+        ErrorKind::input);
+    QVERIFY(mentions(sentence, "2 positions are given, and the calibration has 3 cameras"));
   }
 
   void outdatedItIsAFrameInHaste() {

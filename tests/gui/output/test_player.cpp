@@ -70,8 +70,10 @@ class TestPlayer : public QObject {
   ScriptedRenderer* renderer_ = nullptr;  // the player's
   Hand hand_;
 
-  std::unique_ptr<Player> playerOf(std::shared_ptr<ContentSource> content) {
+  std::unique_ptr<Player> playerOf(std::shared_ptr<ContentSource> content,
+                                   std::vector<Position> cameras = {}) {
     auto renderer = std::make_unique<ScriptedRenderer>();
+    renderer->positions = std::move(cameras);
     renderer_ = renderer.get();
     hand_.now = std::chrono::steady_clock::time_point();
     return std::make_unique<Player>(std::move(renderer), std::move(content),
@@ -90,6 +92,87 @@ class TestPlayer : public QObject {
     QTRY_VERIFY(window_->isExposed());
   }
   void cleanup() { window_.reset(); }
+
+  /// The picture is for him at once, glides home when he is not heard of, and then stands.
+  void aViewerIsFollowedUntilHeIsSilent() {
+    auto player = playerOf(still(), {{0, 0, 0}, {2, 0, 0}});
+    player->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QVERIFY(player->canFollowViewers() && !player->viewer());
+    QVERIFY(player->moveViewer({1.5, 0, 0}));
+    QTRY_VERIFY(renderer_->presence == 1.0 && renderer_->viewerX == 1.5);
+    QVERIFY(player->viewer() == FrameViewer({{1.5, 0, 0}, 1.0}));
+    // He stands: as well as possible, and no more.
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough && renderer_->presence == 1.0);
+    hand_.now += 2s;
+    QTRY_VERIFY(std::abs(renderer_->presence - std::exp(-1.0)) < 1e-6 && renderer_->viewerX == 1.5);
+    hand_.now += 1h;
+    QTRY_VERIFY(renderer_->presence == 0.0);
+    QVERIFY(!player->viewer());
+    hand_.now += 1s;
+    QTRY_VERIFY(renderer_->thorough);
+    const int rendered = renderer_->rendered;
+    for (int turns = 0; turns < 200; ++turns) QCoreApplication::processEvents();
+    QCOMPARE(renderer_->rendered.load(), rendered);
+    QVERIFY(!player->moveViewer({std::nan(""), 0, 0}));
+    QVERIFY(!player->viewer());
+  }
+
+  /// Also while the best of a picture is being computed, which takes as long as it likes.
+  void aViewerDoesNotWaitForThePictureBefore() {
+    auto player = playerOf(still(), {{0, 0, 0}, {2, 0, 0}});
+    renderer_->endless = true;
+    player->start();
+    QTRY_COMPARE(renderer_->rendered.load(), 1);
+    hand_.now += 1s;
+    QTRY_COMPARE(renderer_->rendered.load(), 2);
+    QVERIFY(player->moveViewer({0.5, 0, 0}));
+    QTRY_VERIFY(renderer_->presence == 1.0 && renderer_->viewerX == 0.5);
+    renderer_->endless = false;
+  }
+
+  void keysWalk_data() {
+    QTest::addColumn<int>("key");
+    QTest::addColumn<int>("axis");
+    QTest::addColumn<double>("step");
+    QTest::newRow("left") << int(Qt::Key_Left) << 0 << -0.1;
+    QTest::newRow("right") << int(Qt::Key_Right) << 0 << 0.1;
+    QTest::newRow("down") << int(Qt::Key_Down) << 1 << -0.1;
+    QTest::newRow("up") << int(Qt::Key_Up) << 1 << 0.1;
+    QTest::newRow("page down") << int(Qt::Key_PageDown) << 2 << -0.1;
+    QTest::newRow("page up") << int(Qt::Key_PageUp) << 2 << 0.1;
+  }
+  /// From the middle of the cameras on.
+  void keysWalk() {
+    QFETCH(int, key);
+    QFETCH(int, axis);
+    QFETCH(double, step);
+    auto player = playerOf(still(), {{0, 4, 1}, {2, 4, 1}});
+    Position expected{1, 4, 1};
+    for (int steps = 0; steps < 3; ++steps) {
+      QVERIFY(player->handleKey(key));
+      expected[static_cast<std::size_t>(axis)] += step;
+      const Position at = player->viewer().value().position;
+      for (std::size_t k = 0; k < 3; ++k) QVERIFY(std::abs(at[k] - expected[k]) < 1e-12);
+    }
+    QVERIFY(player->handleKey(Qt::Key_Home) && !player->viewer());
+  }
+
+  void withoutPlacesNobodyIsFollowed() {
+    auto player = playerOf(still());
+    QVERIFY(!player->canFollowViewers() && !player->moveViewer({1, 0, 0}) && !player->viewer());
+    QVERIFY(!player->handleKey(Qt::Key_Left) && !player->handleKey(Qt::Key_Home));
+  }
+
+  void brightnessIsAskedFor() {
+    auto player = playerOf(still());
+    player->start();
+    QTRY_COMPARE(renderer_->brightness.load(), 1.0);
+    player->setBrightness(0.5);
+    QTRY_COMPARE(renderer_->brightness.load(), 0.5);
+    QCOMPARE(player->brightness(), 0.5);
+  }
 
   void aStillPictureIsRenderedOnceAndShown() {
     auto player = playerOf(still());

@@ -198,6 +198,77 @@ class TestShow : public QObject {
     QCOMPARE(health()["state"].toString(), QString("playing"));
   }
 
+  /// By datagrams of another program, as a desk sends them.
+  void isControlledByOsc() {
+    ShowSettings wanted = settings({picture("a.png", 3), picture("b.png", 4)});
+    wanted.osc = OscPlace{QHostAddress::LocalHost, 0};
+    auto show = showOf(wanted);
+    QVERIFY(log().contains("listening to OSC at 127.0.0.1:"));
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QUdpSocket desk;
+    const auto send = [&](const OscMessage& message) {
+      desk.writeDatagram(oscDatagram(message), show->osc()->host, show->osc()->port);
+    };
+    send({"/black", {1.0}});
+    QTRY_VERIFY(allBlack(seenOn("DUMMY1")));
+    send({"/black", {0.0}});
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    send({"/item", {2.0}});
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 4));
+    send({"/next", {}});
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    send({"/chart", {QString("white")}});
+    QTRY_VERIFY(show->player().chart() == TestChart::white);
+    send({"/chart", {QString("none")}});
+    QTRY_VERIFY(!show->player().chart());
+    send({"/pause", {}});
+    QTRY_VERIFY(show->player().isFrozen());
+    send({"/play", {}});
+    QTRY_VERIFY(!show->player().isFrozen());
+    send({"/compensation", {0.0}});
+    QTRY_VERIFY(!show->player().isCompensated());
+    send({"/brightness", {0.5}});
+    QTRY_COMPARE(show->player().brightness(), 0.5);
+    // It is not known where the cameras stand.
+    for (int word = 0; word < 20; ++word) send({"/viewer", {1.0, 2.0, 3.0}});
+    QTRY_VERIFY(log().contains("--camera-position"));
+    send({"/black", {1.0}});
+    QTRY_VERIFY(show->player().isBlack());
+    QCOMPARE(log().count("/viewer"), 1);
+  }
+
+  /// What a desk has switched off stays off when the show has to begin again.
+  void aFailureDoesNotUndoWhatADeskSaid() {
+    ShowSettings wanted = settings({picture("a.png", 3)});
+    wanted.osc = OscPlace{QHostAddress::LocalHost, 0};
+    broken_ = true;
+    auto show = showOf(wanted);
+    show->player().setBlack(true);
+    show->player().setBrightness(0.5);
+    show->start();
+    broken_ = false;
+    QTRY_COMPARE(made_, 2);
+    QVERIFY(show->player().isBlack());
+    QCOMPARE(show->player().brightness(), 0.5);
+  }
+
+  void aTakenPortIsTriedAgain() {
+    QUdpSocket other;
+    QVERIFY(other.bind(QHostAddress::LocalHost, 0, QAbstractSocket::DontShareAddress));
+    ShowSettings wanted = settings({picture("a.png", 3)});
+    wanted.osc = OscPlace{QHostAddress::LocalHost, other.localPort()};
+    auto show = showOf(wanted);
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    show->look();
+    QVERIFY(!show->osc());
+    QCOMPARE(log().count("OSC messages cannot be received"), 1);
+    other.close();
+    show->look();
+    QVERIFY(show->osc() == wanted.osc);
+  }
+
   void whatCannotBeReadIsNamed() {
     ShowSettings wanted = settings({folder_->filePath("gone.png"), picture("b.png", 4)});
     auto show = showOf(wanted);

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -128,6 +129,7 @@ struct Bench {
   pipeline::ScaleBenchSettings scale;
   std::filesystem::path chart;  // of `acquisition`: where to; empty: none
   engine::BackendChoice backend = engine::BackendChoice::automatic;  // of `engine`
+  std::optional<engine::EngineBenchSettings> engine{};               // these devices alone
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <cstdlib>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include "relucent/cli/options.h"
 
@@ -22,6 +25,34 @@ void addAcquisition(CLI::App* sub, Bench& command) {
                   "Dense patterns alone, stopped and kept after each level: what was expected, and what came "
                   "out");
   group->add_option("--chart", command.chart, "Draws quality against photographs (SVG)")->type_name("FILE");
+}
+
+/// Of "4x1024x768": how many, and their size.
+std::pair<int, Size> parseDevices(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const int count = std::atoi(text.c_str());
+  if (count < 1 || cross == std::string::npos || text.find('x', cross + 1) == std::string::npos)
+    throw WrongUsage("'" + text + "' are no devices: write how many and their size, as 4x1024x768");
+  return {count, parseSize(text.substr(cross + 1))};
+}
+
+void addEngine(CLI::App* sub, Bench& command) {
+  CLI::Option_group* group = sub->add_option_group("engine", "Options of `engine`");
+  group
+      ->add_option_function<std::string>(
+          "--devices",
+          [&command](const std::string& text) {
+            const std::size_t slash = text.find('/');
+            if (slash == std::string::npos)
+              throw WrongUsage("'" + text + "' are no projectors and cameras: write 4x1024x768/2x640x480");
+            engine::EngineBenchSettings& settings = command.engine.emplace();
+            std::tie(settings.projectors, settings.projector) = parseDevices(text.substr(0, slash));
+            std::tie(settings.cameras, settings.camera) = parseDevices(text.substr(slash + 1));
+          },
+          "Only these projectors and cameras, in a synthetic venue where they overlap; several cameras: also "
+          "a "
+          "viewer who walks")
+      ->type_name("NxWxH/NxWxH");
 }
 
 void addScale(CLI::App* sub, Bench& command) {
@@ -62,11 +93,13 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
       "scale, "
       "Full HD and 4K");
   addNamed(sub, "--backend", "Device of `engine`", command->backend);
+  addEngine(sub, *command);
   addAcquisition(sub, *command);
   addScale(sub, *command);
   addCache(sub, command->cache);
   return [command] {
     command->suite = valueNamed<BenchSuite>(command->name).value_or(BenchSuite::parts);
+    if (command->engine) command->engine->backend = command->backend;
     return Command(*command);
   };
 }

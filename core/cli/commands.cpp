@@ -173,7 +173,8 @@ struct Executor {
       case BenchSuite::inverse:
         return outcomeOf(pipeline::benchInverse(command.cache, progress));
       case BenchSuite::engine:
-        return outcomeOf(pipeline::benchEngine(command.backend, progress));
+        return outcomeOf(command.engine ? pipeline::benchEngine(*command.engine, progress)
+                                        : pipeline::benchEngine(command.backend, progress));
       case BenchSuite::acquisition:
         refuse(problems(command.acquisition));
         return benchAcquisition(command);

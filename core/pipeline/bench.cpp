@@ -16,6 +16,7 @@
 #include "relucent/compensation/ridge_choice.h"
 #include "relucent/engine/bench/bench_transport.h"
 #include "relucent/engine/bench/engine_bench.h"
+#include "relucent/platform/process.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -97,11 +98,25 @@ std::string sizesOf(const engine::EngineBenchSettings& settings) {
 
 }  // namespace
 
+BenchResult benchEngine(engine::EngineBenchSettings settings, Progress& progress) {
+  if (const std::vector<Message> wrong = problems(settings); !wrong.empty())
+    throw Error(ErrorKind::usage, wrong.front(),
+                RELUCENT_ENGLISH_MESSAGE("bench.choose-other-sizes", "choose other sizes"));
+  settings.references = false;
+  const engine::EngineBenchResult engine = engine::benchEngine(settings, progress);
+  BenchResult result;
+  result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
+  append(engine, "", result);
+  result.notes.push_back(RELUCENT_ENGLISH_MESSAGE("bench.peak-memory", "{} MB of memory at the most")
+                             .with(as::megabytes(platform::peakMemoryBytes())));
+  return result;
+}
+
 BenchResult benchEngine(engine::BackendChoice backend, Progress& progress) {
   engine::EngineBenchSettings settings;
   settings.backend = backend;
   Progress usual = progress.part(0.4, Message::plain(sizesOf(settings)));
-  const engine::EngineBenchResult engine = benchEngine(settings, usual);
+  const engine::EngineBenchResult engine = engine::benchEngine(settings, usual);
   BenchResult result;
   result.machine = {processorName(), engine.threads, engine.copyBytesPerSecond, engine.device};
   append(engine, "", result);
@@ -118,7 +133,7 @@ BenchResult benchEngine(engine::BackendChoice backend, Progress& progress) {
     return result;
   }
   Progress large = progress.part(0.6, Message::plain(sizes));
-  append(benchEngine(settings, large), sizes + ", ", result);
+  append(engine::benchEngine(settings, large), sizes + ", ", result);
   return result;
 }
 

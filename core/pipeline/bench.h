@@ -39,5 +39,8 @@ BenchResult bench(const std::string& name, Progress& progress);
 /// beside other programs' products, and without them at 1920x1080 / 1632x1224 where the memory is enough. The
 /// copy bandwidth is that of the device. Throws: Error{device} if OpenGL was asked for and there is none.
 BenchResult benchEngine(engine::BackendChoice backend, Progress& progress);
+/// The same with projectors and cameras of those numbers and sizes alone, without other programs' products.
+/// Throws: Error{usage} if these are none; as the other.
+BenchResult benchEngine(engine::EngineBenchSettings settings, Progress& progress);
 
 }  // namespace relucent::pipeline

@@ -10,4 +10,8 @@ namespace relucent::engine {
 /// 640x480. Deterministic.
 transport::TransportMatrix benchTransport(Size projector, Size camera);
 
+/// The same with several projectors side by side, whose pictures overlap by a quarter, and several cameras,
+/// each of which sees all of it.  Contract: projectors of one size.
+transport::TransportMatrix benchTransport(const Rasters& projectors, const Rasters& cameras);
+
 }  // namespace relucent::engine

@@ -19,6 +19,7 @@
 #include "relucent/engine/cpu_backend.h"
 #include "relucent/engine/opengl/gl_context.h"
 #include "relucent/engine/opengl/opengl_backend.h"
+#include "relucent/engine/view_follower.h"
 #include "relucent/transport/files.h"
 
 namespace relucent::engine {
@@ -79,6 +80,13 @@ double copied(const std::function<double()>& clock) {
   return 2.0 * static_cast<double>(bytes) / timing.best;
 }
 
+[[noreturn]] void throwLost() {
+  throw Error(
+      ErrorKind::device,
+      RELUCENT_ENGLISH_MESSAGE("engine.device-lost-while-timed", "the device was lost while it was timed"),
+      RELUCENT_ENGLISH_MESSAGE("engine.try-again", "try again"));
+}
+
 void timeFrames(Bench& bench, EngineBackend& backend, const EngineVenue& engine, Size size,
                 double transportBytes) {
   const NoiseContent content(size);
@@ -88,15 +96,33 @@ void timeFrames(Bench& bench, EngineBackend& backend, const EngineVenue& engine,
   for (int steps : {0, 1, 2})
     bench.time(fmt::format("{}: frame, K = {}", backend.name(), steps),
                2 * windows + (1 + steps) * transportBytes, [&] {
-                 if (!backend.render(content.frame(), {true, steps, 1.0f, 0.0f}, words, report))
-                   throw Error(ErrorKind::device,
-                               RELUCENT_ENGLISH_MESSAGE("engine.device-lost-while-timed",
-                                                        "the device was lost while it was timed"),
-                               RELUCENT_ENGLISH_MESSAGE("engine.try-again", "try again"));
+                 if (!backend.render(content.frame(), {true, steps, 1.0f, 0.0f}, words, report)) throwLost();
                });
 }
 
-void timeCpu(Bench& bench, const EngineVenue& engine, const EngineContent& content, Size size) {
+/// A viewer who walks from the first camera to the second, from frame to frame.
+void timeViewer(Bench& bench, EngineBackend& backend, const EngineVenue& engine, EngineContent& content,
+                Size size, double transportBytes) {
+  const std::size_t views = engine.venue.transport.cameras().devices();
+  if (views < 2) return;
+  const NoiseContent noise(size);
+  std::vector<std::uint32_t> words(engine.brightest.size());
+  ViewFollower follower(engine, content);
+  const FrameRequest request{true, 1, 1.0f, 0.0f, true};
+  FrameReport report;
+  int walked = 0;
+  const auto walk = [&] {
+    std::vector<double> weights(views, 0.0);
+    weights[0] = 0.1 + 0.01 * (walked++ % 80);
+    weights[1] = 1.0 - weights[0];
+    follower.follow(weights, content);
+    backend.contentFollowed();
+    if (!backend.render(noise.frame(), request, words, report)) throwLost();
+  };
+  bench.time(fmt::format("{}: viewer walks on, K = 1", backend.name()), transportBytes, walk);
+}
+
+void timeCpu(Bench& bench, const EngineVenue& engine, EngineContent& content, Size size) {
   bench.result.copyBytesPerSecond = copied(bench.clock());
   const auto transport = static_cast<double>(engine.transport.bytes());
   for (std::size_t i = engineKernels().size(); i-- > 0;) {
@@ -111,10 +137,11 @@ void timeCpu(Bench& bench, const EngineVenue& engine, const EngineContent& conte
     bench.time(name + ": M", static_cast<double>(engine.inverse.bytes()), [&] { backend.applyWindows(); });
     bench.time(name + ": step", transport, [&] { backend.takeStep(1.2f); });
     timeFrames(bench, backend, engine, size, transport);
+    timeViewer(bench, backend, engine, content, size, transport);
   }
 }
 
-void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& content, Size size,
+void timeOpenGl(Bench& bench, const EngineVenue& engine, EngineContent& content, Size size,
                 std::unique_ptr<GlContext> context) {
   OpenGlBackend backend(engine, std::move(context));
   const std::string name(backend.name());
@@ -130,6 +157,7 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, const EngineContent& co
                      [&] { return backend.applyWindows(); });
   bench.timeReported(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
   timeFrames(bench, backend, engine, size, transport);
+  timeViewer(bench, backend, engine, content, size, transport);
 }
 
 Stack randomStack(std::size_t pixels, std::uint64_t seed) {
@@ -167,11 +195,18 @@ void compare(EngineBenchResult& result) {
 
 compensation::MeasuredVenue venueOf(const EngineBenchSettings& settings) {
   compensation::MeasuredVenue venue;
-  venue.transport = settings.transport.empty() ? benchTransport(settings.projector, settings.camera)
-                                               : transport::loadTransport(settings.transport);
+  const auto several = [](Size size, int count) {
+    return Rasters(std::vector<Size>(static_cast<std::size_t>(count), size));
+  };
+  venue.transport = settings.transport.empty()
+                        ? benchTransport(several(settings.projector, settings.projectors),
+                                         several(settings.camera, settings.cameras))
+                        : transport::loadTransport(settings.transport);
   venue.flood = venue.transport.floodlight();
   venue.black.assign(venue.flood.size(), 0.001f);
   venue.usable.assign(venue.transport.cameras().count(), 1);
+  if (venue.transport.cameras().devices() > 1)
+    venue.views = compensation::viewMap(venue.transport, venue.usable);
   return venue;
 }
 
@@ -195,6 +230,12 @@ std::vector<Message> problems(const EngineBenchSettings& settings) {
     if (size.width < least || size.height < least)
       found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.size-too-small-to-time", "{} is too small to be timed")
                           .with(as::size(size)));
+  constexpr int most = 16;
+  for (int devices : {settings.projectors, settings.cameras})
+    if (devices < 1 || devices > most)
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("engine.devices-to-time-out-of-range",
+                                               "1 to {} projectors and cameras are timed")
+                          .with(most));
   return found;
 }
 
@@ -229,7 +270,7 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
   plan.packing.patchSide = settings.patchSide;
   const std::vector<linearization::ProjectorResponse> responses(venue.transport.projectors().devices());
   const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
-  const EngineContent content = prepareContent(engine, settings.content);
+  EngineContent content = prepareContent(engine, settings.content);
 
   Progress timing = progress.part(0.5, RELUCENT_MESSAGE("stage.timing-engine", "Timing the engine"));
   Bench bench(oneThread ? threadClock : wallClock, timing);

@@ -15,6 +15,7 @@ namespace relucent::engine {
 struct EngineBenchSettings {
   Size projector{1024, 768};
   Size camera{640, 480};
+  int projectors = 1, cameras = 1;  // of these sizes
   Size content{1920, 1080};
   std::filesystem::path transport;  // a calibration's T instead of benchTransport()
   BackendChoice backend = BackendChoice::automatic;
@@ -47,8 +48,10 @@ struct EngineBenchResult {
   std::vector<Message> notes;  // measurements that were not possible, and why
 };
 
-/// Times the engine: M, one step, whole frames with K = 0, 1 and 2. Takes minutes of preparation at large
-/// sizes. Throws: Error{device} if OpenGL was asked for and there is none; as loadTransport(); Cancelled.
+/// Times the engine: M, one step, whole frames with K = 0, 1 and 2; of several cameras also a frame for a
+/// viewer who walks on: ViewFollower, and one step from the frame before. Takes minutes of preparation at
+/// large sizes. Throws: Error{device} if OpenGL was asked for and there is none; as loadTransport();
+/// Cancelled.
 EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& progress);
 
 /// Median and best of the seconds that a function returns, after one warm-up run.

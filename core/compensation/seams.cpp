@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
@@ -65,6 +67,7 @@ SeamPairs seamPairs(const transport::TransportMatrix& transport, const CameraMas
       if (lit[k].light > 0.0) projectors[row] |= std::uint64_t{1} << k;
   });
   SeamPairs pairs;
+  std::map<std::tuple<std::size_t, std::uint64_t, std::uint64_t, bool, int, int>, std::size_t> stretches;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const Size size = cameras.size(camera);
     const std::size_t begin = cameras.offset(camera);
@@ -74,12 +77,61 @@ SeamPairs seamPairs(const transport::TransportMatrix& transport, const CameraMas
         if (to.x >= size.width || to.y >= size.height) continue;
         const std::size_t a = begin + i, b = begin + indexOf(size, to);
         if (mask[a] == 0 || mask[b] == 0 || projectors[a] == 0 || projectors[b] == 0) continue;
-        (projectors[a] != projectors[b] ? pairs.across : pairs.elsewhere).push_back({a, b});
+        if (projectors[a] == projectors[b]) {
+          pairs.elsewhere.push_back({a, b});
+          continue;
+        }
+        const bool turned = projectors[b] < projectors[a];
+        pairs.across.push_back(turned ? std::array{b, a} : std::array{a, b});
+        constexpr int length = 8;
+        pairs.stretch.push_back(stretches
+                                    .try_emplace({camera, std::min(projectors[a], projectors[b]),
+                                                  std::max(projectors[a], projectors[b]), to.x == at.x,
+                                                  at.x / length, at.y / length},
+                                                 stretches.size())
+                                    .first->second);
       }
     }
   }
   return pairs;
 }
+
+namespace {
+
+double percentile95(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::ranges::sort(values);
+  return values[(values.size() - 1) * 95 / 100];
+}
+
+/// Of every pair across, between the means of both sides of its stretch.
+std::vector<double> alongEdges(const std::vector<image::Colour>& lab, const SeamPairs& pairs) {
+  struct Stretch {
+    image::Colour one{}, other{};
+    double count = 0.0;
+  };
+  std::vector<Stretch> stretches(pairs.across.size());
+  for (std::size_t i = 0; i < pairs.across.size(); ++i) {
+    Stretch& stretch = stretches[pairs.stretch[i]];
+    for (std::size_t c = 0; c < 3; ++c) {
+      stretch.one[c] += lab[pairs.across[i][0]][c];
+      stretch.other[c] += lab[pairs.across[i][1]][c];
+    }
+    stretch.count += 1.0;
+  }
+  std::vector<double> differences;
+  for (std::size_t of : pairs.stretch) {
+    Stretch stretch = stretches[of];
+    for (std::size_t c = 0; c < 3; ++c) {
+      stretch.one[c] /= stretch.count;
+      stretch.other[c] /= stretch.count;
+    }
+    differences.push_back(image::ciede2000(stretch.one, stretch.other));
+  }
+  return differences;
+}
+
+}  // namespace
 
 Seams seamsOf(const CameraStack& seen, const Rasters& cameras, const CameraMask& mask,
               const std::array<float, 3>& white, const SeamPairs& pairs) {
@@ -90,13 +142,9 @@ Seams seamsOf(const CameraStack& seen, const Rasters& cameras, const CameraMask&
     for (const auto& [a, b] : all) differences.push_back(image::ciede2000(lab[a], lab[b]));
     return differences;
   };
-  std::vector<double> across = apart(pairs.across);
-  Seams seams{meanOf(across), std::numeric_limits<double>::quiet_NaN(), meanOf(apart(pairs.elsewhere))};
-  if (!across.empty()) {
-    std::ranges::sort(across);
-    seams.p95 = across[(across.size() - 1) * 95 / 100];
-  }
-  return seams;
+  const std::vector<double> across = apart(pairs.across), elsewhere = apart(pairs.elsewhere);
+  return {meanOf(across), percentile95(across), meanOf(elsewhere), percentile95(elsewhere),
+          percentile95(alongEdges(lab, pairs))};
 }
 
 }  // namespace relucent::compensation

@@ -12,7 +12,8 @@ namespace relucent::compensation {
 /// Pairs of camera pixels across the edges of the projectors' pictures: `apart` pixels from each other, along
 /// x or y, both of the mask, lit directly by different sets of projectors.
 struct SeamPairs {
-  std::vector<std::array<std::size_t, 2>> across;     // rows of T
+  std::vector<std::array<std::size_t, 2>> across;     // rows of T; each edge from the same side
+  std::vector<std::size_t> stretch;                   // of an edge, eight pixels long: of every pair across
   std::vector<std::array<std::size_t, 2>> elsewhere;  // as far apart, lit by the same projectors
 };
 SeamPairs seamPairs(const transport::TransportMatrix& transport, const CameraMask& mask, int apart,
@@ -23,6 +24,10 @@ SeamPairs seamPairs(const transport::TransportMatrix& transport, const CameraMas
 struct Seams {
   double mean = 0.0, p95 = 0.0;  // across the edges of projectors' pictures; NaN: there are none
   double elsewhere = 0.0;        // mean beside them: what is uneven without any seam
+  double elsewhereP95 = 0.0;
+  /// The seam alone, 95 % of the pairs across: the same between the means of L*a*b* along a stretch of the
+  /// edge on either side, in which what is uneven otherwise averages out.
+  double edgeP95 = 0.0;
 };
 Seams seamsOf(const CameraStack& seen, const Rasters& cameras, const CameraMask& mask,
               const std::array<float, 3>& white, const SeamPairs& pairs);

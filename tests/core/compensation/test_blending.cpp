@@ -3,9 +3,12 @@
 #include "relucent/compensation/blending.h"
 
 #include <QtTest>
+#include <array>
 #include <cmath>
 
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/base/random.h"
+#include "relucent/compensation/black_steps.h"
 #include "relucent/compensation/seams.h"
 #include "relucent/image/colour.h"
 #include "relucent/inverse/windows.h"
@@ -22,8 +25,8 @@ namespace {
 constexpr int width = 40, height = 20, each = 24, shift = width - each;  // 8 columns overlap
 
 /// A camera sees two projectors side by side, pixel for pixel. `crosstalk`: what each pixel of a projector
-/// sends to the whole wall besides.
-MeasuredVenue sideBySide(float crosstalk, int projectors = 2) {
+/// sends to the whole wall besides. `lamp`: of the last one, relative to the first one's.
+MeasuredVenue sideBySide(float crosstalk, int projectors = 2, const std::array<float, 3>& lamp = {1, 1, 1}) {
   const Rasters cameras(Size{width, height});
   const Rasters rasters(projectors == 2 ? std::vector<Size>(2, Size{each, height})
                                         : std::vector<Size>{Size{width, height}});
@@ -35,7 +38,9 @@ MeasuredVenue sideBySide(float crosstalk, int projectors = 2) {
     for (int k = 0; k < projectors; ++k) {
       const int x = at.x - k * shift, top = layout.levels(static_cast<std::size_t>(k)) - 1;
       if (x >= 0 && x < rasters.size(static_cast<std::size_t>(k)).width)
-        builder.add(row, layout.index({k, 0, x, at.y}), (0.6f * one).eval());
+        builder.add(row, layout.index({k, 0, x, at.y}),
+                    k == 1 ? ColourBlock(0.6f * Eigen::Map<const Eigen::Vector3f>(lamp.data()).asDiagonal())
+                           : (0.6f * one).eval());
       if (crosstalk > 0.0f) builder.add(row, layout.index({k, top, 0, 0}), (crosstalk * one).eval());
     }
   }
@@ -163,7 +168,7 @@ class TestBlending : public QObject {
     const SeamPairs pairs = seamPairs(venue.transport, all, 3, {});
     QCOMPARE(pairs.across.size(), static_cast<std::size_t>(2 * 3 * height));  // two edges, three columns each
     for (const auto& [a, b] : pairs.across) {
-      const int left = static_cast<int>(a) % width, right = static_cast<int>(b) % width;
+      const auto [left, right] = std::minmax({static_cast<int>(a) % width, static_cast<int>(b) % width});
       QCOMPARE(right - left, 3);
       QVERIFY((left < shift && right >= shift) || (left < each && right >= each));
     }
@@ -180,6 +185,102 @@ class TestBlending : public QObject {
     QVERIFY(seams.mean > 0.3 * step && seams.mean < 0.5 * step);  // of one edge of two, smoothed
     QVERIFY(seams.elsewhere < 0.05 * step);
     QVERIFY(std::isnan(seamsOf(even, cameras, all, white, {}).mean));
+    QVERIFY(std::abs(seams.edgeP95 - step) < 0.01);
+
+    // Law: what is uneven without a seam is none of its own.
+    for (CameraStack* uneven : {&even, &stepped})
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        Random random{7, i};
+        const float noise = 1.0f + 0.15f * static_cast<float>(random.normal());
+        for (std::size_t c = 0; c < 3; ++c) (*uneven)[3 * i + c] *= noise;
+      }
+    const Seams noise = seamsOf(even, cameras, all, white, pairs);
+    const Seams both = seamsOf(stepped, cameras, all, white, pairs);
+    qInfo("p95 %.2f beside %.2f, edge alone %.2f; with a step of %.2f: %.2f, %.2f", noise.p95,
+          noise.elsewhereP95, noise.edgeP95, step, both.p95, both.edgeP95);
+    QVERIFY(noise.edgeP95 < 0.5 * noise.p95 && std::abs(noise.p95 - noise.elsewhereP95) < 0.25 * noise.p95);
+    QVERIFY(both.edgeP95 < both.p95 && std::abs(both.edgeP95 - step) < 0.5 * step);
+  }
+
+  /// Law: without black there is no step of it and no lift; where two projectors' black meet, the least lift
+  /// hides the step, and a little less does not.
+  void blackIsLiftedNoMoreThanNeeded_data() {
+    QTest::addColumn<double>("black");
+    for (double black : {0.0, 1e-5, 0.002, 0.01, 0.04}) QTest::addRow("%g", black) << black;
+  }
+  void blackIsLiftedNoMoreThanNeeded() {
+    QFETCH(double, black);
+    MeasuredVenue venue = sideBySide(0.0f);
+    for (std::size_t i = 0; i < venue.black.size(); ++i) {
+      const int x = static_cast<int>(i / 3) % width;
+      venue.black[i] = static_cast<float>(black) * (x >= shift && x < each ? 2.0f : 1.0f);
+    }
+    const Target target = targetIn(venue);
+    const SeamPairs pairs = seamPairs(venue.transport, target.inside, 3, {});
+    const double bare = blackSteps(venue, target, pairs, 0.0).p95,
+                 lift = leastBlackLift(venue, target, pairs);
+    qInfo("steps of %.2f, least lift %.4f of white", bare, lift);
+    if (bare <= 1.0) {
+      QCOMPARE(lift, 0.0);
+      return;
+    }
+    QVERIFY(blackSteps(venue, target, pairs, lift).p95 <= 1.0);
+    QVERIFY(blackSteps(venue, target, pairs, lift - 2e-4).p95 > 1.0);
+    // Never more than what makes all black even.
+    QVERIFY(lift <= 2.0 * black / static_cast<double>(target.white[0]) + 1e-4);
+    // What is asked for then is what is seen, by the solver too.
+    TargetSettings settings;
+    settings.corners = uprightCorners(0, 0, width, height);
+    settings.blackLift = lift;
+    const Target lifted = fitTarget(Image({width, height}, 3), venue, settings);
+    const Solver solver(venue);
+    CameraStack seen = venue.transport.apply(solver.jointly(lifted));
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
+    QVERIFY(seamsOf(seen, venue.transport.cameras(), lifted.inside, lifted.white, pairs).p95 < 1.1);
+  }
+
+  void unlikeProjectorsShareTheirLight_data() {
+    QTest::addColumn<double>("red");
+    QTest::addColumn<double>("green");
+    QTest::addColumn<double>("blue");
+    QTest::newRow("alike") << 1.0 << 1.0 << 1.0;
+    QTest::newRow("an old lamp") << 0.5 << 0.5 << 0.5;
+    QTest::newRow("a dark lamp") << 0.2 << 0.2 << 0.2;
+    QTest::newRow("warm") << 1.0 << 0.8 << 0.6;
+    QTest::newRow("blue") << 0.7 << 0.9 << 1.2;
+  }
+  /// Law: no seam of a flat grey, though one lamp is dark or of another white; where both reach, the bright
+  /// one carries it.
+  void unlikeProjectorsShareTheirLight() {
+    QFETCH(double, red);
+    QFETCH(double, green);
+    QFETCH(double, blue);
+    const std::array<float, 3> lamp{static_cast<float>(red), static_cast<float>(green),
+                                    static_cast<float>(blue)};
+    const MeasuredVenue venue = sideBySide(0.02f, 2, lamp);
+    const Solver solver(venue);
+    for (double grey : {0.1, 0.25, 0.5, 0.75}) {
+      TargetSettings settings;
+      settings.corners = uprightCorners(0, 0, width, height);
+      settings.reachablePercentile = 0.0;
+      const Target target = fitTarget(Image({width, height}, 3, static_cast<float>(grey)), venue, settings);
+      const ProjectorStack p = solver.jointly(target);
+      CameraStack seen = venue.transport.apply(p);
+      for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
+      const SeamPairs pairs = seamPairs(venue.transport, target.inside, 3, {});
+      const Seams seams = seamsOf(seen, venue.transport.cameras(), target.inside, target.white, pairs);
+      QVERIFY2(seams.p95 < 1.0, qPrintable(QString("%1 grey: %2").arg(grey).arg(seams.p95)));
+      std::array<double, 2> light{};  // of each where both reach
+      const Rasters& projectors = venue.transport.projectors();
+      for (int y = 0; y < height; ++y)
+        for (int x = shift; x < each; ++x)
+          for (std::size_t c = 0; c < 3; ++c) {
+            light[0] += static_cast<double>(p[3 * indexOf(projectors.size(0), {x, y}) + c]);
+            light[1] += static_cast<double>(
+                lamp[c] * p[3 * (projectors.offset(1) + indexOf(projectors.size(1), {x - shift, y})) + c]);
+          }
+      if (red < 1.0 && blue < 1.0) QVERIFY(light[0] > light[1]);
+    }
   }
 };
 

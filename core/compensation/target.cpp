@@ -83,7 +83,7 @@ Placement placementOf(const image::Image& content, const MeasuredVenue& venue, s
   return fitted(*corners, aspect, fit);
 }
 
-/// Throws: Error{input} naming the first camera whose position is not known.
+/// Throws: Error{input} naming the first camera whose position is not known, or for a viewer far from all.
 void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
   std::vector<Position> cameras;
   for (std::size_t camera = 0; camera < views.size(); ++camera) {
@@ -96,6 +96,11 @@ void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
                                            "give the position of every camera, in the viewer's units"));
     cameras.push_back(*views[camera].position);
   }
+  if (Message far = farFromCameras(cameras, viewer); !far.empty())
+    throw Error(
+        ErrorKind::input, std::move(far),
+        RELUCENT_ENGLISH_MESSAGE("compensation.give-viewer-as-cameras",
+                                 "give his position in the units and from the origin of the cameras'"));
   const std::vector<double> weights = viewerWeights(cameras, viewer);
   for (std::size_t camera = 0; camera < views.size(); ++camera) views[camera].weight *= weights[camera];
 }

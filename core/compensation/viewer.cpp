@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "relucent/base/error.h"
 #include "relucent/compensation/dense_box.h"
@@ -61,6 +62,20 @@ std::vector<double> viewerWeights(std::span<const Position> cameras, const Posit
   for (double share : solved.x / solved.x.sum()) sum += weights.emplace_back(share > least ? share : 0.0);
   for (double& weight : weights) weight /= sum;
   return weights;
+}
+
+Message farFromCameras(std::span<const Position> cameras, const Position& viewer) {
+  constexpr double mostTimes = 2.0;
+  const double widest = widestDistance(cameras);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Position& camera : cameras) nearest = std::min(nearest, squaredDistance(camera, viewer));
+  nearest = std::sqrt(nearest);
+  if (!(widest > 0.0) || nearest <= mostTimes * widest) return {};
+  return RELUCENT_ENGLISH_MESSAGE(
+             "viewer.far-from-cameras",
+             "the viewer stands {} from the nearest camera, and no two cameras stand further "
+             "apart than {}")
+      .with(as::number(nearest, as::digits(3)), as::number(widest, as::digits(3)));
 }
 
 std::vector<Message> problems(const ViewerMotionSettings& settings) {

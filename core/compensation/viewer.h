@@ -30,6 +30,10 @@ double widestDistance(std::span<const Position> positions);
 /// cameras; positions are finite. Source: core/compensation/README.md.
 std::vector<double> viewerWeights(std::span<const Position> cameras, const Position& viewer);
 
+/// Why nobody is meant who stands there: further from every camera than twice the widest distance of two,
+/// which other units or another origin explain better. Empty: he may be, or the cameras are all at one place.
+Message farFromCameras(std::span<const Position> cameras, const Position& viewer);
+
 struct ViewerMotionSettings {
   std::chrono::duration<double> patience{2.0};  // without a word of the viewer he stays where he was
   std::chrono::duration<double> glide{1.0};     // time constant on the way back to the sweet spot

@@ -160,6 +160,7 @@ linearization::Linearization measureLinearization(calibration::CalibrationFolder
   if (auto done = folder.find(calibration::Stage::linearization,
                               calibration::fingerprintOf(folder, calibration::Stage::linearization)))
     return calibration::loadLinearization(*done);
+  rig::checkDevices(rig);
   const std::chrono::duration<double> pausedBefore = pausesOf(room);
   const Stopwatch choosingWatch;
   Progress choosing = progress.part(

@@ -25,6 +25,19 @@ Rasters Rig::cameraRasters() const {
   return rastersOf(cameras);
 }
 
+void checkDevices(const Rig& rig) {
+  for (std::size_t camera = 1; camera < rig.cameras.size(); ++camera)
+    for (std::size_t other = 0; other < camera; ++other)
+      if (rig.cameras[camera]->name() == rig.cameras[other]->name())
+        throw Error(
+            ErrorKind::input,
+            RELUCENT_ENGLISH_MESSAGE("device.two-cameras-are-one",
+                                     "cameras {} and {} are the same device: both are {}")
+                .with(as::label(other + 1), as::label(camera + 1), rig.cameras[camera]->name()),
+            RELUCENT_ENGLISH_MESSAGE("device.choose-other-camera",
+                                     "choose another camera for one of them, by its own serial number"));
+}
+
 void checkFrame(const RawFrame& frame, Size size, const std::string& camera) {
   const image::Image& image = frame.signal;
   if (image.size() != size)

@@ -90,6 +90,9 @@ struct Rig {
   Rasters cameraRasters() const;
 };
 
+/// Throws: Error{input} if two cameras are one device: names are addresses, or hold the serial number.
+void checkDevices(const Rig& rig);
+
 /// Throws: Error{input} unless `frame` has `size`, three channels and only finite values.
 void checkFrame(const RawFrame& frame, Size size, const std::string& camera);
 

@@ -63,6 +63,8 @@ class Player : public QObject {
   /// For whom the picture is now; none: no viewer has been heard of lately.
   std::optional<FrameViewer> viewer() const;
   bool canFollowViewers() const { return !cameras_.empty(); }
+  /// Where all cameras stand; empty: not known.
+  const std::vector<compensation::Position>& cameras() const { return cameras_; }
   bool hasOverlay() const { return overlayed_.isActive(); }
   std::optional<TestChart> chart() const { return chart_; }
 

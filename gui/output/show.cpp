@@ -227,7 +227,8 @@ Message Show::moveViewer(const compensation::Position& position) {
                                     "position of every camera with --camera-position");
   if (!player_->moveViewer(position))
     return RELUCENT_ENGLISH_MESSAGE("show.viewer-not-finite", "the viewer's position must be finite numbers");
-  return {};
+  // He has what there is at the border; somebody should know.
+  return compensation::farFromCameras(player_->cameras(), position);
 }
 
 void Show::writeHealth(ShowState state) {

@@ -172,6 +172,22 @@ class TestViewer : public QObject {
     QVERIFY(viewer.presence(Time(20.0)) == 0.0);
   }
 
+  /// Law: whoever stands among the cameras, or as far from them as they from each other, is meant; who stands
+  /// where other units would have him is not. The same in every unit.
+  void viewersFarFromAllCamerasAreTold() {
+    for (const double unit : {1.0, 1e-3, 1e6}) {
+      const std::vector<Position> cameras{{0, 0, 0}, {3 * unit, 0, 0}, {0, 2 * unit, 0}};
+      QVERIFY(farFromCameras(cameras, {unit, unit, 0}).empty());
+      QVERIFY(farFromCameras(cameras, {-3.6 * unit, 0, 0}).empty());
+      QVERIFY(farFromCameras(cameras, {0, 0, 7.2 * unit}).empty());
+      QVERIFY(mentions(english(farFromCameras(cameras, {0, 0, 7.3 * unit})), "from the nearest camera"));
+    }
+    QVERIFY(mentions(
+        english(farFromCameras(std::vector<Position>{{0, 0, 0}, {3, 0, 0}}, {-150, 0, 0})),
+        "the viewer stands 150 from the nearest camera, and no two cameras stand further apart than 3"));
+    QVERIFY(farFromCameras(std::vector<Position>(2, {1, 2, 3}), {100, 0, 0}).empty());
+  }
+
   void motionThatCannotBe() {
     QVERIFY(problems(ViewerMotionSettings()).empty());
     const std::vector<Message> found = problems(ViewerMotionSettings{Time(-1.0), Time(0.0)});

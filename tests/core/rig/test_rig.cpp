@@ -24,6 +24,18 @@ class StillProjector : public Projector {
   Size size_;
 };
 
+class NamedCamera : public Camera {
+ public:
+  explicit NamedCamera(std::string name) : name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+  Size size() const override { return {4, 3}; }
+  ExposureRange exposures() const override { return {0.001, 1.0}; }
+  RawFrame capture(const CaptureRequest&) override { return {}; }
+
+ private:
+  std::string name_;
+};
+
 std::string sentenceOf(const RawFrame& frame, Size size) {
   return relucent::sentenceOf([&] { checkFrame(frame, size, "camera 2"); }, ErrorKind::input);
 }
@@ -41,6 +53,16 @@ class TestRig : public QObject {
     rig.projectors.push_back(std::make_unique<StillProjector>(Size{2, 5}));
     QCOMPARE(rig.projectorRasters(), Rasters({{4, 3}, {2, 5}}));
     QCOMPARE(rig.cameraRasters().count(), std::size_t{0});
+  }
+
+  void oneCameraIsNotTwo() {
+    Rig rig;
+    for (const char* serial : {"genicam:17", "genicam:18", "genicam:17"})
+      rig.cameras.push_back(std::make_unique<NamedCamera>(serial));
+    const auto sentence = [&] { return relucent::sentenceOf([&] { checkDevices(rig); }, ErrorKind::input); };
+    QVERIFY(mentions(sentence(), "cameras 1 and 3 are the same device: both are genicam:17"));
+    rig.cameras.pop_back();
+    QCOMPARE(sentence(), std::string());
   }
 
   void aGoodFramePasses() {

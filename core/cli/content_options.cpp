@@ -175,6 +175,14 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
       ->type_name("METHOD");
   sub->add_flag("--blended", command->settings.blended,
                 "Of several projectors: compare with each solved on its own, blended by cosine ramps");
+  sub->add_option(
+         "--walk", command->settings.walk.frames,
+         "A viewer walks past all cameras in so many frames, of the first picture, as a show follows him; "
+         "needs every --camera-position")
+      ->type_name("FRAMES");
+  sub->add_option("--film", command->settings.walk.film,
+                  "Folder for what all views see meanwhile, side by side, as numbered pictures")
+      ->type_name("DIR");
   addTarget(sub, command->settings.target);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };

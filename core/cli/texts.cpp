@@ -148,9 +148,21 @@ std::string textOf(const pipeline::EvaluateResult& result) {
   }
   for (const pipeline::SeamScore& seams : result.seams)
     text += fmt::format(
-        "Seams at {:.0f} % grey: dE2000 {:.2f} with {}, {:.2f} blended; beside them {:.2f}, {:.2f}.\n",
+        "Seams at {:.0f} % grey: dE2000 {:.2f} with {}, {:.2f} blended; beside them {:.2f}, {:.2f}. 95 %: "
+        "{:.2f}, "
+        "{:.2f}; beside them {:.2f}, {:.2f}; of the edges alone {:.2f}, {:.2f}.\n",
         100.0 * seams.grey, seams.joint.mean, nameOf(seams.method), seams.blended.mean, seams.joint.elsewhere,
-        seams.blended.elsewhere);
+        seams.blended.elsewhere, seams.joint.p95, seams.blended.p95, seams.joint.elsewhereP95,
+        seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95);
+  if (result.blackSteps)
+    text += fmt::format("Edges of black: dE2000 {:.2f} (95 %); not seen with --black-lift {:.4f}.\n",
+                        result.blackSteps->p95, result.blackSteps->leastLift);
+  for (const pipeline::WalkFrame& frame : result.walk) {
+    text += fmt::format("Viewer at ({:.2f}, {:.2f}, {:.2f}): the views have {:.1f} dB", frame.viewer[0],
+                        frame.viewer[1], frame.viewer[2], fmt::join(frame.psnr, ", "));
+    if (!frame.unseen.empty()) text += fmt::format(", unseen places {:.1f}", fmt::join(frame.unseen, ", "));
+    text += ".\n";
+  }
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/compensation/black_steps.h"
 #include "relucent/compensation/blending.h"
 #include "relucent/compensation/contradiction.h"
 #include "relucent/image/colour.h"
@@ -243,11 +244,12 @@ std::vector<compensation::Method> methodsOf(const EvaluateSettings& settings) {
   return settings.methods.empty() ? allValues<compensation::Method>() : settings.methods;
 }
 
+constexpr int seamApart = 3;  // pixels between the two of a pair
+
 /// At some flat greys, shaped as the content is.
 std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
                                   const compensation::Compensator& compensator, const Judge& judge,
                                   Size content, const EvaluateSettings& settings) {
-  constexpr int apart = 3;
   const transport::TransportMatrix& transport = measured.venue.transport;
   std::vector<SeamScore> scores;
   for (double grey : {0.1, 0.25, 0.5, 0.75}) {
@@ -255,7 +257,7 @@ std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
     const compensation::Target target = fitTarget(flat, measured.venue, settings.target);
     const CameraMask mask = judge.reachable(target);
     const compensation::SeamPairs pairs =
-        compensation::seamPairs(transport, mask, apart, settings.compensator.direct);
+        compensation::seamPairs(transport, mask, seamApart, settings.compensator.direct);
     const auto seams = [&](const compensation::Compensation& compensation) {
       return compensation::seamsOf(judge.seen(compensation), transport.cameras(), mask, target.white, pairs);
     };
@@ -359,6 +361,34 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   }
   if (settings.blended)
     result.seams = seamScores(measured, compensator, judge, content.front().linear.size(), settings);
+  if (settings.blended) {
+    const compensation::Target target = fitTarget(content.front().linear, measured.venue, settings.target);
+    const compensation::SeamPairs pairs = compensation::seamPairs(measured.venue.transport, target.inside,
+                                                                  seamApart, settings.compensator.direct);
+    result.blackSteps = {blackSteps(measured.venue, target, pairs, settings.target.blackLift).p95,
+                         leastBlackLift(measured.venue, target, pairs)};
+  }
+  if (settings.walk.frames > 0) {
+    const auto judged = [&](const compensation::Compensation& shown, const compensation::Target& target) {
+      WalkSight sight;
+      const auto scores = [&](const Judge& by, const compensation::Target& wanted,
+                              std::vector<double>& psnr) {
+        const CameraStack seen = by.seen(shown);
+        const CameraMask reachable = by.reachable(wanted);
+        for (std::size_t view = 0; view < by.views(); ++view) {
+          const auto score = by.scoreOf(compensation::Method::refined, seen, wanted, reachable, view);
+          psnr.push_back(score ? score->psnrReachable : std::numeric_limits<double>::quiet_NaN());
+          sight.views.push_back(image::viewed(by.view(seen, view), wanted.white));
+        }
+      };
+      scores(judge, target, sight.psnr);
+      if (unseen && !hasOwnPictures(target)) scores(unseen->judge(), unseen->target(target), sight.unseen);
+      return sight;
+    };
+    Progress walking =
+        progress.part(0.0, RELUCENT_ENGLISH_MESSAGE("stage.following-viewer", "Following a viewer"));
+    result.walk = walk(measured, content.front().linear, settings.target, settings.walk, judged, walking);
+  }
   progress.report(1.0);
   return evaluation;
 }

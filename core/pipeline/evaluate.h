@@ -12,6 +12,7 @@
 #include "relucent/compensation/seams.h"
 #include "relucent/compensation/target.h"
 #include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/viewer_walk.h"
 
 namespace relucent::pipeline {
 
@@ -23,6 +24,7 @@ struct EvaluateSettings {
   compensation::CompensatorSettings compensator;
   /// Whether several projectors are also compared with each of them solved on its own and blended.
   bool blended = false;
+  WalkSettings walk{};  // a viewer who walks past the cameras, by the first image
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
 
@@ -69,6 +71,12 @@ struct SeamScore {
   compensation::Seams blended;  // each projector on its own
 };
 
+/// What is seen of the edges of projectors' black (compensation/black_steps.h).
+struct BlackSteps {
+  double p95 = 0.0;        // CIEDE2000, with the black lift that was asked for
+  double leastLift = 0.0;  // with which it is not seen
+};
+
 /// How well T itself was measured; relative errors.
 struct TransportScore {
   double frobenius = 0.0;
@@ -86,7 +94,9 @@ struct EvaluateResult {
   double reachable = 0.0;  // mean over images
   TransportScore transport;
   std::vector<ImageScore> images;
-  std::vector<SeamScore> seams{};  // if separate solves were asked for
+  std::vector<SeamScore> seams{};          // if separate solves were asked for
+  std::optional<BlackSteps> blackSteps{};  // likewise
+  std::vector<WalkFrame> walk{};           // if a viewer walks
 };
 
 /// PSNR of the reachable pixels with a method, mean of the images, dB.  Contract: it was compared.

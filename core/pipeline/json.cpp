@@ -51,7 +51,11 @@ calibration::Json viewToJson(const ViewScore& view) {
 
 calibration::Json seamsToJson(const std::vector<SeamScore>& scores) {
   const auto toJson = [](const compensation::Seams& seams) {
-    return calibration::Json{{"mean", seams.mean}, {"p95", seams.p95}, {"elsewhere", seams.elsewhere}};
+    return calibration::Json{{"mean", seams.mean},
+                             {"p95", seams.p95},
+                             {"elsewhere", seams.elsewhere},
+                             {"elsewhere_p95", seams.elsewhereP95},
+                             {"edge_p95", seams.edgeP95}};
   };
   calibration::Json list = calibration::Json::array();
   for (const SeamScore& score : scores)
@@ -185,6 +189,13 @@ calibration::Json toJson(const EvaluateResult& result) {
                          {"transport", transportToJson(result.transport)},
                          {"images", std::move(images)}};
   if (!result.seams.empty()) json["seams"] = seamsToJson(result.seams);
+  if (result.blackSteps)
+    json["black_steps"] = {{"p95", result.blackSteps->p95}, {"least_lift", result.blackSteps->leastLift}};
+  for (const WalkFrame& frame : result.walk)
+    json["walk"].push_back({{"viewer", frame.viewer},
+                            {"weights", frame.weights},
+                            {"psnr", frame.psnr},
+                            {"unseen", frame.unseen}});
   return json;
 }
 

@@ -196,6 +196,9 @@ class TestArguments : public QObject {
     QVERIFY((evaluate.settings.methods == std::vector{Method::mix, Method::refined}));
     QVERIFY(!evaluate.settings.blended && parsed<Evaluate>("evaluate d --blended").settings.blended);
     QVERIFY(parsed<Evaluate>("evaluate d").settings.methods.empty());
+    const WalkSettings walk = parsed<Evaluate>("evaluate d --walk 24 --film f").settings.walk;
+    QVERIFY(walk.frames == 24 && walk.film == "f");
+    QCOMPARE(parsed<Evaluate>("evaluate d").settings.walk.frames, 0);
 
     QCOMPARE(parsed<Export>("export d --transport T.npz").settings.transport, std::filesystem::path("T.npz"));
     const pipeline::ExportSettings players =
@@ -219,6 +222,11 @@ class TestArguments : public QObject {
     QVERIFY(parsed<Bench>("bench windows").suite == BenchSuite::parts);
     QVERIFY(parsed<Bench>("bench engine --backend opengl").backend == BackendChoice::openGl);
     QVERIFY(parsed<Bench>("bench engine").suite == BenchSuite::engine);
+    QVERIFY(!parsed<Bench>("bench engine").engine);
+    const Bench devices = parsed<Bench>("bench engine --devices 4x1024x768/3x640x480 --backend cpu");
+    QVERIFY(devices.engine && devices.engine->projectors == 4 && devices.engine->cameras == 3 &&
+            devices.engine->projector == Size({1024, 768}) && devices.engine->camera == Size({640, 480}) &&
+            devices.engine->backend == BackendChoice::cpu);
     const Bench scale = parsed<Bench>("bench scale --sizes 64x48/40x30 --sizes 80x60/50x40");
     QVERIFY(scale.suite == BenchSuite::scale);
     QVERIFY(

@@ -21,6 +21,7 @@
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/venue/scenes.h"
 #include "relucent/venue/traced_transport.h"
+#include "support/sentences.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -373,6 +374,69 @@ class TestSeveralViews : public QObject {
             unseen[place], withCamera[place]);
       QVERIFY(unseen[place] > withCamera[place] - 3.0);
     }
+  }
+
+  /// Whoever walks past the cameras has, at each of them, what was solved for him alone there, or nearly: the
+  /// show follows by two steps a frame. What is seen on the way is written.
+  void aViewerWalksPastTheCameras() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    Progress silent;
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;
+    evaluating.methods = {Method::refined};
+    const std::vector<Position> places{{-2, 2, 0}, {0, 3, 0}, {2, 2, 0}};
+    for (const Position& place : places) evaluating.target.views.push_back({1.0, {}, {}, place});
+    evaluating.walk = {13, 2, root() / "film"};
+    const EvaluateResult result = evaluate(statue(), evaluating, cache(), silent);
+    QCOMPARE(result.walk.size(), std::size_t{13});
+    for (std::size_t camera = 0; camera < 3; ++camera) {
+      const WalkFrame& there = result.walk[6 * camera];
+      QVERIFY(there.viewer == places[camera] && there.weights[camera] > 0.999);
+      EvaluateSettings standing = evaluating;
+      standing.walk = {};
+      standing.target.viewer = places[camera];
+      const EvaluateResult alone = evaluate(statue(), standing, cache(), silent);
+      const double best =
+          psnrOf(camera == 0 ? alone.images[0].methods : alone.images[0].others[camera - 1].methods);
+      qInfo("camera %zu: %.2f dB while walking, %.2f dB standing", camera + 1, there.psnr[camera], best);
+      QVERIFY(there.psnr[camera] > best - 0.7);
+      QCOMPARE(there.unseen.size(), std::size_t{2});
+    }
+    for (int frame : {1, 13}) {
+      const Picture seen = readPicture(root() / "film" / fmt::format("frame-{:04}.png", frame));
+      QCOMPARE(seen.encoded.width(), 5 * 64);
+    }
+    QVERIFY(!fs::exists(root() / "film" / "frame-0014.png"));
+  }
+
+  void walksThatCannotBe_data() {
+    QTest::addColumn<int>("frames");
+    QTest::addColumn<int>("positions");
+    QTest::addColumn<QString>("part");
+    QTest::newRow("one frame") << 1 << 3 << "two frames or more";
+    QTest::newRow("backwards") << -5 << 3 << "two frames or more";
+    QTest::newRow("a film of nothing") << 0 << 3 << "needs the number of its frames";
+    QTest::newRow("places unknown") << 5 << 2 << "where all of them stand";
+  }
+  void walksThatCannotBe() {
+    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    QFETCH(int, frames);
+    QFETCH(int, positions);
+    QFETCH(QString, part);
+    EvaluateSettings evaluating;
+    evaluating.fewImages = true;
+    evaluating.methods = {Method::mix};
+    for (int camera = 0; camera < 3; ++camera)
+      evaluating.target.views.push_back(
+          {1.0, {}, {}, camera < positions ? std::optional(Position{1.0 * camera, 0, 0}) : std::nullopt});
+    evaluating.walk = {frames, 2, root() / "no film"};
+    const std::string sentence = sentenceOf(
+        [&] {
+          Progress silent;
+          evaluate(statue(), evaluating, cache(), silent);
+        },
+        ErrorKind::input);
+    QVERIFY(mentions(sentence, part.toStdString()));
   }
 
   /// Pictures of their own are upright from each place, at a price that is told; between them nothing is

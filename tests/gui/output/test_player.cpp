@@ -98,7 +98,7 @@ class TestPlayer : public QObject {
     auto player = playerOf(still(), {{0, 0, 0}, {2, 0, 0}});
     player->start();
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
-    QVERIFY(player->canFollowViewers() && !player->viewer());
+    QVERIFY(player->canFollowViewers() && player->cameras().size() == 2 && !player->viewer());
     QVERIFY(player->moveViewer({1.5, 0, 0}));
     QTRY_VERIFY(renderer_->presence == 1.0 && renderer_->viewerX == 1.5);
     QVERIFY(player->viewer() == FrameViewer({{1.5, 0, 0}, 1.0}));

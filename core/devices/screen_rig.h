@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "relucent/devices/check/latency.h"
 #include "relucent/rig/rig.h"
@@ -50,5 +51,9 @@ struct ScreenRig {
 /// and nothing else. The camera throws Error{device} if the picture is lost again and again.
 ScreenRig screenRig(std::unique_ptr<ScreenProjector> screen, std::unique_ptr<rig::Camera> camera,
                     const ScreenTiming& timing, Wait wait);
+/// Several of both: a photograph counts only if all screens kept their pictures. `timing`: the slowest
+/// screen's.  Contract: there is a screen and a camera.
+ScreenRig screenRig(std::vector<std::unique_ptr<ScreenProjector>> screens,
+                    std::vector<std::unique_ptr<rig::Camera>> cameras, const ScreenTiming& timing, Wait wait);
 
 }  // namespace relucent::devices

@@ -2,8 +2,11 @@
 #include "relucent/linearization/coverage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
+#include "relucent/base/error.h"
 #include "relucent/linearization/test_light.h"
 
 namespace relucent::linearization {
@@ -67,45 +70,25 @@ double missingOf(const Coverage& coverage, bool isColumn, int at) {
   return static_cast<double>(missing) / count;
 }
 
-/// Of one projector.
-class Looking {
- public:
-  Looking(rig::ShotTaker& shots, std::size_t projector, double exposure, const Progress& progress)
-      : shots_(shots), projector_(projector), exposure_(exposure), progress_(progress) {}
+/// One camera's pixels while the stripes of a projector are shown.
+struct Following {
+  std::vector<float> black{};
+  float floor = 0.0f;
+  std::vector<int> column{}, row{};     // Gray codes
+  std::vector<std::uint8_t> follows{};  // every stripe so far
 
-  Coverage run() {
-    const Size picture = shots_.rig().projectors[projector_]->size();
-    const Size camera = shots_.rig().cameras.front()->size();
-    const int columnBits = bitsFor(picture.width, camera.width),
-              rowBits = bitsFor(picture.height, camera.height);
-    const Size cells{1 << columnBits, 1 << rowBits};
-    const std::vector<float> black = photographed(image::Image(picture, 3, 0.0f));
-    column_.assign(black.size(), 0);
-    row_.assign(black.size(), 0);
-    follows_.assign(black.size(), 1);
-    for (int bit = 0; bit < columnBits; ++bit) follow(picture, cells, {false, bit}, black, column_);
-    for (int bit = 0; bit < rowBits; ++bit) follow(picture, cells, {true, bit}, black, row_);
-    return seenOf(cells);
-  }
+  explicit Following(std::vector<float> dark, float least)
+      : black(std::move(dark)),
+        floor(least),
+        column(black.size(), 0),
+        row(black.size(), 0),
+        follows(black.size(), 1) {}
 
- private:
-  std::vector<float> photographed(const image::Image& pattern) {
-    std::vector<image::Image> patterns = evenPatterns(shots_.rig(), {0, 0, 0});
-    patterns[projector_] = pattern;
-    const rig::Shot shot = shots_.take(patterns, {exposure_}, progress_);
-    const rig::RawFrame& frame = shot.frames.front().front();
-    const double step = frame.bits > 0 ? 1.0 / (std::ldexp(1.0, frame.bits) - 1.0) : 0.0;
-    floor_ = std::max(leastSignal, static_cast<float>(leastCodes * step));
-    return lightOf(frame.signal);
-  }
-
-  void follow(Size picture, Size cells, const Stripes& stripes, const std::vector<float>& black,
-              std::vector<int>& code) {
-    const std::vector<float> shown = photographed(stripesOf(picture, cells, stripes, false)),
-                             inverted = photographed(stripesOf(picture, cells, stripes, true));
+  void learn(const std::vector<float>& shown, const std::vector<float>& inverted, const Stripes& stripes) {
+    std::vector<int>& code = stripes.rows ? row : column;
     for (std::size_t i = 0; i < black.size(); ++i) {
       const float apart = shown[i] - inverted[i], all = shown[i] + inverted[i] - 2.0f * black[i];
-      if (!(std::abs(apart) > std::max(floor_, modulation * all))) follows_[i] = 0;
+      if (!(std::abs(apart) > std::max(floor, modulation * all))) follows[i] = 0;
       // Cells whose bit is 0 are lit by the stripes themselves.
       if (apart < 0.0f) code[i] |= 1 << stripes.bit;
     }
@@ -113,8 +96,8 @@ class Looking {
 
   Coverage seenOf(Size cells) const {
     std::vector<int> pixels(cells.count(), 0);
-    for (std::size_t i = 0; i < follows_.size(); ++i)
-      if (follows_[i] != 0) ++pixels[indexOf(cells, {numberOf(column_[i]), numberOf(row_[i])})];
+    for (std::size_t i = 0; i < follows.size(); ++i)
+      if (follows[i] != 0) ++pixels[indexOf(cells, {numberOf(column[i]), numberOf(row[i])})];
     std::vector<int> some;
     for (int count : pixels)
       if (count > 0) some.push_back(count);
@@ -124,14 +107,61 @@ class Looking {
     for (int count : pixels) coverage.seen.push_back(count > 0 && count >= leastOfUsual * usual ? 1 : 0);
     return coverage;
   }
+};
+
+/// At one projector.
+class Looking {
+ public:
+  Looking(rig::ShotTaker& shots, std::size_t projector, double exposure, const Progress& progress)
+      : shots_(shots), projector_(projector), exposure_(exposure), progress_(progress) {}
+
+  void run(RigCoverage& result) {
+    const Size picture = shots_.rig().projectors[projector_]->size();
+    Size camera = shots_.rig().cameras.front()->size();
+    for (const auto& other : shots_.rig().cameras)
+      camera = {std::min(camera.width, other->size().width), std::min(camera.height, other->size().height)};
+    const int columnBits = bitsFor(picture.width, camera.width),
+              rowBits = bitsFor(picture.height, camera.height);
+    const Size cells{1 << columnBits, 1 << rowBits};
+    const rig::Shot dark = photographed(image::Image(picture, 3, 0.0f));
+    for (const rig::RawFrame& frame : dark.frames.front()) {
+      const double step = frame.bits > 0 ? 1.0 / (std::ldexp(1.0, frame.bits) - 1.0) : 0.0;
+      cameras_.emplace_back(lightOf(frame.signal),
+                            std::max(leastSignal, static_cast<float>(leastCodes * step)));
+    }
+    for (int bit = 0; bit < columnBits; ++bit) follow(picture, cells, {false, bit});
+    for (int bit = 0; bit < rowBits; ++bit) follow(picture, cells, {true, bit});
+    std::vector<Coverage>& coverages = result.coverages.emplace_back();
+    result.litBy.resize(cameras_.size());
+    for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
+      coverages.push_back(cameras_[camera].seenOf(cells));
+      std::vector<std::uint32_t>& lit = result.litBy[camera];
+      lit.resize(cameras_[camera].follows.size());
+      for (std::size_t i = 0; i < lit.size(); ++i)
+        if (cameras_[camera].follows[i] != 0) lit[i] |= std::uint32_t{1} << projector_;
+    }
+  }
+
+ private:
+  rig::Shot photographed(const image::Image& pattern) {
+    std::vector<image::Image> patterns = evenPatterns(shots_.rig(), {0, 0, 0});
+    patterns[projector_] = pattern;
+    return shots_.take(patterns, {exposure_}, progress_);
+  }
+
+  void follow(Size picture, Size cells, const Stripes& stripes) {
+    const rig::Shot shown = photographed(stripesOf(picture, cells, stripes, false)),
+                    inverted = photographed(stripesOf(picture, cells, stripes, true));
+    for (std::size_t camera = 0; camera < cameras_.size(); ++camera)
+      cameras_[camera].learn(lightOf(shown.frames.front()[camera].signal),
+                             lightOf(inverted.frames.front()[camera].signal), stripes);
+  }
 
   rig::ShotTaker& shots_;
   std::size_t projector_;
   double exposure_;
   const Progress& progress_;
-  float floor_ = 0.0f;
-  std::vector<int> column_, row_;      // Gray codes
-  std::vector<std::uint8_t> follows_;  // every stripe so far
+  std::vector<Following> cameras_;
 };
 
 }  // namespace
@@ -154,14 +184,38 @@ double Coverage::missingBottom() const {
   return missingOf(*this, false, cells.height - 1);
 }
 
-std::vector<Coverage> coverageOf(rig::ShotTaker& shots, double exposure, Progress& progress) {
-  std::vector<Coverage> coverages;
+std::vector<Coverage> RigCoverage::byAnyCamera() const {
+  std::vector<Coverage> all;
+  for (const std::vector<Coverage>& cameras : coverages) {
+    Coverage& any = all.emplace_back(cameras.front());
+    for (const Coverage& camera : cameras)
+      for (std::size_t cell = 0; cell < any.seen.size(); ++cell) any.seen[cell] |= camera.seen[cell];
+  }
+  return all;
+}
+
+std::vector<double> RigCoverage::overlaps(std::size_t camera) const {
+  std::vector<double> shares(coverages.size(), 0.0);
+  double lit = 0.0;
+  for (std::uint32_t projectors : litBy[camera]) {
+    if (projectors == 0) continue;
+    shares[static_cast<std::size_t>(std::popcount(projectors)) - 1] += 1.0;
+    lit += 1.0;
+  }
+  if (!(lit > 0.0)) return {};
+  for (double& share : shares) share /= lit;
+  return shares;
+}
+
+RigCoverage coverageOf(rig::ShotTaker& shots, double exposure, Progress& progress) {
+  RigCoverage result;
   const std::size_t projectors = shots.rig().projectors.size();
+  require(projectors <= 32, "{} projectors", projectors);
   for (std::size_t projector = 0; projector < projectors; ++projector) {
-    coverages.push_back(Looking(shots, projector, exposure, progress).run());
+    Looking(shots, projector, exposure, progress).run(result);
     progress.report(static_cast<double>(projector + 1) / static_cast<double>(projectors));
   }
-  return coverages;
+  return result;
 }
 
 }  // namespace relucent::linearization

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/devices.h"
 
+#include <algorithm>
+
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_registry.h"
 #include "relucent/devices/check/latency.h"
@@ -9,6 +11,7 @@
 #include "relucent/devices/recording/recording.h"
 #include "relucent/devices/whole_frames.h"
 #include "relucent/pipeline/reductions.h"
+#include "relucent/pipeline/screen_devices.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -78,9 +81,19 @@ struct Opener {
                   RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
                   RELUCENT_ENGLISH_MESSAGE("calibration.choose-camera", "choose one in the Camera step"));
     OpenedRig result;
-    auto camera = cameraFor(settings, addressFrom(settings.cameraAddress));
-    devices::ScreenRig screen = screenRig(screens(settings), std::move(camera),
-                                          {settings.latency, 1.0 / settings.frameRate}, devices::sleepFor);
+    std::vector<std::unique_ptr<rig::Camera>> cameras;
+    for (const ScreenRigSettings::Camera& camera : camerasOf(settings))
+      cameras.push_back(devices::cameraRegistry().open(
+          addressFrom(camera.address), {camera.size, {settings.shortestExposure, settings.longestExposure}}));
+    std::vector<std::unique_ptr<devices::ScreenProjector>> projectors;
+    double slowest = settings.frameRate;
+    for (std::size_t i = 0; i < screensOf(settings).size(); ++i) {
+      const ScreenRigSettings alone = withScreenAlone(settings, i);
+      projectors.push_back(screens(alone));
+      slowest = std::min(slowest, alone.frameRate);
+    }
+    devices::ScreenRig screen = devices::screenRig(std::move(projectors), std::move(cameras),
+                                                   {settings.latency, 1.0 / slowest}, devices::sleepFor);
     result.rig = std::move(screen.rig);
     result.screen = std::move(screen.control);
     return result;

@@ -32,8 +32,8 @@ struct CommandRigSettings {
   double frameRate = 0.0;
 };
 
-/// A screen of the desktop as projector, and any camera by its address. Opened by whoever has windows
-/// (pipeline/devices.h).
+/// Screens of the desktop as projectors, and any cameras by their addresses; screen_devices.h has both as
+/// lists. Opened by whoever has windows (pipeline/devices.h).
 struct ScreenRigSettings {
   /// What the screen is known by after it was unplugged: its maker's names where it tells them, else where it
   /// is plugged in.
@@ -50,6 +50,25 @@ struct ScreenRigSettings {
   double shortestExposure = 1e-3;  // seconds; of external programs, which cannot be asked
   double longestExposure = 4.0;
   double latency = 0.0;  // seconds from the swap until the picture is out; 0: measured at the step Camera
+
+  /// A screen beside the first one, which the fields above are of.
+  struct Screen {
+    Display display;
+    Size projector;
+    double frameRate = 60.0;
+    std::string name{};  // what people call the projector; empty: its number
+    bool operator==(const Screen&) const = default;
+  };
+  /// A camera beside the first one. Exposures are those that all cameras can take.
+  struct Camera {
+    std::string address;
+    std::optional<Size> size{};  // none: all that it has
+    std::string name{};
+    bool operator==(const Camera&) const = default;
+  };
+  std::string name{}, cameraName{};  // of the first ones
+  std::vector<Screen> moreScreens{};
+  std::vector<Camera> moreCameras{};  // only where the first one is chosen
 };
 
 /// A recording in place of devices (devices/recording/recording.h).

@@ -10,6 +10,7 @@
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/verify.h"
 
 namespace relucent::pipeline {
@@ -109,12 +110,17 @@ Problems problemsOf(const ScreenRigSettings& settings) {
   Problems found;
   checkSize(found, DeviceKind::projector, settings.projector);
   if (settings.camera) checkSize(found, DeviceKind::camera, *settings.camera);
+  for (const ScreenRigSettings::Screen& screen : settings.moreScreens)
+    checkSize(found, DeviceKind::projector, screen.projector);
+  for (const ScreenRigSettings::Camera& camera : settings.moreCameras)
+    if (camera.size) checkSize(found, DeviceKind::camera, *camera.size);
   if (settings.display == ScreenRigSettings::Display{})
     found.push_back(RELUCENT_ENGLISH_MESSAGE("calibration.no-screen-chosen", "no screen is chosen"));
-  if (!settings.cameraAddress.empty()) checkAddress(found, settings.cameraAddress);  // may be chosen later
-  if (!(settings.frameRate > 0.0))
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("device.screen-frame-rate-not-positive",
-                                             "a screen's frame rate must be above 0"));
+  append(found, problemsOfDevices(settings));  // cameras may be chosen later
+  for (const ScreenRigSettings::Screen& screen : screensOf(settings))
+    if (!(screen.frameRate > 0.0))
+      found.push_back(RELUCENT_ENGLISH_MESSAGE("device.screen-frame-rate-not-positive",
+                                               "a screen's frame rate must be above 0"));
   checkTimes(found, settings);
   return found;
 }

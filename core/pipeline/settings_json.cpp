@@ -212,6 +212,19 @@ Sorted screenRigToJson(const ScreenRigSettings& settings) {
               {"longest_exposure", settings.longestExposure},
               {"latency", settings.latency}};
   if (settings.camera) json["camera"] = *settings.camera;
+  // Fingerprints of rigs without any are those of versions that knew none.
+  if (!settings.name.empty()) json["name"] = settings.name;
+  if (!settings.cameraName.empty()) json["camera_name"] = settings.cameraName;
+  for (const ScreenRigSettings::Screen& screen : settings.moreScreens)
+    json["more_screens"].push_back({{"display", displayToJson(screen.display)},
+                                    {"projector", screen.projector},
+                                    {"frame_rate", screen.frameRate},
+                                    {"name", screen.name}});
+  for (const ScreenRigSettings::Camera& camera : settings.moreCameras) {
+    Sorted& more =
+        json["more_cameras"].emplace_back(Sorted{{"address", camera.address}, {"name", camera.name}});
+    if (camera.size) more["size"] = *camera.size;
+  }
   return json;
 }
 
@@ -225,6 +238,17 @@ ScreenRigSettings screenRigFromJson(const Sorted& json) {
   settings.longestExposure = json.value("longest_exposure", settings.longestExposure);
   settings.latency = json.value("latency", settings.latency);
   if (json.contains("camera")) settings.camera = json.at("camera").get<Size>();
+  settings.name = json.value("name", settings.name);
+  settings.cameraName = json.value("camera_name", settings.cameraName);
+  for (const Sorted& screen : json.value("more_screens", Sorted::array()))
+    settings.moreScreens.push_back({displayFromJson(screen.at("display")), screen.at("projector").get<Size>(),
+                                    screen.at("frame_rate").get<double>(), screen.value("name", "")});
+  for (const Sorted& camera : json.value("more_cameras", Sorted::array())) {
+    ScreenRigSettings::Camera& more = settings.moreCameras.emplace_back();
+    more.address = camera.at("address");
+    more.name = camera.value("name", "");
+    if (camera.contains("size")) more.size = camera.at("size").get<Size>();
+  }
   return settings;
 }
 
@@ -300,16 +324,16 @@ RigSettings rigFromJson(const calibration::Json& json) {
   }
 }
 
-calibration::Json screenToJson(const ScreenRigSettings& settings) {
+calibration::Json screenToJson(const ScreenRigSettings::Screen& screen) {
   return calibration::Json(
-      Sorted{{"display", displayToJson(settings.display)}, {"frame_rate", settings.frameRate}});
+      Sorted{{"display", displayToJson(screen.display)}, {"frame_rate", screen.frameRate}});
 }
 
-void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings) {
+void screenFromJson(const calibration::Json& json, ScreenRigSettings::Screen& screen) {
   try {
     Sorted sorted(json);
-    settings.display = displayFromJson(sorted.at("display"));
-    settings.frameRate = sorted.value("frame_rate", settings.frameRate);
+    screen.display = displayFromJson(sorted.at("display"));
+    screen.frameRate = sorted.value("frame_rate", screen.frameRate);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

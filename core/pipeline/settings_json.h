@@ -14,9 +14,9 @@ calibration::Json rigToJson(const RigSettings& settings);
 RigSettings rigFromJson(const calibration::Json& json);
 
 /// Where a screen hangs that was measured elsewhere: display and frame rate.
-calibration::Json screenToJson(const ScreenRigSettings& settings);
+calibration::Json screenToJson(const ScreenRigSettings::Screen& screen);
 /// Puts them in place of those that were measured. Throws: Error{format}.
-void screenFromJson(const calibration::Json& json, ScreenRigSettings& settings);
+void screenFromJson(const calibration::Json& json, ScreenRigSettings::Screen& screen);
 
 calibration::Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.

@@ -3,6 +3,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 
 namespace relucent::pipeline {
@@ -11,9 +12,22 @@ namespace {
 /// In a manifest's settings: where the projector's screen hangs now, if not where it was measured. No
 /// fingerprint knows it.
 constexpr const char* movedScreen = "screen";
+/// The same of projectors beyond the first, by their numbers.
+constexpr const char* moreMovedScreens = "more_screens";
 /// There, how the cameras are reduced: for no person to read. calibration/stage.h names it too.
 constexpr const char* reductionSection = "reduction";
 constexpr const char* toBeChosen = "to be chosen";
+
+void moveScreens(const calibration::Json& settings, ScreenRigSettings& rig) {
+  std::vector<ScreenRigSettings::Screen> screens = screensOf(rig);
+  if (screens.empty()) return;
+  if (settings.contains(movedScreen)) screenFromJson(settings.at(movedScreen), screens.front());
+  if (settings.contains(moreMovedScreens))
+    for (std::size_t i = 1; i < screens.size(); ++i)
+      if (const std::string number = std::to_string(i); settings.at(moreMovedScreens).contains(number))
+        screenFromJson(settings.at(moreMovedScreens).at(number), screens[i]);
+  rig = withScreens(std::move(rig), screens);
+}
 
 }  // namespace
 
@@ -25,9 +39,7 @@ calibration::CalibrationFolder createCalibration(const std::filesystem::path& pa
 CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
   CalibrateSettings settings;
   settings.rig = measuredRigOf(folder);
-  auto* screen = std::get_if<ScreenRigSettings>(&settings.rig);
-  if (screen != nullptr && folder.settings().contains(movedScreen))
-    screenFromJson(folder.settings().at(movedScreen), *screen);
+  if (auto* screen = std::get_if<ScreenRigSettings>(&settings.rig)) moveScreens(folder.settings(), *screen);
   stagesFromJson(folder.settings(), settings);
   return settings;
 }
@@ -82,11 +94,13 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry", "change that setting and try again"));
   calibration::Json asked = folder.settings();
-  if (asked.erase(movedScreen) + asked.erase(reductionSection) > 0) folder.setSettings(std::move(asked));
+  if (asked.erase(movedScreen) + asked.erase(moreMovedScreens) + asked.erase(reductionSection) > 0)
+    folder.setSettings(std::move(asked));
   folder.setRig(rigToJson(rig));
 }
 
-void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen) {
+void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen,
+                  std::size_t projector) {
   const RigSettings measured = measuredRigOf(folder);
   const auto* before = std::get_if<ScreenRigSettings>(&measured);
   if (before == nullptr)
@@ -96,16 +110,23 @@ void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSetting
                                  "the projector of this calibration is not a screen of the desktop"),
         RELUCENT_ENGLISH_MESSAGE("calibration.begin-venue-for-screen", "begin a new venue for a screen"),
         folder.path().string());
-  if (before->projector != screen.projector)
+  const std::vector<ScreenRigSettings::Screen> screens = screensOf(*before);
+  require(projector < screens.size(), "projector {} of {}", projector, screens.size());
+  if (screens[projector].projector != screen.projector)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("calibration.screen-size-differs",
                                          "this screen has {} pixels and the measured projector {}")
-                    .with(as::size(screen.projector), as::size(before->projector)),
+                    .with(as::size(screen.projector), as::size(screens[projector].projector)),
                 RELUCENT_ENGLISH_MESSAGE("calibration.choose-screen-same-resolution",
                                          "choose a screen of the same resolution"),
                 folder.path().string());
   calibration::Json settings = folder.settings();
-  settings[movedScreen] = screenToJson(screen);
+  const calibration::Json moved =
+      screenToJson({screen.display, screen.projector, screen.frameRate, screen.name});
+  if (projector == 0)
+    settings[movedScreen] = moved;
+  else
+    settings[moreMovedScreens][std::to_string(projector)] = moved;
   folder.setSettings(std::move(settings));
 }
 

@@ -44,8 +44,10 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig);
 
 /// Uses the calibration with another screen: the projector's cable hangs elsewhere than when it was measured,
 /// or another projector stands in its place. Nothing becomes stale: the same projector shines as it did, and
-/// whether it is the same is for a verification to say. Of `screen` display and frame rate are taken.
-/// Throws: Error{input} if the projector is no screen, or one of other pixels; Error{disk}.
-void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen);
+/// whether it is the same is for a verification to say. Of `screen` display and frame rate of its first
+/// screen are taken, for the projector of that number. Throws: Error{input} if the projector is no screen, or
+/// one of other pixels; Error{disk}.
+void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen,
+                  std::size_t projector = 0);
 
 }  // namespace relucent::pipeline

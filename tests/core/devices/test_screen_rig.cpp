@@ -97,6 +97,32 @@ class TestScreenRig : public QObject {
     QCOMPARE(script.events, (std::vector<std::string>{"show", "show", "photograph"}));
   }
 
+  /// Law: of several screens, each of them must keep its picture; only the one that lost it shows it again.
+  void everyScreenMustKeepItsPicture() {
+    Script first, second;
+    second.lost = {true};
+    std::vector<std::unique_ptr<ScreenProjector>> screens;
+    screens.push_back(std::make_unique<ScriptedScreen>(first));
+    screens.push_back(std::make_unique<ScriptedScreen>(second));
+    std::vector<std::unique_ptr<Camera>> cameras;
+    cameras.push_back(std::make_unique<ScriptedEye>(second));
+    cameras.push_back(std::make_unique<ScriptedEye>(first));
+    ScreenRig rig = screenRig(std::move(screens), std::move(cameras), {0.0, 0.01}, [](double) {});
+    QCOMPARE(rig.rig.projectorRasters().devices(), std::size_t{2});
+    rig.rig.projectors[0]->show(Image({2, 2}, 3, 0.25f));
+    rig.rig.projectors[1]->show(Image({2, 2}, 3, 0.75f));
+    QCOMPARE(rig.rig.cameras[0]->capture({}).signal.at(0, 0, 0), 0.75f);
+    QCOMPARE(second.photographs, std::size_t{2});
+    QCOMPARE(first.shown, (std::vector<float>{0.25f}));
+    QCOMPARE(second.shown, (std::vector<float>{0.75f, 0.75f}));
+    // The other camera looks after the same screens.
+    second.stands = false;
+    QCOMPARE(rig.rig.cameras[1]->capture({}).signal.at(0, 0, 0), 0.25f);
+    QCOMPARE(second.shown.size(), std::size_t{3});
+    rig.control->rest();
+    QVERIFY(first.rests && second.rests);
+  }
+
   void aPictureThatIsLostForEverIsToldOf() {
     Script script;
     script.lost.assign(1000, true);

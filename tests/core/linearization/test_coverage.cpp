@@ -71,14 +71,26 @@ struct Setting {
   Setting(std::size_t projectors, int aside, int below, float scattered)
       : shown(projectors, Image(picture, 3)) {
     for (Image& screen : shown) rig.projectors.push_back(std::make_unique<Screen>(screen));
+    addCamera(aside, below, scattered);
+  }
+  void addCamera(int aside, int below, float scattered) {
     rig.cameras.push_back(std::make_unique<Eye>(shown, aside, below, scattered));
   }
-  std::vector<Coverage> look() {
+  RigCoverage lookWithAll() {
     NoShotLog log;
     ShotTaker taker(rig, log, "coverage");
     Progress quiet;
-    return coverageOf(taker, 0.1, quiet);
+    RigCoverage seen = coverageOf(taker, 0.1, quiet);
+    photographs = taker.shots();
+    return seen;
   }
+  /// Of the first camera.
+  std::vector<Coverage> look() {
+    std::vector<Coverage> first;
+    for (const std::vector<Coverage>& cameras : lookWithAll().coverages) first.push_back(cameras.front());
+    return first;
+  }
+  int photographs = 0;
 };
 
 }  // namespace
@@ -131,6 +143,38 @@ class TestCoverage : public QObject {
     QCOMPARE(both.size(), std::size_t{2});
     QCOMPARE(both[0].share(), 0.0);
     QVERIFY(both[1].share() > 0.95);
+  }
+
+  /// Law: a camera sees what it would see alone, of the same photographs; together they see what either does.
+  void camerasShareThePhotographs() {
+    Setting left(2, 24, 0, 0.1f), right(2, 72, 0, 0.1f), both(2, 24, 0, 0.1f);
+    both.addCamera(72, 0, 0.1f);
+    const RigCoverage alone[]{left.lookWithAll(), right.lookWithAll()}, seen = both.lookWithAll();
+    QCOMPARE(both.photographs, left.photographs);
+    const std::vector<Coverage> any = seen.byAnyCamera();
+    for (std::size_t projector = 0; projector < 2; ++projector) {
+      for (std::size_t camera = 0; camera < 2; ++camera) {
+        QCOMPARE(seen.coverages[projector][camera].seen, alone[camera].coverages[projector][0].seen);
+        QCOMPARE(seen.litBy[camera], alone[camera].litBy[0]);
+      }
+      for (std::size_t cell = 0; cell < any[projector].seen.size(); ++cell)
+        QCOMPARE(any[projector].seen[cell] != 0, seen.coverages[projector][0].seen[cell] != 0 ||
+                                                     seen.coverages[projector][1].seen[cell] != 0);
+    }
+    QVERIFY(any[0].share() > seen.coverages[0][1].share());
+  }
+
+  /// Law: shares of what is lit sum to one; screens side by side do not overlap, those that fall on each
+  /// other do everywhere.
+  void overlapsAreCounted() {
+    const std::vector<double> beside = Setting(2, 48, 0, 0.0f).lookWithAll().overlaps(0);
+    QCOMPARE(beside, (std::vector<double>{1.0, 0.0}));
+    RigCoverage onEachOther;
+    onEachOther.coverages.resize(3);
+    onEachOther.litBy = {{0b001, 0b011, 0b000, 0b111}};
+    QCOMPARE(onEachOther.overlaps(0), (std::vector<double>{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}));
+    onEachOther.litBy = {{0, 0}};
+    QVERIFY(onEachOther.overlaps(0).empty());
   }
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 
 #include <QTest>
@@ -81,6 +82,55 @@ class TestSettingsJson : public QObject {
     QCOMPARE(comeBack(venue).acquisition.relativeThreshold, venue.acquisition.relativeThreshold);
     QVERIFY(!comeBack(venue).chooseRidge);
     QVERIFY(!std::get<CommandRigSettings>(comeBack(withoutCamera).rig).camera);
+  }
+
+  /// Law: rigs of one screen and one camera without names are written as versions did that knew no others, so
+  /// that their fingerprints stay; those of several come back.
+  void severalScreensAndCamerasComeBack() {
+    CalibrateSettings one, several;
+    ScreenRigSettings rig{{"HDMI-1", "", "", ""}, {800, 600}};
+    rig.cameraAddress = "genicam:7";
+    one.rig = rig;
+    for (const char* later : {"name", "camera_name", "more_screens", "more_cameras"})
+      QVERIFY(!rigToJson(one.rig).at("screen").contains(later));
+    rig.name = "Left";
+    rig.cameraName = "Door";
+    rig.moreScreens = {{{"DP-1", "ACME", "Beam", "8"}, {1024, 768}, 50.0, "Right"},
+                       {{"DP-2", "", "", ""}, {640, 480}}};
+    rig.moreCameras = {{"genicam:8", Size{640, 480}, "Window"}, {"v4l2:/dev/video0"}};
+    several.rig = rig;
+    const auto read = std::get<ScreenRigSettings>(comeBack(several).rig);
+    QVERIFY(screensOf(read) == screensOf(rig));
+    QVERIFY(camerasOf(read) == camerasOf(rig));
+    QCOMPARE(rigToJson(read).dump(), rigToJson(several.rig).dump());
+    QVERIFY(problems(several).empty());
+    // As lists, and back.
+    QCOMPARE(rigToJson(withScreens(rig, screensOf(rig))).dump(), rigToJson(several.rig).dump());
+    QCOMPARE(rigToJson(withCameras(rig, camerasOf(rig))).dump(), rigToJson(several.rig).dump());
+    QVERIFY(screensOf(ScreenRigSettings{}).empty() && camerasOf(ScreenRigSettings{}).empty());
+    QCOMPARE(screensOf(withScreenAlone(rig, 1)).size(), std::size_t{1});
+    QCOMPARE(withScreenAlone(rig, 1).display.connector, std::string("DP-1"));
+  }
+
+  void whatIsNamedTwiceIsAProblem_data() {
+    QTest::addColumn<bool>("isScreen");
+    QTest::addColumn<QByteArray>("sentence");
+    QTest::newRow("screen") << true << QByteArray("screen HDMI-1 is projector 1 and projector 2");
+    QTest::newRow("camera") << false << QByteArray("genicam:7 is camera 1 and camera 2");
+  }
+  void whatIsNamedTwiceIsAProblem() {
+    QFETCH(bool, isScreen);
+    QFETCH(QByteArray, sentence);
+    ScreenRigSettings rig{{"HDMI-1", "", "", ""}, {800, 600}};
+    rig.cameraAddress = "genicam:7";
+    rig.moreScreens = {{{isScreen ? "HDMI-1" : "DP-1", "", "", ""}, {800, 600}}};
+    rig.moreCameras = {{isScreen ? "genicam:8" : "genicam:7"}};
+    CalibrateSettings settings;
+    settings.rig = rig;
+    const std::vector<Message> found = problems(settings);
+    QCOMPARE(found.size(), std::size_t{1});
+    QVERIFY2(QByteArray::fromStdString(english(found.front())).contains(sentence),
+             english(found.front()).c_str());
   }
 
   /// An earlier version kept the recording's folder among the commands.

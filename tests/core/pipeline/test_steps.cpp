@@ -16,6 +16,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -136,6 +137,25 @@ class TestSteps : public QObject {
     QVERIFY_THROWS_EXCEPTION(Error, changeScreen(folder, elsewhere));
     CalibrationFolder simulated = beginCalibration(path("no-screen"), tiny());
     QVERIFY_THROWS_EXCEPTION(Error, changeScreen(simulated, screen));
+  }
+
+  /// Law: of several projectors the one whose cable hangs elsewhere moves, the others stay.
+  void eachOfSeveralScreensIsPluggedInElsewhere() {
+    CalibrateSettings settings = tiny();
+    ScreenRigSettings screen{{"HDMI-1", "", "", ""}, {24, 18}};
+    screen.moreScreens = {{{"HDMI-2", "", "", ""}, {32, 18}, 50.0, "Right"}};
+    settings.rig = screen;
+    CalibrationFolder folder = beginCalibration(path("replugged-second"), settings);
+    folder.store(Stage::linearization, fingerprintOf(folder, Stage::linearization), Json::object());
+    const auto now = [&] { return screensOf(std::get<ScreenRigSettings>(settingsOf(folder).rig)); };
+    const ScreenRigSettings elsewhere{{"DP-2", "", "", ""}, {32, 18}, 60.0};
+    changeScreen(folder, elsewhere, 1);
+    QCOMPARE(now()[0].display.connector, std::string("HDMI-1"));
+    QCOMPARE(now()[1].display.connector, std::string("DP-2"));
+    QCOMPARE(now()[1].frameRate, 60.0);
+    QCOMPARE(now()[1].name, std::string("Right"));
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
+    QVERIFY_THROWS_EXCEPTION(Error, changeScreen(folder, elsewhere, 0));
   }
 
   void devicesThatAreExchangedForgetWhereAScreenHung() {

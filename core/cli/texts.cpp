@@ -72,7 +72,12 @@ std::string textOf(const pipeline::ProveResult& result) {
                 "The camera's view is shifted by {:.1f}, {:.1f} pixels and turned by {:.1f} degrees.\n",
                 result.moved.x, result.moved.y, result.moved.degrees)
           : "";
-  return line("Before:", result.before) + line("After:", result.after) + moved +
+  std::string others;
+  for (std::size_t other = 0; other < result.others.size(); ++other)
+    others += fmt::format("Camera {}\n", other + 2) + line("Before:", result.others[other].before) +
+              line("After:", result.others[other].after);
+  return (others.empty() ? "" : "Camera 1\n") + line("Before:", result.before) +
+         line("After:", result.after) + moved + others +
          fmt::format(
              "dB where it can be reached, which is {:.1f} % of the picture; colour error (CIEDE2000) over "
              "all of it; {} photographs in {:.0f} s.\n",

@@ -14,33 +14,43 @@
 
 namespace relucent::compensation {
 
-Prediction compared(CameraStack camera, const Target& target, const Rasters& cameras) {
+ViewError errorIn(std::size_t camera, const CameraStack& camerasSee, const Target& target,
+                  const Rasters& cameras) {
   require(target.wanted.size() == 3 * cameras.count() && target.inside.size() == cameras.count() &&
-              camera.size() == target.wanted.size(),
+              camerasSee.size() == target.wanted.size(),
           "a target of {} and a picture of {} values for {} camera pixels", target.wanted.size(),
-          camera.size(), cameras.count());
-  Prediction prediction;
-  prediction.camera = std::move(camera);
-
-  std::size_t pixels = cameras.size(0).count();
-  std::span<const std::uint8_t> inside(target.inside.data(), pixels),
-      reachable(target.reachable.data(), pixels);
-  image::Image seen = image::imageFromStack(prediction.camera, cameras, 0),
-               wanted = image::imageFromStack(target.wanted, cameras, 0);
-  prediction.deltaE =
+          camerasSee.size(), cameras.count());
+  ViewError error;
+  std::size_t pixels = cameras.size(camera).count(), offset = cameras.offset(camera);
+  std::span<const std::uint8_t> inside(target.inside.data() + offset, pixels),
+      reachable(target.reachable.data() + offset, pixels);
+  image::Image seen = image::imageFromStack(camerasSee, cameras, camera),
+               wanted = image::imageFromStack(target.wanted, cameras, camera);
+  error.deltaE =
       image::deltaEMap(image::viewed(seen, target.white), image::viewed(wanted, target.white), inside);
   auto covered =
       static_cast<double>(pixels) - static_cast<double>(std::count(inside.begin(), inside.end(), 0));
   double sum = 0.0;
-  for (float value : prediction.deltaE.data())
+  for (float value : error.deltaE.data())
     if (!std::isnan(value)) sum += static_cast<double>(value);
-  prediction.meanDeltaE = covered > 0.0 ? sum / covered : 0.0;
+  error.meanDeltaE = covered > 0.0 ? sum / covered : 0.0;
 
   double reached =
       static_cast<double>(pixels) - static_cast<double>(std::count(reachable.begin(), reachable.end(), 0));
-  prediction.reachable = covered > 0.0 ? reached / covered : 0.0;
-  prediction.psnrReachable =
+  error.reachable = covered > 0.0 ? reached / covered : 0.0;
+  error.psnrReachable =
       reached > 0.0 ? psnr(seen, wanted, target.white, reachable) : std::numeric_limits<double>::quiet_NaN();
+  return error;
+}
+
+Prediction compared(CameraStack camera, const Target& target, const Rasters& cameras) {
+  Prediction prediction;
+  ViewError first = errorIn(0, camera, target, cameras);
+  prediction.camera = std::move(camera);
+  prediction.deltaE = std::move(first.deltaE);
+  prediction.meanDeltaE = first.meanDeltaE;
+  prediction.psnrReachable = first.psnrReachable;
+  prediction.reachable = first.reachable;
   return prediction;
 }
 

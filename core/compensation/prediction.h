@@ -6,7 +6,17 @@
 
 namespace relucent::compensation {
 
-/// The predicted camera images, and their error.
+/// How far what one camera sees is from what is wanted there.
+struct ViewError {
+  image::Image deltaE;         // CIEDE2000 of its pixels; NaN outside the content
+  double meanDeltaE = 0.0;     // over the content, as a viewer adapted to its white sees it; 0: there is none
+  double psnrReachable = 0.0;  // dB over the reachable pixels; infinite without error, NaN if there are none
+  double reachable = 0.0;      // share of the content's pixels
+};
+/// Shapes: `seen` and `target` of `cameras`.
+ViewError errorIn(std::size_t camera, const CameraStack& seen, const Target& target, const Rasters& cameras);
+
+/// The predicted camera images, and their error as the first camera sees it.
 struct Prediction {
   CameraStack camera;          // T p + e
   image::Image deltaE;         // CIEDE2000 of the first camera's pixels; NaN outside the content

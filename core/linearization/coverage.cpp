@@ -74,25 +74,34 @@ double missingOf(const Coverage& coverage, bool isColumn, int at) {
 struct Following {
   std::vector<float> black{};
   float floor = 0.0f;
-  std::vector<int> column{}, row{};     // Gray codes
-  std::vector<std::uint8_t> follows{};  // every stripe so far
+  std::vector<int> column{}, row{};                         // Gray codes
+  std::vector<std::uint8_t> follows{};                      // every stripe so far
+  std::vector<std::uint8_t> missedColumns{}, missedRows{};  // how many stripes it does not follow
 
   explicit Following(std::vector<float> dark, float least)
       : black(std::move(dark)),
         floor(least),
         column(black.size(), 0),
         row(black.size(), 0),
-        follows(black.size(), 1) {}
+        follows(black.size(), 1),
+        missedColumns(black.size(), 0),
+        missedRows(black.size(), 0) {}
 
   void learn(const std::vector<float>& shown, const std::vector<float>& inverted, const Stripes& stripes) {
     std::vector<int>& code = stripes.rows ? row : column;
     for (std::size_t i = 0; i < black.size(); ++i) {
       const float apart = shown[i] - inverted[i], all = shown[i] + inverted[i] - 2.0f * black[i];
-      if (!(std::abs(apart) > std::max(floor, modulation * all))) follows[i] = 0;
+      if (!(std::abs(apart) > std::max(floor, modulation * all))) {
+        follows[i] = 0;
+        ++(stripes.rows ? missedRows : missedColumns)[i];
+      }
       // Cells whose bit is 0 are lit by the stripes themselves.
       if (apart < 0.0f) code[i] |= 1 << stripes.bit;
     }
   }
+
+  /// At the edge of two cells one stripe ends, of columns and of rows, and no more: such is Gray code.
+  bool isLit(std::size_t pixel) const { return missedColumns[pixel] <= 1 && missedRows[pixel] <= 1; }
 
   Coverage seenOf(Size cells) const {
     std::vector<int> pixels(cells.count(), 0);
@@ -138,7 +147,7 @@ class Looking {
       std::vector<std::uint32_t>& lit = result.litBy[camera];
       lit.resize(cameras_[camera].follows.size());
       for (std::size_t i = 0; i < lit.size(); ++i)
-        if (cameras_[camera].follows[i] != 0) lit[i] |= std::uint32_t{1} << projector_;
+        if (cameras_[camera].isLit(i)) lit[i] |= std::uint32_t{1} << projector_;
     }
   }
 

@@ -26,7 +26,8 @@ struct Coverage {
 /// What cameras see of projectors.
 struct RigCoverage {
   std::vector<std::vector<Coverage>> coverages;  // per projector and camera
-  /// Per camera and pixel: a bit for each projector that lights it directly, the first one's the lowest.
+  /// Per camera and pixel: a bit for each projector that lights it directly, the first one's the lowest:
+  /// whose stripes it follows, all but one of the columns and one of the rows, which may end there.
   std::vector<std::vector<std::uint32_t>> litBy;
 
   /// Per projector: a cell is seen if any camera sees it.

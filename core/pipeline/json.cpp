@@ -154,18 +154,20 @@ calibration::Json toJson(const ProveResult& result) {
                              {"delta_e_measured", proved.measured.deltaE},
                              {"surprise", proved.surprise}};
   };
-  return {{"method", nameOf(result.method)},
-          {"before", projection(result.before)},
-          {"after", projection(result.after)},
-          {"reachable", result.reachable},
-          {"moved",
-           {{"x", result.moved.x},
-            {"y", result.moved.y},
-            {"degrees", result.moved.degrees},
-            {"explains", result.moved.explains}}},
-          {"exposures", result.exposures},
-          {"seconds", result.seconds},
-          {"files", pathsToJson(result.files)}};
+  auto movement = [](const sentinels::Movement& moved) {
+    return calibration::Json{
+        {"x", moved.x}, {"y", moved.y}, {"degrees", moved.degrees}, {"explains", moved.explains}};
+  };
+  calibration::Json json{{"method", nameOf(result.method)},   {"before", projection(result.before)},
+                         {"after", projection(result.after)}, {"reachable", result.reachable},
+                         {"moved", movement(result.moved)},   {"exposures", result.exposures},
+                         {"seconds", result.seconds},         {"files", pathsToJson(result.files)}};
+  for (const ProvedView& view : result.others)
+    json["other_views"].push_back({{"before", projection(view.before)},
+                                   {"after", projection(view.after)},
+                                   {"reachable", view.reachable},
+                                   {"moved", movement(view.moved)}});
+  return json;
 }
 
 calibration::Json toJson(const CompensateResult& result) {

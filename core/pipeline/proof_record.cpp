@@ -43,6 +43,17 @@ sentinels::Movement movementFrom(const calibration::Json& json) {
           moved.at("explains").get<bool>()};
 }
 
+calibration::Json toJson(const ProvedView& view) {
+  return {{"before", toJson(view.before)},
+          {"after", toJson(view.after)},
+          {"reachable", view.reachable},
+          {"moved", toJson(view.moved)}};
+}
+ProvedView viewFrom(const calibration::Json& json) {
+  return {projectionFrom(json.at("before")), projectionFrom(json.at("after")),
+          json.at("reachable").get<double>(), movementFrom(json)};
+}
+
 calibration::Json toJson(const ContentSettings& content) {
   CalibrateSettings settings;
   settings.content = content;
@@ -83,15 +94,16 @@ bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& 
 }
 
 void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
-  const calibration::Json json{{"taken", record.taken},
-                               {"measurement", record.measurement},
-                               {"shown_from", record.shownFrom},
-                               {"settings", toJson(record.content)},
-                               {"method", record.figures.method},
-                               {"before", toJson(record.figures.before)},
-                               {"after", toJson(record.figures.after)},
-                               {"reachable", record.figures.reachable},
-                               {"moved", toJson(record.figures.moved)}};
+  calibration::Json json{{"taken", record.taken},
+                         {"measurement", record.measurement},
+                         {"shown_from", record.shownFrom},
+                         {"settings", toJson(record.content)},
+                         {"method", record.figures.method},
+                         {"before", toJson(record.figures.before)},
+                         {"after", toJson(record.figures.after)},
+                         {"reachable", record.figures.reachable},
+                         {"moved", toJson(record.figures.moved)}};
+  for (const ProvedView& view : record.figures.others) json["other_views"].push_back(toJson(view));
   writeFileAtomically(folder / fileName, json.dump(2));
 }
 
@@ -109,6 +121,9 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     record.figures.after = projectionFrom(json.at("after"));
     record.figures.reachable = json.at("reachable").get<double>();
     record.figures.moved = movementFrom(json);
+    if (json.contains("other_views"))
+      for (const calibration::Json& view : json.at("other_views"))
+        record.figures.others.push_back(viewFrom(view));
     return record;
   } catch (const calibration::Json::exception& cause) {
     throw Error(ErrorKind::format,

@@ -28,22 +28,29 @@ namespace {
 constexpr double brightestDeltaE = 20.0;  // of the maps: twice what nobody overlooks
 constexpr int gap = 4;                    // pixels between the pictures of the comparison
 
-struct Photographed {
+/// By one camera.
+struct PhotographedView {
   ProvedProjection error;
-  CameraStack camera;  // radiance
   image::Image deltaE;
-  image::Image whole;  // radiance, see wholePhotograph()
   sentinels::Movement moved;
 };
 
-PictureError errorOf(const compensation::Prediction& seen) {
+struct Photographed {
+  std::vector<PhotographedView> views;
+  CameraStack camera;  // radiance
+  image::Image whole;  // radiance, see wholePhotograph()
+};
+
+PictureError errorOf(const compensation::ViewError& seen) {
   return {seen.psnrReachable, seen.meanDeltaE};
 }
 
+/// In one camera's view.
 double surpriseOf(const CameraStack& measured, const CameraStack& predicted,
-                  const compensation::Target& target) {
+                  const compensation::Target& target, const Rasters& cameras, std::size_t camera) {
   double apart = 0.0, light = 0.0;
-  for (std::size_t i = 0; i < measured.size(); ++i) {
+  const std::size_t begin = 3 * cameras.offset(camera), end = begin + 3 * cameras.size(camera).count();
+  for (std::size_t i = begin; i < end; ++i) {
     if (!target.inside[i / 3]) continue;
     double value = static_cast<double>(measured[i]), difference = value - static_cast<double>(predicted[i]);
     apart += difference * difference;
@@ -111,15 +118,18 @@ Photographed photograph(photography::Photographer& photographer, const MeasuredC
   leaveOut(target, frame);
   compensation::Prediction predicted = compensation::predict(measured.venue, target, projection.light);
   Photographed result;
-  result.camera = frame.radiance;
-  result.error.surprise = surpriseOf(frame.radiance, predicted.camera, target);
-  result.error.predicted = errorOf(predicted);
-  result.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, 0),
-                           image::imageFromStack(frame.radiance, cameras, 0))
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    PhotographedView& view = result.views.emplace_back();
+    view.error.surprise = surpriseOf(frame.radiance, predicted.camera, target, cameras, camera);
+    view.error.predicted = errorOf(compensation::errorIn(camera, predicted.camera, target, cameras));
+    view.moved = aimOffset(image::imageFromStack(predicted.camera, cameras, camera),
+                           image::imageFromStack(frame.radiance, cameras, camera))
                      .movement;
-  compensation::Prediction seen = compensation::compared(std::move(frame.radiance), target, cameras);
-  result.error.measured = errorOf(seen);
-  result.deltaE = std::move(seen.deltaE);
+    compensation::ViewError seen = compensation::errorIn(camera, frame.radiance, target, cameras);
+    view.error.measured = errorOf(seen);
+    view.deltaE = std::move(seen.deltaE);
+  }
+  result.camera = std::move(frame.radiance);
   return result;
 }
 
@@ -167,32 +177,34 @@ image::Image sheet(const std::vector<std::vector<image::Image>>& rows, Size size
   return result;
 }
 
+/// As one camera sees it.
 std::vector<fs::path> writePictures(const fs::path& out, const compensation::Target& target,
-                                    const Rasters& cameras, const Photographed& before,
+                                    const Rasters& cameras, std::size_t camera, const Photographed& before,
                                     const Photographed& after) {
   createFolder(out);
   std::vector<fs::path> files;
   auto shown = [&](const char* name, const Stack& stack) {
-    image::Image picture = image::viewed(image::imageFromStack(stack, cameras, 0), target.white);
-    files.push_back(out / fmt::format("{}.png", name));
+    image::Image picture = image::viewed(image::imageFromStack(stack, cameras, camera), target.white);
+    files.push_back(proofPicture(out, name, camera, ".png"));
     image::writePng(files.back(), picture, 8);
     return picture;
   };
   auto measured = [&](const char* name, const Photographed& photographed) {
-    files.push_back(out / fmt::format("{}.exr", name));
-    image::writeExr(files.back(), image::imageFromStack(photographed.camera, cameras, 0),
+    const image::Image& deltaE = photographed.views[camera].deltaE;
+    files.push_back(proofPicture(out, name, camera, ".exr"));
+    image::writeExr(files.back(), image::imageFromStack(photographed.camera, cameras, camera),
                     image::ExrType::floatType,
                     {{image::exr_attribute::units, std::string("camera signal per second")}});
-    files.push_back(out / fmt::format("{}_delta_e.exr", name));
-    image::writeExr(files.back(), photographed.deltaE, image::ExrType::floatType,
+    files.push_back(proofPicture(out, name, camera, "_delta_e.exr"));
+    image::writeExr(files.back(), deltaE, image::ExrType::floatType,
                     {{image::exr_attribute::units, std::string("CIEDE2000")}});
-    return image::painted(photographed.deltaE, image::ColourMap::viridis, 0.0, brightestDeltaE);
+    return image::painted(deltaE, image::ColourMap::viridis, 0.0, brightestDeltaE);
   };
   std::vector<image::Image> pictures{shown("target", target.wanted), shown("before", before.camera),
                                      shown("after", after.camera)};
   std::vector<image::Image> maps{image::Image(), measured("before", before), measured("after", after)};
-  files.push_back(out / "comparison.png");
-  image::writePng(files.back(), sheet({pictures, maps}, cameras.size(0)), 8);
+  files.push_back(proofPicture(out, "comparison", camera, ".png"));
+  image::writePng(files.back(), sheet({pictures, maps}, cameras.size(camera)), 8);
   return files;
 }
 
@@ -221,7 +233,8 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
                                : shownProjection(settings.shown, measured);
   ProveResult result;
   result.method = settings.method;
-  result.reachable = compensation::predict(measured.venue, target, compensated.light).reachable;
+  const compensation::Prediction predicted = compensation::predict(measured.venue, target, compensated.light);
+  result.reachable = predicted.reachable;
   if (result.reachable == 0.0)
     throw Error(ErrorKind::input,
                 RELUCENT_ENGLISH_MESSAGE("compensation.nothing-reachable",
@@ -242,12 +255,20 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   Photographed after = photograph(photographer, measured, target, compensated, photographing);
   after.whole = wholePhotograph(source.whole(), measured, 1, photographing);
   photographing.report(1.0);
-  result.before = before.error;
-  result.after = after.error;
-  result.moved = before.moved;
+  result.before = before.views.front().error;
+  result.after = after.views.front().error;
+  result.moved = before.views.front().moved;
   result.seconds = watch.seconds();
   result.exposures = shots.exposures();
-  result.files = writePictures(settings.out, target, transport.cameras(), before, after);
+  const Rasters& cameras = transport.cameras();
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    if (camera > 0)
+      result.others.push_back({before.views[camera].error, after.views[camera].error,
+                               compensation::errorIn(camera, predicted.camera, target, cameras).reachable,
+                               before.views[camera].moved});
+    for (fs::path& file : writePictures(settings.out, target, cameras, camera, before, after))
+      result.files.push_back(std::move(file));
+  }
   for (const auto& [name, photographed] :
        {std::pair("before_whole", &before), std::pair("after_whole", &after)}) {
     if (photographed->whole.empty()) continue;
@@ -260,8 +281,30 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
 
 }  // namespace
 
+fs::path proofPicture(const fs::path& folder, const std::string& name, std::size_t camera,
+                      const std::string& end) {
+  return folder / (camera == 0 ? name + end : fmt::format("{}-{}{}", name, camera + 1, end));
+}
+
+ProvedView viewOf(const ProveResult& result, std::size_t camera) {
+  require(camera <= result.others.size(), "camera {} of {}", camera, result.others.size() + 1);
+  if (camera > 0) return result.others[camera - 1];
+  return {result.before, result.after, result.reachable, result.moved};
+}
+
+bool isAsPredicted(const ProvedProjection& projection) {
+  return projection.measured.deltaE <= std::max(2.0 * projection.predicted.deltaE, 1.0);
+}
+
 bool isAsPredicted(const ProveResult& result) {
-  return result.after.measured.deltaE <= std::max(2.0 * result.after.predicted.deltaE, 1.0);
+  return !viewThatDiffers(result).has_value();
+}
+
+std::optional<std::size_t> viewThatDiffers(const ProveResult& result) {
+  if (!isAsPredicted(result.after)) return 0;
+  for (std::size_t other = 0; other < result.others.size(); ++other)
+    if (!isAsPredicted(result.others[other].after)) return other + 1;
+  return std::nullopt;
 }
 
 ProveResult proveCalibration(const fs::path& path, const ProveSettings& settings, const fs::path& cache,

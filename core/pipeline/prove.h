@@ -27,7 +27,7 @@ struct ProveSettings {
 };
 std::vector<Message> problems(const ProveSettings& settings);
 
-/// How far a picture on the surface is from the wanted one, the first camera's pixels.
+/// How far a picture on the surface is from the wanted one, as one camera sees it.
 struct PictureError {
   double psnr = 0.0;    // dB over the reachable pixels, in linear light with the target's white as peak
   double deltaE = 0.0;  // mean CIEDE2000 over the content, as a viewer adapted to its white sees it
@@ -41,6 +41,13 @@ struct ProvedProjection {
   double surprise = 0.0;
 };
 
+/// The same as another camera than the first sees it.
+struct ProvedView {
+  ProvedProjection before, after;
+  double reachable = 0.0;
+  sentinels::Movement moved{};
+};
+
 struct ProveResult {
   compensation::Method method = compensation::Method::refined;
   ProvedProjection before;  // the content as it is, in its place: method none
@@ -49,27 +56,40 @@ struct ProveResult {
   /// Of the first camera's view since the venue was measured; says nothing unless it explains.
   sentinels::Movement moved{};
   int exposures = 0;
-  double seconds = 0.0;  // of photographing
+  double seconds = 0.0;              // of photographing
+  std::vector<ProvedView> others{};  // cameras beyond the first, in their order
   std::vector<std::filesystem::path> files;
 };
 
-/// Within twice of what was predicted, or too close to the wanted picture for anybody to see a difference
-/// (Delta E 00 of 1): nothing has moved.
+/// The figures of one camera, from 0 on. Contract: it was proved.
+ProvedView viewOf(const ProveResult& result, std::size_t camera);
+
+/// In every view within twice of what was predicted, or too close to the wanted picture for anybody to see a
+/// difference (Delta E 00 of 1): nothing has moved.
 bool isAsPredicted(const ProveResult& result);
+bool isAsPredicted(const ProvedProjection& projection);
+/// The first camera, from 0 on, that sees something else than was predicted; none: all see it.
+std::optional<std::size_t> viewThatDiffers(const ProveResult& result);
 
 /// The mean CIEDE2000 from which errors are plain to see; one of 1 is just visible side by side.
 inline constexpr double plainDeltaE = 5.0;
-/// Errors that nobody overlooks, however well they were predicted.
+/// Errors in the first view that nobody overlooks, however well they were predicted.
 inline bool isPlainToSee(const ProveResult& result) {
   return result.after.measured.deltaE >= plainDeltaE;
 }
+
+/// Where a picture of a proof lies: NAME, then the camera's number from the second on, then the end.
+/// `camera`: from 0 on.
+std::filesystem::path proofPicture(const std::filesystem::path& folder, const std::string& name,
+                                   std::size_t camera, const std::string& end);
 
 /// The verification shot: projects a picture as it is and compensated, photographs both with the
 /// calibration's devices, and compares the photographs with what was wanted and with what T predicts.
 /// Nothing of the calibration is changed. Writes into `out`: before.exr, after.exr (measured, camera signal
 /// per second), target.png, before.png, after.png (to look at), before_delta_e.exr, after_delta_e.exr, and
 /// comparison.png: target, before and after beside each other, below them the CIEDE2000 of before and after
-/// from 0 (dark) to 20 (bright). Where the camera is reduced (reductions.h), before_whole.png and
+/// from 0 (dark) to 20 (bright). Cameras beyond the first have the same with their number: target-2.png, ...
+/// Where the camera is reduced (reductions.h), before_whole.png and
 /// after_whole.png are all that it delivers, photographed once more.
 /// Throws: Error{input} if the calibration is not finished, was imported, has other sizes than the devices,
 /// nothing of the picture can be shown, or what was shown has another size than the projectors;

@@ -107,12 +107,17 @@ void addJudgement(ReportVerification& verification, const fs::path& folder,
   verification.taken = record->taken;
   verification.deltaEPredicted = record->figures.after.predicted.deltaE;
   verification.isAsPredicted = pipeline::isAsPredicted(record->figures);
+  verification.viewThatDiffers = pipeline::viewThatDiffers(record->figures);
+  const std::size_t known = std::min(verification.others.size(), record->figures.others.size());
+  for (std::size_t other = 0; other < known; ++other)
+    verification.others[other].deltaEPredicted = record->figures.others[other].after.predicted.deltaE;
 }
 
 /// What proveCalibration() left in the calibration, unless the light transport was measured after that or
 /// something is missing.
 std::optional<ReportVerification> verificationIn(const calibration::CalibrationFolder& calibration,
-                                                 const calibration::StageResult& acquired) {
+                                                 const calibration::StageResult& acquired,
+                                                 std::size_t cameras) {
   fs::path folder = calibration.path() / "verification", photograph = folder / "after.png";
   std::error_code missing;
   fs::file_time_type taken = fs::last_write_time(photograph, missing);
@@ -127,6 +132,17 @@ std::optional<ReportVerification> verificationIn(const calibration::CalibrationF
                                     meanDeltaE(folder / "before_delta_e.exr"),
                                     meanDeltaE(folder / "after_delta_e.exr"),
                                     fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
+    for (std::size_t camera = 1; camera < cameras; ++camera) {
+      const auto file = [&](const char* name, const char* end) {
+        return pipeline::proofPicture(folder, name, camera, end);
+      };
+      // Versions that proved the first view only left none of the others.
+      if (!fs::exists(file("after", ".png"))) break;
+      const auto picture = [&](const char* name) { return image::readPicture(file(name, ".png")).encoded; };
+      verification.others.push_back({picture("target"), picture("before"), picture("after"),
+                                     meanDeltaE(file("before", "_delta_e.exr")),
+                                     meanDeltaE(file("after", "_delta_e.exr")), std::nullopt});
+    }
     addJudgement(verification, folder, calibration, acquired);
     return verification;
   } catch (const Error&) {
@@ -165,6 +181,8 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.measured = folder.created();
   data.projector = transport.projectors().size(0);
   data.camera = transport.cameras().size(0);
+  data.projectors = transport.projectors().devices();
+  data.cameras = transport.cameras().devices();
   data.result = pipeline::summaryOf(folder, measured);
   if (const auto linearized = folder.latest(calibration::Stage::linearization))
     if (const auto cost = calibration::resultFrom<calibration::Stage::linearization>(*linearized).cost)
@@ -184,7 +202,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
     data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
-    data.verification = verificationIn(folder, *acquired);
+    data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
     data.drift = driftIn(folder.path(), *acquired);
   }
 

@@ -42,6 +42,18 @@ std::string sizeText(Size size) {
   return fmt::format("{} × {}", size.width, size.height);
 }
 
+/// What it was measured with.
+std::string devicesText(const ReportData& data) {
+  const auto several = [](std::size_t count, const char* name, Size first) {
+    return fmt::format("{} {}, the first {}", count, name, sizeText(first));
+  };
+  const std::string projector = data.projectors == 1 ? "Projector " + sizeText(data.projector)
+                                                     : several(data.projectors, "projectors", data.projector);
+  const std::string camera =
+      data.cameras == 1 ? "camera " + sizeText(data.camera) : several(data.cameras, "cameras", data.camera);
+  return projector + (data.projectors == 1 && data.cameras == 1 ? ", " : "; ") + camera;
+}
+
 std::uint64_t atLeastNone(int count) {
   return static_cast<std::uint64_t>(std::max(0, count));
 }
@@ -306,8 +318,7 @@ Data pageOf(const ReportData& data) {
   page.set("figure", kainjow::mustache::partial([] { return std::string(templates::figure); }));
   page.set("title", data.title);
   page.set("venue", data.venue);
-  page.set("projector", sizeText(data.projector));
-  page.set("camera", sizeText(data.camera));
+  page.set("devices", devicesText(data));
   page.set("measured", localTime(data.measured));
   page.set("software", data.software);
   page.set("cards", cards(data));

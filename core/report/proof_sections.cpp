@@ -15,6 +15,28 @@ std::string errorText(double measured, const std::optional<double>& predicted) {
   return text + ".";
 }
 
+std::string doesNotLookAsPredicted(const ReportVerification& shown, const std::string& when) {
+  const std::size_t view = shown.viewThatDiffers.value_or(0);
+  if (view == 0)
+    return fmt::format(
+        "{}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector may have moved.",
+        when, shown.deltaEAfter);
+  return fmt::format(
+      "{}: for camera {} the surface does not look as predicted (ΔE {:.1f}). That camera or a projector may "
+      "have moved.",
+      when, view + 1, shown.others.at(view - 1).deltaEAfter);
+}
+
+/// Pictures from one place.
+PageData figuresOf(const image::Image& wanted, const image::Image& before, const image::Image& after,
+                   double deltaEBefore, double deltaEAfter, const std::optional<double>& predicted) {
+  PageData figures(PageData::type::list);
+  figures << figure(wanted, "Wanted", "the picture as it should appear.")
+          << figure(before, "Photograph, uncompensated", errorText(deltaEBefore, std::nullopt))
+          << figure(after, "Photograph, compensated", errorText(deltaEAfter, predicted));
+  return figures;
+}
+
 void addVerification(const ReportData& data, PageData& warnings, PageData& assurances) {
   const ReportVerification& shown = *data.verification;
   if (!shown.isAsPredicted) return;
@@ -24,10 +46,7 @@ void addVerification(const ReportData& data, PageData& warnings, PageData& assur
       fmt::format("The correction brings the mean colour error ΔE from {:.1f} to {:.1f}", shown.deltaEBefore,
                   shown.deltaEAfter);
   if (!*shown.isAsPredicted)
-    warnings << PageData(
-        fmt::format("{}: the surface does not look as predicted (ΔE {:.1f}). The camera or the projector "
-                    "may have moved.",
-                    when, shown.deltaEAfter));
+    warnings << PageData(doesNotLookAsPredicted(shown, when));
   else if (shown.deltaEAfter >= pipeline::plainDeltaE)
     warnings << PageData(
         fmt::format("{}: the surface looks as predicted, but errors are plain to see. {}.", when, change));
@@ -64,16 +83,27 @@ void addDrift(const ReportDrift& drift, PageData& warnings, PageData& assurances
 
 PageData verificationSection(const ReportData& data) {
   const ReportVerification& shown = *data.verification;
-  PageData figures(PageData::type::list);
-  figures << figure(shown.wanted, "Wanted", "the picture as it should appear.")
-          << figure(shown.before, "Photograph, uncompensated", errorText(shown.deltaEBefore, std::nullopt))
-          << figure(shown.after, "Photograph, compensated",
-                    errorText(shown.deltaEAfter, shown.deltaEPredicted));
+  const auto view = [&](const std::string& name, const PageData& figures) {
+    PageData one;
+    one.set("name", name);
+    one.set("isNamed", !shown.others.empty());
+    one.set("figures", figures);
+    return one;
+  };
+  PageData views(PageData::type::list);
+  views << view("As camera 1 sees it", figuresOf(shown.wanted, shown.before, shown.after, shown.deltaEBefore,
+                                                 shown.deltaEAfter, shown.deltaEPredicted));
+  for (std::size_t other = 0; other < shown.others.size(); ++other) {
+    const ReportVerificationView& seen = shown.others[other];
+    views << view(fmt::format("As camera {} sees it", other + 2),
+                  figuresOf(seen.wanted, seen.before, seen.after, seen.deltaEBefore, seen.deltaEAfter,
+                            seen.deltaEPredicted));
+  }
   PageData section;
   section.set("how", data.isSimulated ? "A simulation: projected and photographed by simulated devices"
                                       : "Projected in the venue and photographed");
   section.set("taken", localTime(shown.taken));
-  section.set("figures", figures);
+  section.set("views", views);
   return section;
 }
 

@@ -32,13 +32,20 @@ struct ReportComparison {
 };
 
 /// The newest verification photograph: the content, projected as it is and compensated. To look at.
+struct ReportVerificationView {
+  image::Image wanted, before, after;
+  double deltaEBefore = 0.0, deltaEAfter = 0.0;
+  std::optional<double> deltaEPredicted{};
+};
 struct ReportVerification {
   image::Image wanted, before, after;
   double deltaEBefore = 0.0;  // means over the content, CIEDE2000
   double deltaEAfter = 0.0;
-  std::string taken;                        // when, ISO 8601
-  std::optional<double> deltaEPredicted{};  // of the compensated one; none: the record of that is lost
-  std::optional<bool> isAsPredicted{};      // pipeline/prove.h
+  std::string taken;                             // when, ISO 8601
+  std::optional<double> deltaEPredicted{};       // of the compensated one; none: the record of that is lost
+  std::optional<bool> isAsPredicted{};           // pipeline/prove.h
+  std::vector<ReportVerificationView> others{};  // of cameras beyond the first, in their order
+  std::optional<std::size_t> viewThatDiffers{};  // which camera does not see what was predicted, from 0 on
 };
 
 /// The newest check for drift.
@@ -58,8 +65,9 @@ struct ReportData {
   std::string measured;  // when, ISO 8601
   Size projector;
   Size camera;
-  pipeline::CalibrateResult result;  // its findings too
-  int linearizationPatterns = 0;     // of all in result
+  std::size_t projectors = 1, cameras = 1;  // those are the first ones' sizes
+  pipeline::CalibrateResult result;         // its findings too
+  int linearizationPatterns = 0;            // of all in result
   int stoppedAt =
       0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: it was not
   std::vector<linearization::ProjectorResponse> responses;  // per projector

@@ -18,6 +18,8 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/venue/scenes.h"
 #include "relucent/venue/traced_transport.h"
@@ -477,6 +479,35 @@ class TestSeveralViews : public QObject {
     QCOMPARE(result.notes.size(), std::size_t{1});
     for (const char* name : {"contradiction.exr", "contradiction-2.png", "contradiction-3.exr"})
       QVERIFY(std::ranges::count(result.files, settings.out / name) == 1 && fs::exists(settings.out / name));
+  }
+
+  /// Law: each view is proved by its own photograph; one that differs from what was predicted is named. What is
+  /// kept of it comes back.
+  void aProofIsOfEveryView() {
+    ProveSettings settings;
+    settings.image = root() / "proved.png";
+    writePng(settings.image, standardImages({40, 30}).front().linear, 8);
+    settings.out = root() / "proof";
+    Progress silent;
+    const ProveResult result = proveCalibration(statue(), settings, cache(), silent);
+    QCOMPARE(result.others.size(), std::size_t{2});
+    QVERIFY(isAsPredicted(result) && !viewThatDiffers(result));
+    for (const ProvedView& view : result.others) {
+      QVERIFY(view.after.measured.psnr > view.before.measured.psnr);
+      QVERIFY(std::abs(view.after.measured.psnr - view.after.predicted.psnr) < 3.0);
+      QVERIFY(view.reachable > 0.0 && view.after.surprise < 0.2);
+    }
+    for (const char* name : {"target-2.png", "before-3.exr", "after-2_delta_e.exr", "comparison-3.png"})
+      QVERIFY(std::ranges::count(result.files, settings.out / name) == 1 && fs::exists(settings.out / name));
+    ProofRecord record{"2026-01-02T03:04:05Z", "measured", "shown", {}, result};
+    saveProofRecord(record, settings.out);
+    const std::optional<ProofRecord> read = loadProofRecord(settings.out);
+    QVERIFY(read && read->figures.others.size() == 2);
+    QCOMPARE(read->figures.others[1].after.measured.deltaE, result.others[1].after.measured.deltaE);
+    QCOMPARE(read->figures.others[0].reachable, result.others[0].reachable);
+    record.figures.others[1].after.measured.deltaE = 50.0;
+    QCOMPARE(viewThatDiffers(record.figures), std::optional<std::size_t>(2));
+    QVERIFY(!isAsPredicted(record.figures));
   }
 
   /// What several projectors are solved together for: blended from separate solves the dome is at least 3 dB

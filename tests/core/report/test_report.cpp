@@ -168,6 +168,25 @@ class TestReport : public QObject {
     QVERIFY(html(data).contains("hardly anything fits"));
   }
 
+  /// Law: every view has its photographs, by name; with one view there is no name.
+  void everyViewIsProved() {
+    ReportData data = fullData();
+    data.result.findings.clear();
+    QVERIFY(!html(data).contains("As camera 1 sees it") && html(data).contains("Projector 256"));
+    const ReportVerification& shown = *data.verification;
+    data.verification->others = {{shown.wanted, shown.before, shown.after, 12.5, 4.75, 4.5}};
+    data.projectors = 4;
+    data.cameras = 2;
+    data.verification->deltaEPredicted = 3.0;
+    data.verification->isAsPredicted = false;
+    data.verification->viewThatDiffers = 1;
+    const QString page = html(data);
+    QVERIFY(page.contains("As camera 1 sees it") && page.contains("As camera 2 sees it"));
+    QVERIFY(page.contains("ΔE 4.8, predicted 4.5") || page.contains("ΔE 4.7, predicted 4.5"));
+    QVERIFY(page.contains("4 projectors, the first 256") && page.contains("2 cameras, the first 160"));
+    QVERIFY(page.contains("for camera 2 the surface does not look as predicted"));
+  }
+
   /// Law: errors that nobody overlooks are no plain success, however well they were predicted.
   void aCoarsePredictionIsNoSuccess_data() {
     QTest::addColumn<double>("deltaE");

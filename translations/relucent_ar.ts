@@ -1032,6 +1032,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} هي الكاميرا {} والكاميرا {}: اختر كاميرا أخرى، أو واحدة لها رقم تسلسلي خاص بها</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1120,6 +1127,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>تحقق من أن جهاز العرض يعمل ويعرض هذا الخرج، ووجّه الكاميرا إلى صورته، وانزع غطاء عدستها؛ أو اختر شاشة أخرى</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>تحقق من أن جهاز العرض هذا يعمل ويعرض هذا المخرج، ووجّه كاميرا إليه؛ أو أزله من الموقع</translation>
     </message>
 </context>
 <context>
@@ -1634,6 +1648,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>لا ترى أي كاميرا ما يُعرض على {}</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1736,6 +1757,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>لا ترى الكاميرا ما يُعرض على ⁨{}⁩</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>الشاشة {} هي جهاز العرض {} وجهاز العرض {}: اختر شاشة أخرى</translation>
     </message>
 </context>
 <context>
@@ -3085,6 +3113,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>للقياس من جديد أكّد أن القاعة خالية.</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>⁨%1⁩، ⁨%2⁩ في الدقيقة</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3247,10 +3279,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>اختيار</translation>
     </message>
@@ -3259,24 +3287,12 @@
         <translation>اختيار ⁨%1⁩</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>الكاميرات</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>اختر الكاميرا الموجّهة إلى السطح.</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>بحث مجددًا</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>البحث عن كاميرات</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>لا تستجيب أي كاميرا. افحص كابلها وتغذيتها.</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3434,17 +3450,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>قد لا يصل جهاز العرض إلى هناك. افتح العدسة حيث ينبغي أن يصل.</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-            <numerusform>⁨%1⁩ بكسل، بت واحد، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-            <numerusform>⁨%1⁩ بكسل، بتّان، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-            <numerusform>⁨%1⁩ بكسل، %n بتات، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-            <numerusform>⁨%1⁩ بكسل، %n بتًا، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>احتفظ بالتعريض</translation>
@@ -3600,6 +3605,107 @@
     <message>
         <source>Exposures as measured</source>
         <translation>تعريضات القياس</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>الكاميرا ⁨%1⁩: ⁨%2⁩ ساطع أكثر من اللازم في كل تعريض.</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>ما تراه ⁨%1⁩ الآن</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>التركيز ⁨%1⁩</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>لا أجهزة عرض: ⁨%1⁩</numerusform>
+            <numerusform>جهاز عرض واحد: ⁨%1⁩</numerusform>
+            <numerusform>جهازا عرض: ⁨%1⁩</numerusform>
+            <numerusform>%n أجهزة عرض: ⁨%1⁩</numerusform>
+            <numerusform>%n جهاز عرض: ⁨%1⁩</numerusform>
+            <numerusform>%n جهاز عرض: ⁨%1⁩</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>الضوء</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>التراكب</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>كم جهاز عرض يضيء كل موضع</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>الكاميرات</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>بحث مجددًا</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>البحث عن كاميرات</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>لا تستجيب أي كاميرا. افحص كابلها وتغذيتها.</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، بت واحد، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، بتّان، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بتات، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بتًا، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+            <numerusform>⁨%1⁩ بكسل، %n بت، التعريضات من ⁨%2⁩ إلى ⁨%3⁩</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>موصى بها: أفضلها في تمييز الضوء الخافت</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>بتات أقل: تمييز الضوء الخافت أضعف</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>موصى بها: تعريضاتها تغطي الأكثر من الساطع إلى المعتم</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>تعريضات أقل: تغطية الساطع والمعتم أصعب</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>موصى بها: لها أكثر البكسلات</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>بكسلات أقل من الأولى</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>مناسبة كالأولى</translation>
     </message>
 </context>
 <context>
@@ -5131,6 +5237,22 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>الشاشة %1 مفصولة. لا يُعرض شيء.</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>الكاميرا ⁨%1⁩: ⁨%2⁩، كما هو متوقع</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>الكاميرا ⁨%1⁩: ⁨%2⁩، خلافًا للمتوقع</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>تحرك مشهد الكاميرا ⁨%3⁩ بمقدار ⁨%1⁩ بكسل جانبيًا و⁨%2⁩ بكسل عموديًا.</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>ربما تحركت الكاميرا ⁨%1⁩ أو أحد أجهزة العرض.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5555,6 +5677,66 @@ projector %2</source>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>يبلغ هذا المحتوى ⁨%1⁩. وكان «القياس» يتوقّع ⁨%2⁩ في متوسط ثلاث صور أخرى بالطريقة الموصى بها.</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>موضع كاميرا</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>لا محتوى</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>⁨%1⁩ dB، ‏ΔE ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>⁨%1⁩، وزنه ⁨%2⁩</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>المشاهد</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>على السطح</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>قائمة من هنا</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>وزن هذا المشهد</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>وزن المشهد المعروض، بالمئة</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>لمشاهد واحد يتحرك</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>أين يقف المشاهد، من الكاميرا الأولى إلى الأخيرة</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>الموضع في هذا المشهد</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>وزن مشهد</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>اسحب الكاميرات إلى حيث تقف، ثم حرّك المشاهد.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5713,6 +5895,52 @@ projector %2</source>
     <message>
         <source>%1, silent</source>
         <translation>⁨%1⁩، صامتة</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>لا شاشات</numerusform>
+            <numerusform>شاشة واحدة</numerusform>
+            <numerusform>شاشتان</numerusform>
+            <numerusform>%n شاشات</numerusform>
+            <numerusform>%n شاشة</numerusform>
+            <numerusform>%n شاشة</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>لا شيء، ⁨%1⁩، ⁨%2⁩</numerusform>
+            <numerusform>واحد، ⁨%1⁩، ⁨%2⁩</numerusform>
+            <numerusform>اثنان، ⁨%1⁩، ⁨%2⁩</numerusform>
+            <numerusform>%n، ⁨%1⁩، ⁨%2⁩</numerusform>
+            <numerusform>%n، ⁨%1⁩، ⁨%2⁩</numerusform>
+            <numerusform>%n، ⁨%1⁩، ⁨%2⁩</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>لا شيء</numerusform>
+            <numerusform>واحدة، محاكاة</numerusform>
+            <numerusform>اثنتان، محاكاة</numerusform>
+            <numerusform>%n، محاكاة</numerusform>
+            <numerusform>%n، محاكاة</numerusform>
+            <numerusform>%n، محاكاة</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>لا كاميرات</numerusform>
+            <numerusform>كاميرا واحدة</numerusform>
+            <numerusform>كاميرتان</numerusform>
+            <numerusform>%n كاميرات</numerusform>
+            <numerusform>%n كاميرا</numerusform>
+            <numerusform>%n كاميرا</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6181,10 +6409,6 @@ projector %2</source>
         <translation>جهاز العرض</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>تُختار الكاميرا في الخطوة التالية.</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>زاوية لامعة</translation>
     </message>
@@ -6271,10 +6495,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>حدّد الشاشة التي تضيء، والبرامج التي تعرض وتصوّر، ومكان حفظ العمل.</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>حدّد الشاشة التي تضيء السطح، ومكان حفظ العمل.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6658,6 +6878,132 @@ projector %2</source>
         <source>Hard. Measuring takes %1</source>
         <translation>صعب. مدة القياس: ⁨%1⁩</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>اسم ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>أجهزة العرض</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>لم يُختر شيء بعد.</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>إضافة جهاز عرض</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>لا توجد شاشة أخرى. صِل جهاز العرض التالي.</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>جهاز العرض %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>إزالة جهاز العرض ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>⁨%1⁩: اختر شاشته</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>الكاميرات</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>إزالة الكاميرا ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>أضف واحدة من القائمة، أو اخترها في الخطوة التالية.</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>يوضع المحتوى في مشهد الأولى.</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>أضف تلك التي تنظر إلى السطح.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>إزالة</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>إزالة ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>إضافة</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>إضافة ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>حدد أي الشاشات تضيء السطح، وأي الكاميرات تراقب، وأين يُحفظ العمل.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>لا أجهزة عرض</numerusform>
+            <numerusform>جهاز عرض واحد</numerusform>
+            <numerusform>جهازا عرض</numerusform>
+            <numerusform>%n أجهزة عرض</numerusform>
+            <numerusform>%n جهاز عرض</numerusform>
+            <numerusform>%n جهاز عرض</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>لا كاميرات</numerusform>
+            <numerusform>كاميرا واحدة</numerusform>
+            <numerusform>كاميرتان</numerusform>
+            <numerusform>%n كاميرات</numerusform>
+            <numerusform>%n كاميرا</numerusform>
+            <numerusform>%n كاميرا</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>هذه الشاشة هي جهاز العرض ⁨%1⁩ بالفعل.</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>تلك الشاشة هي جهاز العرض ⁨%1⁩. اختر شاشة أخرى.</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>قبة، أربعة أجهزة عرض</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>تتراكب؛ وتراقبها كاميرتان</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>تمثال نصفي من ثلاث جهات</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>جهازا عرض وثلاث كاميرات: لجمهور يمشي</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>جهاز العرض الذي تُغيَّر شاشته</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6668,6 +7014,29 @@ projector %2</source>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 قيد العمل. يمكن إخلاء المساحة بعد انتهائه.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>مخطط الكاميرات والمشاهد من الأعلى</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>المشاهد</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>⁨%1⁩: ⁨%2⁩ م إلى اليسار، ⁨%3⁩ م من السطح</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>⁨%1⁩: ⁨%2⁩ م إلى اليمين، ⁨%3⁩ م من السطح</translation>
     </message>
 </context>
 <context>

@@ -1008,6 +1008,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} ist Kamera {} und Kamera {}: Wählen Sie eine andere Kamera oder eine mit eigener Seriennummer</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1096,6 +1103,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>prüfen Sie, ob der Projektor eingeschaltet ist und diesen Ausgang zeigt, richten Sie die Kamera darauf und nehmen Sie den Objektivdeckel ab; oder wählen Sie einen anderen Bildschirm</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>prüfen Sie, ob dieser Projektor eingeschaltet ist und diesen Ausgang zeigt, und richten Sie eine Kamera darauf; oder entfernen Sie ihn aus dem Spielort</translation>
     </message>
 </context>
 <context>
@@ -1610,6 +1624,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>keine Kamera sieht, was auf {} gezeigt wird</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1712,6 +1733,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>die Kamera sieht nicht, was auf {} gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>Bildschirm {} ist Projektor {} und Projektor {}: Wählen Sie einen anderen Bildschirm</translation>
     </message>
 </context>
 <context>
@@ -2997,6 +3025,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Um neu zu messen, bestätigen Sie, dass der Raum geräumt ist.</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1, %2 je Minute</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3159,10 +3191,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>Nicht nutzbar: %1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>Wählen</translation>
     </message>
@@ -3171,24 +3199,12 @@
         <translation>%1 wählen</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>Kameras</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>Wählen Sie die, die auf die Oberfläche blickt.</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>Erneut suchen</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>Suche nach Kameras</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Keine Kamera antwortet. Prüfen Sie Kabel und Stromversorgung.</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3346,13 +3362,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Vielleicht reicht der Projektor nicht dorthin. Wo er es sollte, öffnen Sie die Blende.</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
-            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>Belichtungen behalten</translation>
@@ -3508,6 +3517,99 @@
     <message>
         <source>Exposures as measured</source>
         <translation>Belichtungen wie gemessen</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>Kamera %1: %2 ist in jeder Belichtung zu hell.</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Kamera %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>Was %1 jetzt sieht</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>Schärfe %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n Projektor: %1</numerusform>
+            <numerusform>%n Projektoren: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Licht</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Überlappung</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>wie viele Projektoren jede Stelle beleuchten</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Erneut suchen</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Suche nach Kameras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Keine Kamera antwortet. Prüfen Sie Kabel und Stromversorgung.</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Nicht nutzbar: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
+            <numerusform>%1 Pixel, %n Bit, Belichtungen %2 bis %3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>Empfohlen: unterscheidet schwaches Licht am besten</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>Weniger Bits: Schwaches Licht wird schlechter unterschieden</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>Empfohlen: Ihre Belichtungen decken am meisten ab, von hell bis dunkel</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>Weniger Belichtungen: Hell und Dunkel sind schwerer abzudecken</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>Empfohlen: Sie hat die meisten Pixel</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>Weniger Pixel als die erste</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>So geeignet wie die erste</translation>
     </message>
 </context>
 <context>
@@ -5003,6 +5105,22 @@ Projektor %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>Der Bildschirm %1 ist nicht angeschlossen. Es wird nichts projiziert.</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>Kamera %1: %2, wie vorhergesagt</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>Kamera %1: %2, nicht wie vorhergesagt</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>Das Bild der Kamera %3 ist um %1 px seitwärts und %2 px auf- oder abwärts verschoben.</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>Kamera %1 oder ein Projektor kann sich bewegt haben.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5427,6 +5545,66 @@ Projektor %2</translation>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>Dieser Inhalt erreicht %1. „Erfassen“ erwartete %2, im Mittel von drei anderen Bildern, mit der empfohlenen Methode.</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>Ort einer Kamera</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Kamera %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>kein Inhalt</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB, ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1, zählt %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>Auf der Oberfläche</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>Von hier aufrecht</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>Gewicht dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>Gewicht der gezeigten Ansicht, Prozent</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>Für einen Betrachter, der geht</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>Wo der Betrachter steht, von der ersten Kamera zur letzten</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>Ort in dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>Gewicht einer Ansicht</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>Ziehen Sie die Kameras dahin, wo sie stehen; dann bewegen Sie den Betrachter.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5581,6 +5759,36 @@ Projektor %2</translation>
     <message>
         <source>%1, silent</source>
         <translation>%1, stumm</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n Bildschirm</numerusform>
+            <numerusform>%n Bildschirme</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n mit %1, %2</numerusform>
+            <numerusform>%n mit %1, %2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n, simuliert</numerusform>
+            <numerusform>%n, simuliert</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n Kamera</numerusform>
+            <numerusform>%n Kameras</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6041,10 +6249,6 @@ Projektor %2</translation>
         <translation>Projektor</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>Die Kamera wird im nächsten Schritt gewählt.</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>Glänzende Ecke</translation>
     </message>
@@ -6131,10 +6335,6 @@ Projektor %2</translation>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Geben Sie an, welcher Bildschirm strahlt, welche Programme zeigen und fotografieren und wo die Arbeit liegt.</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>Geben Sie an, welcher Bildschirm auf die Oberfläche strahlt und wo die Arbeit liegt.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6510,6 +6710,124 @@ Projektor %2</translation>
         <source>Hard. Measuring takes %1</source>
         <translation>Schwer. Messdauer: %1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>Name von %1</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Projektoren</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>Noch keiner gewählt.</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>Projektor hinzufügen</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>Es gibt keinen weiteren Bildschirm. Stecken Sie den nächsten Projektor an.</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Projektor %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>Projektor %1 entfernen</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1: wählen Sie seinen Bildschirm</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Kameras</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Kamera %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>Kamera %1 entfernen</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>Fügen Sie eine aus der Liste hinzu, oder wählen Sie sie im nächsten Schritt.</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>Der Inhalt wird in der Ansicht der ersten platziert.</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>Fügen Sie die hinzu, die auf die Oberfläche blicken.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>%1 entfernen</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Einfügen</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>%1 hinzufügen</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>Sagen Sie, welche Bildschirme auf die Oberfläche strahlen, welche Kameras zusehen und wo die Arbeit liegt.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n Projektor</numerusform>
+            <numerusform>%n Projektoren</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n Kamera</numerusform>
+            <numerusform>%n Kameras</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>Dieser Bildschirm ist schon Projektor %1.</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>Dieser Bildschirm ist Projektor %1. Wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>Kuppel, vier Projektoren</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>Sie überlappen; zwei Kameras sehen zu</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>Büste, von drei Seiten</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>Zwei Projektoren, drei Kameras: für ein Publikum, das geht</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>Projektor, dessen Bildschirm geändert wird</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6520,6 +6838,29 @@ Projektor %2</translation>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 arbeitet. Platz lässt sich schaffen, wenn das beendet ist.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>Plan der Kameras und des Betrachters, von oben gesehen</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Kamera %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>Betrachter</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1: %2 m links, %3 m vor der Oberfläche</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1: %2 m rechts, %3 m vor der Oberfläche</translation>
     </message>
 </context>
 <context>

@@ -183,6 +183,16 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n projector: %1</numerusform>
+            <numerusform>%n projectors: %1</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message numerus="yes">
         <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
         <translation>
             <numerusform>%1 pixels, %n bit, exposures %2 to %3</numerusform>
@@ -276,6 +286,39 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusStrip</name>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n screen</numerusform>
+            <numerusform>%n screens</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n with %1, %2</numerusform>
+            <numerusform>%n with %1, %2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n, simulated</numerusform>
+            <numerusform>%n, simulated</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n camera</numerusform>
+            <numerusform>%n cameras</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::ThresholdPage</name>
     <message numerus="yes">
         <source>%n pixel(s)</source>
@@ -309,6 +352,20 @@
         <translation>
             <numerusform>There is %n venue within it: open it.</numerusform>
             <numerusform>There are %n venues within it: open one of them.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n projector</numerusform>
+            <numerusform>%n projectors</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n camera</numerusform>
+            <numerusform>%n cameras</numerusform>
         </translation>
     </message>
 </context>

@@ -1008,6 +1008,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} es la cámara {} y la cámara {}: elija otra cámara, o una con número de serie propio</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1096,6 +1103,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>compruebe que el proyector está encendido y muestra esa salida, apunte la cámara hacia él y quite la tapa del objetivo; o elija otra pantalla</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>compruebe que este proyector está encendido y muestra esa salida, y apunte una cámara hacia él; o quítelo del lugar</translation>
     </message>
 </context>
 <context>
@@ -1610,6 +1624,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>ninguna cámara ve lo que se muestra en {}</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1712,6 +1733,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la cámara no ve lo que se muestra en {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>la pantalla {} es el proyector {} y el proyector {}: elija otra pantalla</translation>
     </message>
 </context>
 <context>
@@ -2997,6 +3025,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Para medir de nuevo, confirme que la sala está despejada.</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1, %2 por minuto</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3159,10 +3191,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>No se puede usar: %1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>Elegir</translation>
     </message>
@@ -3171,24 +3199,12 @@
         <translation>Elegir %1</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>Cámaras</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>Elija la que apunta a la superficie.</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>Buscar de nuevo</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>Buscando cámaras</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Ninguna cámara responde. Revise su cable y su alimentación.</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3346,13 +3362,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Quizá el proyector no llega ahí. Donde debería llegar, abra el diafragma.</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 píxeles, %n bit, exposiciones de %2 a %3</numerusform>
-            <numerusform>%1 píxeles, %n bits, exposiciones de %2 a %3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>Conservar exposiciones</translation>
@@ -3508,6 +3517,99 @@
     <message>
         <source>Exposures as measured</source>
         <translation>Exposiciones de la medición</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>Cámara %1: %2 es demasiado claro en toda exposición.</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>Lo que ve ahora %1</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>Enfoque %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n proyector: %1</numerusform>
+            <numerusform>%n proyectores: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luz</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Solape</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>cuántos proyectores iluminan cada punto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>Cámaras</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Buscar de nuevo</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Buscando cámaras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Ninguna cámara responde. Revise su cable y su alimentación.</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>No se puede usar: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 píxeles, %n bit, exposiciones de %2 a %3</numerusform>
+            <numerusform>%1 píxeles, %n bits, exposiciones de %2 a %3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>Recomendada: distingue mejor la luz débil</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>Menos bits: la luz débil se distingue peor</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>Recomendada: sus exposiciones abarcan más, de claro a oscuro</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>Menos exposiciones: cuesta más abarcar claros y oscuros</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>Recomendada: tiene más píxeles</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>Menos píxeles que la primera</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>Tan adecuada como la primera</translation>
     </message>
 </context>
 <context>
@@ -5003,6 +5105,22 @@ proyector %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>La pantalla %1 está desconectada. No se proyecta nada.</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>Cámara %1: %2, como se predijo</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>Cámara %1: %2, no como se predijo</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vista de la cámara %3 se ha movido %1 px a un lado y %2 px arriba o abajo.</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>La cámara %1 o un proyector pueden haberse movido.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5427,6 +5545,66 @@ proyector %2</translation>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>Este contenido alcanza %1. «Adquisición» esperaba %2 de media en otras tres imágenes, con el método recomendado.</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>Lugar de una cámara</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>sin contenido</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB, ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1, cuenta %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Vistas</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>En la superficie</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>Recto desde aquí</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>Peso de esta vista</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>Peso de la vista mostrada, por ciento</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>Para un espectador que se mueve</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>Dónde está el espectador, de la primera cámara a la última</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>Lugar en esta vista</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>Peso de una vista</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>Arrastre las cámaras adonde están y mueva luego al espectador.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5581,6 +5759,36 @@ proyector %2</translation>
     <message>
         <source>%1, silent</source>
         <translation>%1, sin respuesta</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n pantalla</numerusform>
+            <numerusform>%n pantallas</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n con %1, %2</numerusform>
+            <numerusform>%n con %1, %2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n, simulada</numerusform>
+            <numerusform>%n, simuladas</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n cámara</numerusform>
+            <numerusform>%n cámaras</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6041,10 +6249,6 @@ proyector %2</translation>
         <translation>Proyector</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>La cámara se elige en el paso siguiente.</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>Rincón brillante</translation>
     </message>
@@ -6131,10 +6335,6 @@ proyector %2</translation>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indique qué pantalla ilumina, qué programas muestran y fotografían, y dónde se guarda el trabajo.</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>Indique qué pantalla ilumina la superficie y dónde se guarda el trabajo.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6510,6 +6710,124 @@ proyector %2</translation>
         <source>Hard. Measuring takes %1</source>
         <translation>Difícil. Medir lleva %1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>Nombre de %1</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Proyectores</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>Ninguno elegido aún.</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>Añadir un proyector</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>No hay otra pantalla. Conecte el siguiente proyector.</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Proyector %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>Quitar el proyector %1</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1: elija su pantalla</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Cámaras</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>Quitar la cámara %1</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>Añada una de la lista, o elíjala en el paso siguiente.</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>El contenido se coloca en la vista de la primera.</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>Añada las que miran a la superficie.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>Quitar %1</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Añadir</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>Añadir %1</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>Indique qué pantallas iluminan la superficie, qué cámaras miran y dónde se guarda el trabajo.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n proyector</numerusform>
+            <numerusform>%n proyectores</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n cámara</numerusform>
+            <numerusform>%n cámaras</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>Esta pantalla ya es el proyector %1.</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>Esa pantalla es el proyector %1. Elija otra.</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>Cúpula, cuatro proyectores</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>Se solapan; miran dos cámaras</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>Busto visto de tres lados</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>Dos proyectores, tres cámaras: para un público que camina</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>Proyector cuya pantalla se cambia</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6520,6 +6838,29 @@ proyector %2</translation>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 está trabajando. Se podrá liberar espacio cuando termine.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>Plano de las cámaras y del espectador, visto desde arriba</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>Espectador</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1: %2 m a la izquierda, a %3 m de la superficie</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1: %2 m a la derecha, a %3 m de la superficie</translation>
     </message>
 </context>
 <context>

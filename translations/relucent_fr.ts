@@ -1008,6 +1008,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} est la caméra {} et la caméra {} : choisissez une autre caméra, ou une qui a son propre numéro de série</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1096,6 +1103,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>vérifiez que le projecteur est allumé et affiche cette sortie, tournez la caméra vers lui et retirez le bouchon d’objectif&#x202f;; ou choisissez un autre écran</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>vérifiez que ce projecteur est allumé et montre cette sortie, et pointez une caméra dessus ; ou retirez-le du lieu</translation>
     </message>
 </context>
 <context>
@@ -1610,6 +1624,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>aucune caméra ne voit ce qui est montré sur {}</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1712,6 +1733,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la caméra ne voit pas ce qui est affiché sur {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>l’écran {} est le projecteur {} et le projecteur {} : choisissez un autre écran</translation>
     </message>
 </context>
 <context>
@@ -2997,6 +3025,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Pour mesurer à nouveau, confirmez que la salle est évacuée.</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1, %2 par minute</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3159,10 +3191,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>Inutilisable&#x202f;: %1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>Choisir</translation>
     </message>
@@ -3171,24 +3199,12 @@
         <translation>Choisir %1</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>Caméras</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>Choisissez celle qui vise la surface.</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>Rechercher</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>Recherche de caméras</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Aucune caméra ne répond. Vérifiez son câble et son alimentation.</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3346,13 +3362,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Le projecteur n’y arrive peut-être pas. Là où il le devrait, ouvrez le diaphragme.</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 pixels, %n bit, poses de %2 à %3</numerusform>
-            <numerusform>%1 pixels, %n bits, poses de %2 à %3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>Garder les temps de pose</translation>
@@ -3508,6 +3517,99 @@
     <message>
         <source>Exposures as measured</source>
         <translation>Poses de la mesure</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>Caméra %1 : %2 est trop clair à chaque temps de pose.</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>Ce que voit %1 maintenant</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>Netteté %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n projecteur : %1</numerusform>
+            <numerusform>%n projecteurs : %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Recouvrement</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>combien de projecteurs éclairent chaque endroit</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>Caméras</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Rechercher</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Recherche de caméras</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Aucune caméra ne répond. Vérifiez son câble et son alimentation.</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Inutilisable : %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 pixels, %n bit, poses de %2 à %3</numerusform>
+            <numerusform>%1 pixels, %n bits, poses de %2 à %3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>Conseillée : distingue le mieux la lumière faible</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>Moins de bits : la lumière faible est moins bien distinguée</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>Conseillée : ses temps de pose couvrent le plus, du clair au sombre</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>Moins de temps de pose : clair et sombre sont plus durs à couvrir</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>Conseillée : elle a le plus de pixels</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>Moins de pixels que la première</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>Aussi adaptée que la première</translation>
     </message>
 </context>
 <context>
@@ -5003,6 +5105,22 @@ projecteur %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>L’écran %1 est débranché. Rien n’est projeté.</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>Caméra %1 : %2, comme prévu</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>Caméra %1 : %2, pas comme prévu</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vue de la caméra %3 s’est déplacée de %1 px de côté et de %2 px en hauteur.</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>La caméra %1 ou un projecteur a pu bouger.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5427,6 +5545,66 @@ projecteur %2</translation>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>Ce contenu atteint %1. « Acquisition » prévoyait %2 en moyenne sur trois autres images, avec la méthode recommandée.</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>Place d’une caméra</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>pas de contenu</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB, ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1, compte %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Vues</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>Sur la surface</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>Droit d’ici</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>Poids de cette vue</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>Poids de la vue montrée, pour cent</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>Pour un spectateur qui bouge</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>Où se tient le spectateur, de la première caméra à la dernière</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>Place dans cette vue</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>Poids d’une vue</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>Faites glisser les caméras là où elles se trouvent, puis déplacez le spectateur.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5581,6 +5759,36 @@ projecteur %2</translation>
     <message>
         <source>%1, silent</source>
         <translation>%1, muette</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n écran</numerusform>
+            <numerusform>%n écrans</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n de %1, %2</numerusform>
+            <numerusform>%n de %1, %2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n, simulée</numerusform>
+            <numerusform>%n, simulées</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n caméra</numerusform>
+            <numerusform>%n caméras</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6041,10 +6249,6 @@ projecteur %2</translation>
         <translation>Projecteur</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>La caméra se choisit à l’étape suivante.</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>Coin brillant</translation>
     </message>
@@ -6131,10 +6335,6 @@ projecteur %2</translation>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indiquez l’écran qui éclaire, les programmes qui affichent et photographient, et où garder le travail.</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>Indiquez l’écran qui éclaire la surface, et où garder le travail.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6510,6 +6710,124 @@ projecteur %2</translation>
         <source>Hard. Measuring takes %1</source>
         <translation>Difficile. Durée de la mesure : %1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>Nom de %1</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Projecteurs</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>Aucun choisi pour l’instant.</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>Ajouter un projecteur</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>Il n’y a pas d’autre écran. Branchez le projecteur suivant.</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Projecteur %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>Retirer le projecteur %1</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1 : choisissez son écran</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Caméras</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>Retirer la caméra %1</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>Ajoutez-en une de la liste, ou choisissez-la à l’étape suivante.</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>Le contenu est placé dans la vue de la première.</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>Ajoutez celles qui regardent la surface.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Retirer</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>Retirer %1</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Ajouter</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>Ajouter %1</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>Dites quels écrans éclairent la surface, quelles caméras regardent et où garder le travail.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n projecteur</numerusform>
+            <numerusform>%n projecteurs</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n caméra</numerusform>
+            <numerusform>%n caméras</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>Cet écran est déjà le projecteur %1.</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>Cet écran est le projecteur %1. Choisissez-en un autre.</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>Dôme, quatre projecteurs</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>Ils se recouvrent ; deux caméras regardent</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>Buste vu de trois côtés</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>Deux projecteurs, trois caméras : pour un public qui marche</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>Projecteur dont l’écran est changé</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6520,6 +6838,29 @@ projecteur %2</translation>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 est en cours. L’espace pourra être libéré ensuite.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>Plan des caméras et du spectateur, vu d’en haut</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>Spectateur</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1 : %2 m à gauche, à %3 m de la surface</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1 : %2 m à droite, à %3 m de la surface</translation>
     </message>
 </context>
 <context>

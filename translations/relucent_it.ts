@@ -1008,6 +1008,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} è la fotocamera {} e la fotocamera {}: scegliere un&apos;altra fotocamera, o una con un proprio numero di serie</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1096,6 +1103,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>controllare che il proiettore sia acceso e mostri quell’uscita, puntare la fotocamera sulla proiezione e togliere il tappo dell’obiettivo; oppure scegliere un altro schermo</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>verificare che questo proiettore sia acceso e mostri quell&apos;uscita, e puntarvi una fotocamera; oppure rimuoverlo dal luogo</translation>
     </message>
 </context>
 <context>
@@ -1610,6 +1624,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>nessuna fotocamera vede ciò che è mostrato su {}</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1712,6 +1733,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>la fotocamera non vede ciò che è mostrato su {}</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>lo schermo {} è il proiettore {} e il proiettore {}: scegliere un altro schermo</translation>
     </message>
 </context>
 <context>
@@ -2997,6 +3025,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>Per misurare di nuovo, confermare che la sala è sgombra.</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1, %2 al minuto</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3159,10 +3191,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>Non utilizzabile: %1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>Scegli</translation>
     </message>
@@ -3171,24 +3199,12 @@
         <translation>Scegli %1</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>Fotocamere</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>Scegliere quella rivolta alla superficie.</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>Cerca di nuovo</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>Ricerca delle fotocamere</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Nessuna fotocamera risponde. Controllare il cavo e l’alimentazione.</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3346,13 +3362,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>Forse il proiettore non arriva lì. Dove dovrebbe, aprire il diaframma.</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
-            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>Mantieni le esposizioni</translation>
@@ -3508,6 +3517,99 @@
     <message>
         <source>Exposures as measured</source>
         <translation>Esposizioni della misura</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>Fotocamera %1: %2 è troppo chiaro in ogni esposizione.</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Fotocamera %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>Ciò che %1 vede ora</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>Fuoco %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n proiettore: %1</numerusform>
+            <numerusform>%n proiettori: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Luce</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>Sovrapposizione</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>quanti proiettori illuminano ogni punto</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>Fotocamere</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>Cerca di nuovo</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>Ricerca delle fotocamere</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>Nessuna fotocamera risponde. Controllare il cavo e l’alimentazione.</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>Non utilizzabile: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
+            <numerusform>%1 pixel, %n bit, esposizioni da %2 a %3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>Consigliata: distingue meglio la luce debole</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>Meno bit: la luce debole si distingue peggio</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>Consigliata: le sue esposizioni coprono di più, dal chiaro allo scuro</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>Meno esposizioni: chiari e scuri sono più difficili da coprire</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>Consigliata: ha più pixel</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>Meno pixel della prima</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>Adatta quanto la prima</translation>
     </message>
 </context>
 <context>
@@ -5003,6 +5105,22 @@ proiettore %2</translation>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>Lo schermo %1 è scollegato. Nulla viene proiettato.</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>Fotocamera %1: %2, come previsto</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>Fotocamera %1: %2, non come previsto</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>La vista della fotocamera %3 si è spostata di %1 px di lato e %2 px in verticale.</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>La fotocamera %1 o un proiettore può essersi mosso.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5427,6 +5545,66 @@ proiettore %2</translation>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>Questo contenuto raggiunge %1. «Acquisizione» prevedeva %2 in media su altre tre immagini, con il metodo consigliato.</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>Posto di una fotocamera</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Fotocamera %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>nessun contenuto</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB, ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1, conta %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Viste</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>Sulla superficie</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>Dritto da qui</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>Peso di questa vista</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>Peso della vista mostrata, percento</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>Per uno spettatore che si muove</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>Dove sta lo spettatore, dalla prima fotocamera all&apos;ultima</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>Posto in questa vista</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>Peso di una vista</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>Trascinare le fotocamere dove si trovano, poi spostare lo spettatore.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5581,6 +5759,36 @@ proiettore %2</translation>
     <message>
         <source>%1, silent</source>
         <translation>%1, muta</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n schermo</numerusform>
+            <numerusform>%n schermi</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n con %1, %2</numerusform>
+            <numerusform>%n con %1, %2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n, simulata</numerusform>
+            <numerusform>%n, simulate</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n fotocamera</numerusform>
+            <numerusform>%n fotocamere</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6041,10 +6249,6 @@ proiettore %2</translation>
         <translation>Proiettore</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>La fotocamera si sceglie nel prossimo passo.</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>Angolo lucido</translation>
     </message>
@@ -6131,10 +6335,6 @@ proiettore %2</translation>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indicare quale schermo illumina, quali programmi mostrano e fotografano e dove conservare il lavoro.</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>Indicare quale schermo illumina la superficie e dove conservare il lavoro.</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6510,6 +6710,124 @@ proiettore %2</translation>
         <source>Hard. Measuring takes %1</source>
         <translation>Difficile. Durata della misura: %1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>Nome di %1</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Proiettori</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>Nessuno ancora scelto.</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>Aggiungi un proiettore</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>Non c&apos;è un altro schermo. Collegare il prossimo proiettore.</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>Proiettore %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>Rimuovi il proiettore %1</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1: scegliere il suo schermo</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>Fotocamere</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Fotocamera %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>Rimuovi la fotocamera %1</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>Aggiungerne una dall&apos;elenco, o sceglierla al passo successivo.</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>Il contenuto si colloca nella vista della prima.</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>Aggiungere quelle che guardano la superficie.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Rimuovi</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>Rimuovi %1</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Aggiungi</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>Aggiungi %1</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>Indicare quali schermi illuminano la superficie, quali fotocamere guardano e dove conservare il lavoro.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n proiettore</numerusform>
+            <numerusform>%n proiettori</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n fotocamera</numerusform>
+            <numerusform>%n fotocamere</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>Questo schermo è già il proiettore %1.</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>Quello schermo è il proiettore %1. Sceglierne un altro.</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>Cupola, quattro proiettori</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>Si sovrappongono; due fotocamere guardano</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>Busto visto da tre lati</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>Due proiettori, tre fotocamere: per un pubblico che cammina</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>Proiettore di cui si cambia lo schermo</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6520,6 +6838,29 @@ proiettore %2</translation>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 è al lavoro. Lo spazio si potrà liberare alla fine.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>Pianta delle fotocamere e dello spettatore, vista dall&apos;alto</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Fotocamera %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>Spettatore</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1: %2 m a sinistra, a %3 m dalla superficie</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1: %2 m a destra, a %3 m dalla superficie</translation>
     </message>
 </context>
 <context>

@@ -1002,6 +1002,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} はカメラ {} とカメラ {} の両方になっています: 別のカメラ、または固有のシリアル番号を持つカメラを選んでください</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1090,6 +1097,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>プロジェクターの電源が入り、その出力を表示していることを確認し、カメラをそこに向けてレンズキャップを外すか、別の画面を選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>このプロジェクターの電源が入り、その出力を表示しているか確かめ、カメラを向けてください。または会場から削除してください</translation>
     </message>
 </context>
 <context>
@@ -1604,6 +1618,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>{} に表示されたものがどのカメラにも見えません</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1706,6 +1727,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>{} の表示内容がカメラに見えていません</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>画面 {} はプロジェクター {} とプロジェクター {} の両方になっています: 別の画面を選んでください</translation>
     </message>
 </context>
 <context>
@@ -2975,6 +3003,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>測定し直すには、退避が完了したことを確認してください。</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1、毎分 %2</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3137,10 +3169,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>使用できません：%1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>選択</translation>
     </message>
@@ -3149,24 +3177,12 @@
         <translation>%1 を選択</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>カメラ</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>投影面に向いているカメラを選んでください。</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>再検索</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>カメラを検索中</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>応答するカメラがありません。ケーブルと電源を確認してください。</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3324,12 +3340,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>プロジェクターの光が届かない場所かもしれません。届くはずなら、レンズの絞りを開けてください。</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 画素、%n ビット、露出 %2～%3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>露出を保持</translation>
@@ -3485,6 +3495,97 @@
     <message>
         <source>Exposures as measured</source>
         <translation>測定時の露出</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>カメラ %1: どの露出でも %2 が明るすぎます。</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>%1 に今見えているもの</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>ピント %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>プロジェクター %n 台: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>重なり</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>各所を照らすプロジェクターの数</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>再検索</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>カメラを検索中</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>応答するカメラがありません。ケーブルと電源を確認してください。</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>使用できません：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 画素、%n ビット、露出 %2～%3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>おすすめ: かすかな光を最もよく区別します</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>ビット数が少なく、かすかな光の区別が劣ります</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>おすすめ: 露出の範囲が明から暗まで最も広い</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>露出の範囲が狭く、明暗を収めにくくなります</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>おすすめ: 画素数が最も多い</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>最初のものより画素数が少ない</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>最初のものと同じくらい適しています</translation>
     </message>
 </context>
 <context>
@@ -4971,6 +5072,22 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>画面 %1 が外れています。何も投影していません。</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>カメラ %1: %2、予測どおり</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>カメラ %1: %2、予測と違います</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>カメラ %3 の視野が横に %1 px、縦に %2 px 動いています。</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>カメラ %1 かプロジェクターが動いた可能性があります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5395,6 +5512,66 @@ projector %2</source>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>このコンテンツは %1 です。「光輸送測定」での見込みは、別の 3 枚の画像の平均で %2（推奨の方法）でした。</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>カメラの位置</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>コンテンツなし</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB、ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1、重み %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>視点</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>投影面に沿う</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>ここから正立</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>この視点の重み</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>表示中の視点の重み、パーセント</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>動く一人の観客のため</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>最初のカメラから最後のカメラまでの観客の位置</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>この視点での位置</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>視点の重み</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>カメラを実際の位置へドラッグし、それから観客を動かしてください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5548,6 +5725,32 @@ projector %2</source>
     <message>
         <source>%1, silent</source>
         <translation>%1、応答なし</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>画面 %n 台</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n 台、%1、%2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n 台、シミュレーション</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>カメラ %n 台</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6006,10 +6209,6 @@ projector %2</source>
         <translation>プロジェクター</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>カメラは次のステップで選びます。</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>光沢のある角</translation>
     </message>
@@ -6096,10 +6295,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>投影する画面、表示と撮影を行うプログラム、作業の保存先を指定します。</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>投影面に映している画面と、作業の保存先を指定します。</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6473,6 +6668,122 @@ projector %2</source>
         <source>Hard. Measuring takes %1</source>
         <translation>難しい。測定時間：%1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>%1 の名前</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>まだ選ばれていません。</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>プロジェクターを追加</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>ほかの画面がありません。次のプロジェクターを接続してください。</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>プロジェクター %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>プロジェクター %1 を削除</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1: 画面を選んでください</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>カメラ %1 を削除</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>一覧から追加するか、次のステップで選んでください。</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>コンテンツは最初のカメラの視野に配置します。</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>投影面を見ているものを追加してください。</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>%1 を削除</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>追加</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>%1 を追加</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>どの画面が投影面を照らし、どのカメラが見て、作業をどこに保存するかを指定します。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>プロジェクター %n 台</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>カメラ %n 台</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>この画面はすでにプロジェクター %1 です。</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>その画面はプロジェクター %1 です。別の画面を選んでください。</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>ドーム、プロジェクター 4 台</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>重なり合い、カメラ 2 台が見ます</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>三方から見る胸像</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>プロジェクター 2 台、カメラ 3 台: 歩く観客のため</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>画面を変更するプロジェクター</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6483,6 +6794,29 @@ projector %2</source>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 の作業中です。終わってから空きを増やせます。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>カメラと観客の平面図、上から見たもの</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>観客</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1: 左へ %2 m、投影面から %3 m</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1: 右へ %2 m、投影面から %3 m</translation>
     </message>
 </context>
 <context>

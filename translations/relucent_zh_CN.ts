@@ -1002,6 +1002,13 @@
     </message>
 </context>
 <context>
+    <name>device.camera-twice</name>
+    <message>
+        <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
+        <translation>{} 同时是相机 {} 和相机 {}：请选择另一台相机，或有自己序列号的相机</translation>
+    </message>
+</context>
+<context>
     <name>device.cannot-create-temporary-folder</name>
     <message>
         <source>cannot create a temporary folder ({})</source>
@@ -1090,6 +1097,13 @@
     <message>
         <source>check that the projector is on and shows that output, aim the camera at it, and take its cap off; or choose another screen</source>
         <translation>请确认投影机已打开并显示该输出，将相机对准它，取下镜头盖；或选择其他屏幕</translation>
+    </message>
+</context>
+<context>
+    <name>device.check-projector-or-aim-another</name>
+    <message>
+        <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
+        <translation>请检查这台投影机是否已打开并显示该输出，并将一台相机对准它；或将它从场地中移除</translation>
     </message>
 </context>
 <context>
@@ -1604,6 +1618,13 @@
     </message>
 </context>
 <context>
+    <name>device.projector-unseen</name>
+    <message>
+        <source>no camera sees what is shown on {}</source>
+        <translation>没有相机看到 {} 上显示的内容</translation>
+    </message>
+</context>
+<context>
     <name>device.push-cable-in</name>
     <message>
         <source>push in the camera&apos;s cable at both ends</source>
@@ -1706,6 +1727,13 @@
     <message>
         <source>the camera does not see what is shown on {}</source>
         <translation>相机看不到 {} 上显示的内容</translation>
+    </message>
+</context>
+<context>
+    <name>device.screen-twice</name>
+    <message>
+        <source>screen {} is projector {} and projector {}: choose another screen</source>
+        <translation>屏幕 {} 同时是投影机 {} 和投影机 {}：请选择另一个屏幕</translation>
     </message>
 </context>
 <context>
@@ -2975,6 +3003,10 @@
         <source>To measure again, confirm that the room is clear.</source>
         <translation>要重新测量，请确认已清场。</translation>
     </message>
+    <message>
+        <source>%1, %2 a minute</source>
+        <translation>%1，每分钟 %2</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3137,10 +3169,6 @@
 <context>
     <name>relucent::gui::CameraPage</name>
     <message>
-        <source>Cannot be used: %1</source>
-        <translation>无法使用：%1</translation>
-    </message>
-    <message>
         <source>Choose</source>
         <translation>选择</translation>
     </message>
@@ -3149,24 +3177,12 @@
         <translation>选择 %1</translation>
     </message>
     <message>
-        <source>Cameras</source>
-        <translation>相机</translation>
-    </message>
-    <message>
         <source>Choose the one that looks at the surface.</source>
         <translation>请选择对准表面的那台。</translation>
     </message>
     <message>
-        <source>Look again</source>
-        <translation>重新查找</translation>
-    </message>
-    <message>
         <source>Looking for cameras</source>
         <translation>正在查找相机</translation>
-    </message>
-    <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>没有相机响应。请检查线缆和电源。</translation>
     </message>
     <message>
         <source>Nothing was changed.</source>
@@ -3324,12 +3340,6 @@
         <source>The projector may not reach there. Where it should, open the lens.</source>
         <translation>投影机可能照不到那里。若应照到，请开大光圈。</translation>
     </message>
-    <message numerus="yes">
-        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
-        <translation>
-            <numerusform>%1 像素，%n 位，曝光 %2 至 %3</numerusform>
-        </translation>
-    </message>
     <message>
         <source>Keep exposures</source>
         <translation>保留曝光</translation>
@@ -3485,6 +3495,97 @@
     <message>
         <source>Exposures as measured</source>
         <translation>按测量时的曝光</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2 is too bright in every exposure.</source>
+        <translation>相机 %1：%2 在所有曝光中都过亮。</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
+    </message>
+    <message>
+        <source>What %1 sees now</source>
+        <translation>%1 现在看到的画面</translation>
+    </message>
+    <message>
+        <source>Focus %1</source>
+        <translation>对焦 %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s): %1</source>
+        <translation>
+            <numerusform>%n 台投影机：%1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光量</translation>
+    </message>
+    <message>
+        <source>Overlap</source>
+        <translation>重叠</translation>
+    </message>
+    <message>
+        <source>how many projectors light each place</source>
+        <translation>每处由几台投影机照亮</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::CameraRows</name>
+    <message>
+        <source>Cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Look again</source>
+        <translation>重新查找</translation>
+    </message>
+    <message>
+        <source>Looking for cameras</source>
+        <translation>正在查找相机</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power.</source>
+        <translation>没有相机响应。请检查线缆和电源。</translation>
+    </message>
+    <message>
+        <source>Cannot be used: %1</source>
+        <translation>无法使用：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
+        <translation>
+            <numerusform>%1 像素，%n 位，曝光 %2 至 %3</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recommended: it tells faint light apart best</source>
+        <translation>推荐：最能分辨微弱的光</translation>
+    </message>
+    <message>
+        <source>Fewer bits: faint light is told apart less well</source>
+        <translation>位数较少：微弱的光分辨较差</translation>
+    </message>
+    <message>
+        <source>Recommended: its exposures cover most, from bright to dark</source>
+        <translation>推荐：曝光范围从亮到暗最广</translation>
+    </message>
+    <message>
+        <source>Fewer exposures: bright and dark are harder to cover</source>
+        <translation>曝光范围较窄：较难兼顾明暗</translation>
+    </message>
+    <message>
+        <source>Recommended: it has most pixels</source>
+        <translation>推荐：像素最多</translation>
+    </message>
+    <message>
+        <source>Fewer pixels than the first</source>
+        <translation>像素比第一台少</translation>
+    </message>
+    <message>
+        <source>As suitable as the first</source>
+        <translation>与第一台同样合适</translation>
     </message>
 </context>
 <context>
@@ -4971,6 +5072,22 @@ projector %2</source>
         <source>The screen %1 is unplugged. Nothing is projected.</source>
         <translation>屏幕 %1 已断开。当前没有投影。</translation>
     </message>
+    <message>
+        <source>Camera %1: %2, as predicted</source>
+        <translation>相机 %1：%2，与预测一致</translation>
+    </message>
+    <message>
+        <source>Camera %1: %2, not as predicted</source>
+        <translation>相机 %1：%2，与预测不符</translation>
+    </message>
+    <message>
+        <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
+        <translation>相机 %3 的画面横向移动了 %1 px，纵向移动了 %2 px。</translation>
+    </message>
+    <message>
+        <source>Camera %1 or a projector may have moved.</source>
+        <translation>相机 %1 或某台投影机可能移动了。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5395,6 +5512,66 @@ projector %2</source>
         <source>This content comes to %1. Acquire expected %2 on average of three other pictures, by the recommended method.</source>
         <translation>此内容可达 %1。“采集”的预期是 %2：另外三张图片在推荐方法下的平均值。</translation>
     </message>
+    <message>
+        <source>Place of a camera</source>
+        <translation>相机的位置</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
+    </message>
+    <message>
+        <source>no content</source>
+        <translation>没有内容</translation>
+    </message>
+    <message>
+        <source>%1 dB, ΔE %2</source>
+        <translation>%1 dB，ΔE %2</translation>
+    </message>
+    <message>
+        <source>%1, counts %2</source>
+        <translation>%1，占 %2</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>视角</translation>
+    </message>
+    <message>
+        <source>On the surface</source>
+        <translation>贴合表面</translation>
+    </message>
+    <message>
+        <source>Upright from here</source>
+        <translation>此处看端正</translation>
+    </message>
+    <message>
+        <source>Weight of this view</source>
+        <translation>此视角的权重</translation>
+    </message>
+    <message>
+        <source>Weight of the shown view, percent</source>
+        <translation>所示视角的权重，百分比</translation>
+    </message>
+    <message>
+        <source>For one viewer who moves</source>
+        <translation>为一位走动的观众</translation>
+    </message>
+    <message>
+        <source>Where the viewer stands, from the first camera to the last</source>
+        <translation>观众所站的位置，从第一台相机到最后一台</translation>
+    </message>
+    <message>
+        <source>Place in this view</source>
+        <translation>在此视角中的位置</translation>
+    </message>
+    <message>
+        <source>Weight of a view</source>
+        <translation>视角的权重</translation>
+    </message>
+    <message>
+        <source>Drag the cameras to where they stand, then move the viewer.</source>
+        <translation>请将相机拖到其所在位置，然后移动观众。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>
@@ -5548,6 +5725,32 @@ projector %2</source>
     <message>
         <source>%1, silent</source>
         <translation>%1，无响应</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n screen(s)</source>
+        <translation>
+            <numerusform>%n 个屏幕</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n with %1, %2</source>
+        <comment>projectors and their pixels</comment>
+        <translation>
+            <numerusform>%n 台，%1，%2</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n, simulated</source>
+        <comment>cameras</comment>
+        <translation>
+            <numerusform>%n 台，模拟</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n 台相机</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -6006,10 +6209,6 @@ projector %2</source>
         <translation>投影机</translation>
     </message>
     <message>
-        <source>The camera is chosen at the next step.</source>
-        <translation>相机在下一步选择。</translation>
-    </message>
-    <message>
         <source>Glossy corner</source>
         <translation>光泽转角</translation>
     </message>
@@ -6096,10 +6295,6 @@ projector %2</source>
     <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>指定照射的屏幕、显示和拍摄的程序，以及数据的保存位置。</translation>
-    </message>
-    <message>
-        <source>Say which screen shines on the surface, and where the work is kept.</source>
-        <translation>指定照射表面的屏幕，以及数据的保存位置。</translation>
     </message>
     <message>
         <source>Setting up</source>
@@ -6473,6 +6668,122 @@ projector %2</source>
         <source>Hard. Measuring takes %1</source>
         <translation>困难。测量需要%1</translation>
     </message>
+    <message>
+        <source>Name of %1</source>
+        <translation>%1 的名称</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>None chosen yet.</source>
+        <translation>尚未选择。</translation>
+    </message>
+    <message>
+        <source>Add a projector</source>
+        <translation>添加投影机</translation>
+    </message>
+    <message>
+        <source>No other screen is there. Plug the next projector in.</source>
+        <translation>没有其他屏幕。请接上下一台投影机。</translation>
+    </message>
+    <message>
+        <source>Projector %1</source>
+        <translation>投影机 %1</translation>
+    </message>
+    <message>
+        <source>Remove projector %1</source>
+        <translation>移除投影机 %1</translation>
+    </message>
+    <message>
+        <source>%1: choose its screen</source>
+        <translation>%1：请选择其屏幕</translation>
+    </message>
+    <message>
+        <source>Cameras</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
+    </message>
+    <message>
+        <source>Remove camera %1</source>
+        <translation>移除相机 %1</translation>
+    </message>
+    <message>
+        <source>Add one from the list, or choose it at the next step.</source>
+        <translation>从列表中添加一台，或在下一步选择。</translation>
+    </message>
+    <message>
+        <source>Content is placed in the view of the first one.</source>
+        <translation>内容放置在第一台相机的视角中。</translation>
+    </message>
+    <message>
+        <source>Add those that look at the surface.</source>
+        <translation>请添加对着表面的相机。</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Remove %1</source>
+        <translation>移除 %1</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>Say which screens shine on the surface, which cameras watch, and where the work is kept.</source>
+        <translation>指定哪些屏幕照在表面上、哪些相机观看，以及工作保存在哪里。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n projector(s)</source>
+        <translation>
+            <numerusform>%n 台投影机</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n camera(s)</source>
+        <translation>
+            <numerusform>%n 台相机</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This screen is projector %1 already.</source>
+        <translation>此屏幕已是投影机 %1。</translation>
+    </message>
+    <message>
+        <source>That screen is projector %1. Choose another screen.</source>
+        <translation>该屏幕是投影机 %1。请选择另一个。</translation>
+    </message>
+    <message>
+        <source>Dome, four projectors</source>
+        <translation>穹顶，四台投影机</translation>
+    </message>
+    <message>
+        <source>They overlap; two cameras watch</source>
+        <translation>互相重叠，两台相机观看</translation>
+    </message>
+    <message>
+        <source>Bust seen from three sides</source>
+        <translation>三面观看的胸像</translation>
+    </message>
+    <message>
+        <source>Two projectors, three cameras: for an audience that walks</source>
+        <translation>两台投影机、三台相机：适合走动的观众</translation>
+    </message>
+    <message>
+        <source>Projector whose screen is changed</source>
+        <translation>要更改屏幕的投影机</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -6483,6 +6794,29 @@ projector %2</source>
     <message>
         <source>%1 is at work. Space can be freed when it has ended.</source>
         <translation>%1 正在工作。结束后可以释放空间。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::ViewerPlan</name>
+    <message>
+        <source>Plan of the cameras and of the viewer, seen from above</source>
+        <translation>相机和观众的平面图，俯视</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
+    </message>
+    <message>
+        <source>Viewer</source>
+        <translation>观众</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the left, %3 m from the surface</source>
+        <translation>%1：向左 %2 m，距表面 %3 m</translation>
+    </message>
+    <message>
+        <source>%1: %2 m to the right, %3 m from the surface</source>
+        <translation>%1：向右 %2 m，距表面 %3 m</translation>
     </message>
 </context>
 <context>

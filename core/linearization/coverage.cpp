@@ -101,7 +101,12 @@ struct Following {
   }
 
   /// At the edge of two cells one stripe ends, of columns and of rows, and no more: such is Gray code.
-  bool isLit(std::size_t pixel) const { return missedColumns[pixel] <= 1 && missedRows[pixel] <= 1; }
+  /// Of few stripes, what follows all but one might be scattered.
+  bool isLit(std::size_t pixel, int columnBits, int rowBits) const {
+    constexpr int enough = 3;
+    return missedColumns[pixel] <= (columnBits >= enough ? 1 : 0) &&
+           missedRows[pixel] <= (rowBits >= enough ? 1 : 0);
+  }
 
   Coverage seenOf(Size cells) const {
     std::vector<int> pixels(cells.count(), 0);
@@ -147,7 +152,7 @@ class Looking {
       std::vector<std::uint32_t>& lit = result.litBy[camera];
       lit.resize(cameras_[camera].follows.size());
       for (std::size_t i = 0; i < lit.size(); ++i)
-        if (cameras_[camera].isLit(i)) lit[i] |= std::uint32_t{1} << projector_;
+        if (cameras_[camera].isLit(i, columnBits, rowBits)) lit[i] |= std::uint32_t{1} << projector_;
     }
   }
 

@@ -358,6 +358,7 @@ void AcquirePage::begin() {
     return question->wait();
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };
+  rate_.forget();
   job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
     room->countPauses([devices = work.devices] { return devices->live().paused(); });

@@ -12,6 +12,7 @@
 #include "relucent/linearization/linearization.h"
 #include "wizard/acquire/acquisition_trace.h"
 #include "wizard/acquire/alarm_question.h"
+#include "wizard/acquire/photograph_rate.h"
 #include "wizard/devices/device_page.h"
 
 namespace relucent::gui {
@@ -85,6 +86,8 @@ class AcquirePage : public DevicePage {
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
   /// Photographs since it was started.
   int photographs() const;
+  /// As quickly as they are taken now; none while it is held up, and before anybody can tell.
+  std::optional<double> photographsAMinute() const { return rate_.perMinute(); }
   /// Patterns, those that were read from the journal included, of as many as are expected by now: more when
   /// patterns are photographed again or levels turn out to need them.
   PatternCount patterns() const;
@@ -220,6 +223,7 @@ class AcquirePage : public DevicePage {
   Traced traced_;
   std::optional<WorkLeft> forecast_;
   double secondsAPattern_ = 0.0;
+  PhotographRate rate_;
   TimeLeft readingTime_;
   int begunAt_ = 0;  // photographs of this session by then
   std::optional<linearization::Linearization> response_;

@@ -88,6 +88,10 @@ void AcquirePage::tick() {
     const PatternCount read = reading();
     readingTime_.add(std::chrono::steady_clock::now(), static_cast<double>(read.taken) / read.expected);
   }
+  if (isHeldUp())
+    rate_.forget();
+  else if (isMeasuring())
+    rate_.add(std::chrono::steady_clock::now(), photographs());
   tellProgress();
 }
 

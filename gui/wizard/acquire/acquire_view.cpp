@@ -171,7 +171,10 @@ QWidget* runOf(AcquirePage& model) {
     const QString expected = countText(static_cast<std::uint64_t>(count.expected));
     patterns->setValue(count.taken < count.expected ? AcquirePage::tr("%1 of about %2").arg(taken, expected)
                                                     : taken);
-    photographs->setValue(countText(static_cast<std::uint64_t>(model.photographs())));
+    const QString photographed = countText(static_cast<std::uint64_t>(model.photographs()));
+    const std::optional<double> rate = model.photographsAMinute();
+    photographs->setValue(rate ? AcquirePage::tr("%1, %2 a minute").arg(photographed, decimalText(*rate, 0))
+                               : photographed);
     if (const auto& work = model.forecast()) disk->setValue(bytesText(work->diskBytes));
   };
   refreshOn(model, part, refresh, &AcquirePage::progressChanged, &AcquirePage::resultChanged);

@@ -33,33 +33,22 @@ struct CameraPage::Shared {
   std::optional<pipeline::RigCheck> check;
   std::optional<linearization::ExposureChoice> choice;
   std::vector<pipeline::PixelForecast> pixels;
-  std::vector<linearization::Coverage> coverage;
-  std::optional<CameraLook> look;
-  std::optional<double> tooBright, tooDark;
+  std::optional<linearization::RigCoverage> coverage;
+  std::vector<Watched> cameras;  // all but what is best
   std::size_t exposure = 0;
-  image::Region area;
   bool posted = false;
 };
 
 CameraPage::CameraPage(Session& session, QObject* parent)
-    : PageModel(stepName, parent),
-      session_(session),
-      listing_(
-          [this](devices::CameraList found) {
-            cameras_ = std::move(found);
-            Q_EMIT camerasListed();
-            tellStatus();
-          },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("Nothing was changed.")});
-            Q_EMIT camerasListed();
-            tellStatus();
-          }),
+    : DevicePage(stepName, session, parent),
       firstLooks_(
           [this](FirstLook first) {
             // Of another venue, or of before.
             if (!isChecking() || first.of != shared_) return;
-            look_ = std::move(first.look);
+            for (std::size_t camera = 0; camera < first.looks.size(); ++camera) {
+              if (camera >= cameras_.size()) cameras_.emplace_back();
+              if (first.looks[camera]) cameras_[camera].look = std::move(first.looks[camera]);
+            }
             tellAll();
           },
           [this](const Failure& failure) {
@@ -68,7 +57,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
   keep_ = addCommand(Icon::next, [this] { goOn(); });
   pause_ = addCommand(Icon::pause, [this] { finish(); });
   again_ = addCommand(Icon::retry, [this] {
-    best_ = 0.0;
+    forgetBest();
     start();
   });
   chooseAnother_ = addCommand(Icon::camera, [this] {
@@ -78,8 +67,15 @@ CameraPage::CameraPage(Session& session, QObject* parent)
   connect(&session_, &Session::opened, this, [this] {
     finish();
     forget();
-    area_ = {};
+    cameras_.clear();
     connect(&session_.live(), &LiveRig::seen, this, &CameraPage::lookAtCheck);
+  });
+  connect(&finder_, &CameraFinder::changed, this, [this] {
+    Q_EMIT camerasListed();
+    tellStatus();
+  });
+  connect(&finder_, &CameraFinder::failed, this, [this](const Failure& failure) {
+    Q_EMIT failed({failure, tr("Nothing was changed.")});
   });
   connect(&session_, &Session::stepsChanged, this, &CameraPage::tellAll);
   connect(&session_, &Session::devicesChanged, this, &CameraPage::tellStatus);
@@ -93,13 +89,41 @@ void CameraPage::forget() {
   goOn_ = startsAgain_ = false;
   shared_ = nullptr;
   check_.reset();
-  look_.reset();
   exposures_ = {};
   pixels_.clear();
   coverage_.clear();
-  tooBright_.reset();
-  tooDark_.reset();
-  best_ = 0.0;
+  rigCoverage_ = {};
+  for (Watched& camera : cameras_) camera = {.area = camera.area};
+}
+
+const CameraPage::Watched& CameraPage::watched(std::size_t camera) const {
+  static const Watched nothing;
+  return camera < cameras_.size() ? cameras_[camera] : nothing;
+}
+
+const std::optional<CameraLook>& CameraPage::look(std::size_t camera) const {
+  return watched(camera).look;
+}
+
+std::optional<double> CameraPage::tooBrightEverywhere(std::size_t camera) const {
+  return watched(camera).tooBright;
+}
+
+std::optional<double> CameraPage::tooDarkEverywhere(std::size_t camera) const {
+  return watched(camera).tooDark;
+}
+
+image::Region CameraPage::focusArea(std::size_t camera) const {
+  return watched(camera).area;
+}
+
+double CameraPage::focus(std::size_t camera) const {
+  const Watched& one = watched(camera);
+  return one.best > 0.0 && one.look ? std::min(1.0, one.look->sharpness / one.best) : 0.0;
+}
+
+void CameraPage::forgetBest() {
+  for (Watched& camera : cameras_) camera.best = 0.0;
 }
 
 CameraPage::~CameraPage() {
@@ -132,13 +156,6 @@ bool CameraPage::mayChooseCamera() const {
          session_.progress(calibration::Stage::linearization) == calibration::StageProgress::open;
 }
 
-void CameraPage::listCameras() {
-  if (isListing()) return;
-  listing_.ask(lister_);
-  Q_EMIT camerasListed();
-  tellStatus();
-}
-
 void CameraPage::chooseCamera(const std::string& address, std::optional<Size> size) {
   exchangeCamera(address, size);
   if (!needsCamera()) start();
@@ -164,8 +181,12 @@ QString CameraPage::hint() const {
   if (!session_.areDevicesFree() && !isLooking())
     return tr("The camera is in use at %1.").arg(session_.devicesUserName());
   if (isChecking()) return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
-  if (tooBright_ && *tooBright_ > 0.05)
-    return tr("%1 is too bright in every exposure.").arg(percentText(*tooBright_));
+  for (std::size_t camera = 0; camera < cameras(); ++camera)
+    if (const std::optional<double> bright = tooBrightEverywhere(camera); bright && *bright > 0.05)
+      return cameras() == 1 ? tr("%1 is too bright in every exposure.").arg(percentText(*bright))
+                            : tr("Camera %1: %2 is too bright in every exposure.")
+                                  .arg(camera + 1)
+                                  .arg(percentText(*bright));
   if (isKept()) return tr("Checked before. Check again if camera or projector were moved.");
   if (!isChecked()) return tr("Look through the camera first.");
   return tr("Next: test patterns for the projector's response");
@@ -249,17 +270,33 @@ std::optional<double> CameraPage::progress() const {
 /// A photograph that the checks took with all projectors white.
 void CameraPage::lookAtCheck() {
   if (!isChecking()) return;
-  LivePictures live = session_.live().pictures();
-  const std::vector<float>& drive = live.pattern.data();
-  const bool isWhite = std::ranges::all_of(drive, [](float value) { return value >= 1.0f; });
-  if (live.frame.signal.empty() || drive.empty() || !isWhite) return;
-  if (area_ == image::Region{}) area_ = centre(live.frame.signal.size());
-  firstLooks_.ask([of = shared_, frame = std::move(live.frame), area = area_] {
-    CameraLook look;
-    look.frame = frame;
-    look.check = image::checkPhotograph(frame.signal, saturation, dark);
-    look.sharpness = sharpness(frame.signal, area);
-    return FirstLook{of, look};
+  bool isWhite = false;
+  for (std::size_t projector = 0; projector < projectors(); ++projector) {
+    const LivePictures live = session_.live().pictures(projector);
+    const std::vector<float>& drive = live.pattern.data();
+    isWhite =
+        isWhite || (!drive.empty() && std::ranges::all_of(drive, [](float value) { return value >= 1.0f; }));
+  }
+  if (!isWhite) return;
+  cameras_.resize(std::max(cameras_.size(), cameras()));
+  std::vector<std::pair<rig::RawFrame, image::Region>> seen;
+  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
+    rig::RawFrame frame = session_.live().pictures(0, camera).frame;
+    if (!frame.signal.empty() && cameras_[camera].area == image::Region{})
+      cameras_[camera].area = centre(frame.signal.size());
+    seen.emplace_back(std::move(frame), cameras_[camera].area);
+  }
+  firstLooks_.ask([of = shared_, seen = std::move(seen)] {
+    FirstLook first{of, {}};
+    for (const auto& [frame, area] : seen) {
+      std::optional<CameraLook>& look = first.looks.emplace_back();
+      if (frame.signal.empty()) continue;
+      look.emplace();
+      look->frame = frame;
+      look->check = image::checkPhotograph(frame.signal, saturation, dark);
+      look->sharpness = sharpness(frame.signal, area);
+    }
+    return first;
   });
 }
 
@@ -285,27 +322,29 @@ void CameraPage::finish() {
 }
 
 void CameraPage::setFocusArea(const image::Region& area) {
-  if (area == area_) return;
-  changeUndoably(tr("Focus area"), area_, area, [this](const image::Region& wanted) { watch(wanted); });
+  if (area == focusArea()) return;
+  changeUndoably(tr("Focus area"), focusArea(), area,
+                 [this, camera = camera()](const image::Region& wanted) { watch(camera, wanted); });
 }
 
-void CameraPage::watch(const image::Region& area) {
-  area_ = area;
-  best_ = 0.0;
+void CameraPage::watch(std::size_t camera, const image::Region& area) {
+  if (camera >= cameras_.size()) cameras_.resize(camera + 1);
+  cameras_[camera].area = area;
+  cameras_[camera].best = 0.0;
   if (shared_) {
     QMutexLocker lock(&shared_->guard);
-    shared_->area = area;
+    if (camera < shared_->cameras.size()) shared_->cameras[camera].area = area;
   }
   tellSettings();
 }
 
 bool CameraPage::isFocusJudged() const {
-  return look_ && image::tooBrightWithin(look_->check, look_->frame.signal.size(), area_) <= 0.5;
+  return look() && image::tooBrightWithin(look()->check, look()->frame.signal.size(), focusArea()) <= 0.5;
 }
 
 void CameraPage::chooseExposure(std::size_t index) {
   // Noise looks sharp: that of another exposure is no mark for this one.
-  if (std::exchange(exposure_, index) != index) best_ = 0.0;
+  if (std::exchange(exposure_, index) != index) forgetBest();
   if (shared_) {
     QMutexLocker lock(&shared_->guard);
     shared_->exposure = index;
@@ -335,7 +374,8 @@ void CameraPage::start() {
   goOn_ = false;
   isChecking_ = true;
   shared_ = std::make_shared<Shared>();
-  shared_->area = area_;
+  cameras_.resize(std::max(cameras_.size(), cameras()));
+  for (const Watched& camera : cameras_) shared_->cameras.push_back({.area = camera.area});
   lease_ = session_.leaseDevices(stepName);
   job_.start([this, shared = shared_, work = workOf(session_), settings = session_.settings().acquisition,
               unit = exposureUnit()](Progress& progress) {
@@ -363,8 +403,7 @@ void CameraPage::start() {
         pipeline::pixelForecasts(rig, choice, shots.times(), settings, platform::memoryLeft());
     Progress covering = progress.part(
         0.1, RELUCENT_MESSAGE("stage.finding-what-is-seen", "Finding which part of the picture is seen"));
-    std::vector<linearization::Coverage> coverage =
-        linearization::coverageOf(shots, choice.flood.front(), covering);
+    linearization::RigCoverage coverage = linearization::coverageOf(shots, choice.flood.front(), covering);
     // A large camera's photographs would take up the memory that measuring needs.
     choice.whites.clear();
     choice.black = {};
@@ -372,10 +411,13 @@ void CameraPage::start() {
       QMutexLocker lock(&shared->guard);
       shared->pixels = std::move(pixels);
       shared->coverage = std::move(coverage);
+      shared->cameras.resize(rig.cameras.size());
       shared->choice = choice;
       // The one between bright parts and shadows.
       shared->exposure = choice.seconds.size() / 2;
-      if (shared->area == image::Region{}) shared->area = centre(rig.cameras[0]->size());
+      for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
+        if (shared->cameras[camera].area == image::Region{})
+          shared->cameras[camera].area = centre(rig.cameras[camera]->size());
     }
     Progress looking =
         progress.part(0.0, RELUCENT_MESSAGE("stage.looking-through-camera", "Looking through the camera"));
@@ -384,27 +426,33 @@ void CameraPage::start() {
       looking.checkpoint();
       QElapsedTimer since;
       since.start();
-      std::size_t exposure = 0;
-      image::Region area;
-      {
+      for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
+        looking.checkpoint();
+        std::size_t exposure = 0;
+        image::Region area;
+        {
+          QMutexLocker lock(&shared->guard);
+          const Watched& watched = shared->cameras[camera];
+          exposure = std::min(shared->exposure, choice.seconds.size() - 1);
+          area = watched.area;
+          // The ends are looked at first: they tell what no exposure covers.
+          if (!watched.tooBright)
+            exposure = choice.seconds.size() - 1;
+          else if (!watched.tooDark)
+            exposure = 0;
+        }
+        CameraLook look;
+        look.frame = rig.cameras[camera]->capture({{"camera", number}, 0, choice.seconds[exposure]});
+        look.check = image::checkPhotograph(look.frame.signal, saturation, dark);
+        look.sharpness = sharpness(look.frame.signal, area);
+        look.exposure = exposure;
         QMutexLocker lock(&shared->guard);
-        exposure = std::min(shared->exposure, choice.seconds.size() - 1);
-        area = shared->area;
-        // The ends are looked at first: they tell what no exposure covers.
-        if (!shared->tooBright)
-          exposure = choice.seconds.size() - 1;
-        else if (!shared->tooDark)
-          exposure = 0;
+        Watched& watched = shared->cameras[camera];
+        if (exposure + 1 == choice.seconds.size()) watched.tooBright = look.check.tooBright;
+        if (exposure == 0) watched.tooDark = look.check.tooDark;
+        watched.look = std::move(look);
       }
-      CameraLook look;
-      look.frame = rig.cameras[0]->capture({{"camera", number}, 0, choice.seconds[exposure]});
-      look.check = image::checkPhotograph(look.frame.signal, saturation, dark);
-      look.sharpness = sharpness(look.frame.signal, area);
-      look.exposure = exposure;
       QMutexLocker lock(&shared->guard);
-      if (exposure + 1 == choice.seconds.size()) shared->tooBright = look.check.tooBright;
-      if (exposure == 0) shared->tooDark = look.check.tooDark;
-      shared->look = std::move(look);
       if (!std::exchange(shared->posted, true))
         QMetaObject::invokeMethod(
             this, [this] { takeSharedState(); }, Qt::QueuedConnection);
@@ -427,15 +475,20 @@ void CameraPage::takeSharedState() {
     if (shared_->choice) {
       exposures_ = *std::exchange(shared_->choice, std::nullopt);
       pixels_ = shared_->pixels;
-      coverage_ = shared_->coverage;
+      rigCoverage_ = *shared_->coverage;
+      coverage_ = rigCoverage_.byAnyCamera();
       exposure_ = shared_->exposure;
       isChecking_ = false;
     }
     if (shared_->check) check_ = std::exchange(shared_->check, std::nullopt);
-    tooBright_ = shared_->tooBright;
-    tooDark_ = shared_->tooDark;
-    area_ = shared_->area;
-    if (shared_->look) look_ = shared_->look;
+    cameras_.resize(std::max(cameras_.size(), shared_->cameras.size()));
+    for (std::size_t camera = 0; camera < shared_->cameras.size(); ++camera) {
+      const Watched& seen = shared_->cameras[camera];
+      cameras_[camera].tooBright = seen.tooBright;
+      cameras_[camera].tooDark = seen.tooDark;
+      cameras_[camera].area = seen.area;
+      if (seen.look) cameras_[camera].look = seen.look;
+    }
   }
   learnBest();
   tellAll();
@@ -443,7 +496,9 @@ void CameraPage::takeSharedState() {
 
 /// Of looks with the exposure that is looked with.
 void CameraPage::learnBest() {
-  if (look_ && look_->exposure == exposure_) best_ = std::max(best_, look_->sharpness);
+  for (Watched& camera : cameras_)
+    if (camera.look && camera.look->exposure == exposure_)
+      camera.best = std::max(camera.best, camera.look->sharpness);
 }
 
 void CameraPage::ended() {

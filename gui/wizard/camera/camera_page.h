@@ -5,12 +5,12 @@
 
 #include "jobs/job.h"
 #include "jobs/latest.h"
-#include "relucent/devices/camera_registry.h"
 #include "relucent/image/photograph_check.h"
 #include "relucent/linearization/coverage.h"
 #include "relucent/linearization/exposure_choice.h"
 #include "relucent/pipeline/reductions.h"
-#include "wizard/frame/page_model.h"
+#include "wizard/devices/camera_finder.h"
+#include "wizard/devices/device_page.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -24,8 +24,9 @@ struct CameraLook {
 };
 
 /// Step 2: framing, focus, and exposures that cover what is bright and what is dark. The projectors show
-/// white while the camera is watched; rigs that this program opens have one camera.
-class CameraPage : public PageModel {
+/// white while the cameras are watched, all of them in turn; focus and light are judged in the one that is
+/// shown.
+class CameraPage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -50,20 +51,22 @@ class CameraPage : public PageModel {
   /// A screen of the desktop is the projector, and no camera is chosen for it yet.
   bool needsCamera() const;
   /// What is there to choose from, as it was when it was looked for.
-  const devices::CameraList& cameras() const { return cameras_; }
-  bool isListing() const { return listing_.isBusy(); }
-  void listCameras();
+  const devices::CameraList& foundCameras() const { return finder_.cameras(); }
+  bool isListing() const { return finder_.isLooking(); }
+  void listCameras() { finder_.look(); }
+  CameraFinder& finder() { return finder_; }
   /// `size`: of the photographs; none: all that the camera has.
   void chooseCamera(const std::string& address, std::optional<Size> size = std::nullopt);
   /// Who looks for cameras; for tests.
-  void setLister(std::function<devices::CameraList()> lister) { lister_ = std::move(lister); }
+  void setLister(std::function<devices::CameraList()> lister) { finder_.setLister(std::move(lister)); }
   /// How projector and camera work together, where the projector is a screen; none before it was measured.
   const std::optional<pipeline::RigCheck>& check() const { return check_; }
 
   bool isLooking() const { return job_.isRunning(); }
   QString stage() const { return job_.stage(); }
   /// What is seen: at first what the checks photograph in white light, then one look after the other.
-  const std::optional<CameraLook>& look() const { return look_; }
+  const std::optional<CameraLook>& look() const { return look(camera()); }
+  const std::optional<CameraLook>& look(std::size_t camera) const;
   /// The devices are being checked and exposures found.
   bool isChecking() const { return isLooking() && isChecking_; }
   /// Exposures for this venue, longest first; as they were kept where nobody looks; empty until they are
@@ -75,8 +78,10 @@ class CameraPage : public PageModel {
   QStringList keptVerdicts() const;
   /// Nobody can aim it.
   bool isSimulated() const { return session_.isSimulated(); }
-  /// Which part of each projector's picture is seen; empty before it was looked for.
+  /// Which part of each projector's picture any camera sees; empty before it was looked for.
   const std::vector<linearization::Coverage>& coverage() const { return coverage_; }
+  /// What each camera sees of each projector, and where their light falls on each other; nothing before.
+  const linearization::RigCoverage& rigCoverage() const { return rigCoverage_; }
   /// The time in which the projector's light changes, where exposures that are no whole multiples of it
   /// flicker, seconds; none: the light is even, or was not checked.
   std::optional<double> flickerPeriod() const;
@@ -90,21 +95,25 @@ class CameraPage : public PageModel {
   Size projectorSize(std::size_t projector) const { return session_.projectorSize(projector); }
   /// Of the shortest: too bright in every exposure; of the longest: too dark in every one. None before they
   /// have been looked at.
-  std::optional<double> tooBrightEverywhere() const { return tooBright_; }
-  std::optional<double> tooDarkEverywhere() const { return tooDark_; }
+  std::optional<double> tooBrightEverywhere() const { return tooBrightEverywhere(camera()); }
+  std::optional<double> tooDarkEverywhere() const { return tooDarkEverywhere(camera()); }
+  std::optional<double> tooBrightEverywhere(std::size_t camera) const;
+  std::optional<double> tooDarkEverywhere(std::size_t camera) const;
   /// What may be made of the camera's pixels; empty before it has been looked at, and where it has no more
   /// than the projection needs.
   const std::vector<pipeline::PixelForecast>& pixelForecasts() const { return pixels_; }
   /// Which of them is wanted.
   reduction::PixelUse pixels() const { return session_.settings().pixels; }
   void choosePixels(const reduction::PixelUse& use);
-  /// The focus area, in pixels of the camera.
-  image::Region focusArea() const { return area_; }
+  /// The focus area, in pixels of the camera that is shown.
+  image::Region focusArea() const { return focusArea(camera()); }
+  image::Region focusArea(std::size_t camera) const;
   void setFocusArea(const image::Region& area);
   /// In the focus area there is something to judge: most of it is not too bright.
   bool isFocusJudged() const;
   /// Sharpness relative to the best so far, 0 to 1.
-  double focus() const { return best_ > 0.0 && look_ ? std::min(1.0, look_->sharpness / best_) : 0.0; }
+  double focus() const { return focus(camera()); }
+  double focus(std::size_t camera) const;
 
  Q_SIGNALS:
   /// It begins to look for cameras, or has.
@@ -124,33 +133,38 @@ class CameraPage : public PageModel {
   void learnBest();
   void keepPixels(const reduction::PixelUse& use);
   void start();
-  void watch(const image::Region& area);
+  void watch(std::size_t camera, const image::Region& area);
   void lookAtCheck();
-  bool isChecked() const { return look_ && !isChecking_ && !exposures_.seconds.empty(); }
+  bool isChecked() const { return look() && !isChecking_ && !exposures_.seconds.empty(); }
   void takeSharedState();
   void ended();
 
-  Session& session_;
+  /// One camera's.
+  struct Watched {
+    std::optional<CameraLook> look{};
+    std::optional<double> tooBright{}, tooDark{};
+    image::Region area{};
+    double best = 0.0;
+  };
+  const Watched& watched(std::size_t camera) const;
+  void forgetBest();
+
   DeviceLease lease_;
   Job job_;
   std::shared_ptr<Shared> shared_;
-  std::optional<CameraLook> look_;
+  std::vector<Watched> cameras_;
   linearization::ExposureChoice exposures_;
   std::size_t exposure_ = 0;
   std::vector<pipeline::PixelForecast> pixels_;
-  std::optional<double> tooBright_, tooDark_;
-  image::Region area_;
-  double best_ = 0.0;
-  std::function<devices::CameraList()> lister_ = [] { return devices::cameraRegistry().list(); };
-  devices::CameraList cameras_;
-  Latest<devices::CameraList> listing_;
+  CameraFinder finder_;
   std::optional<pipeline::RigCheck> check_;
   std::vector<linearization::Coverage> coverage_;
+  linearization::RigCoverage rigCoverage_;
   PageCommand *keep_, *pause_, *again_, *chooseAnother_;
   bool isChecking_ = false;
   struct FirstLook {
     std::shared_ptr<Shared> of;
-    CameraLook look;
+    std::vector<std::optional<CameraLook>> looks;
   };
   Latest<FirstLook> firstLooks_;
   bool goOn_ = false;         // the next step was asked for while looking

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/camera/camera_view.h"
 
+#include <QGridLayout>
+#include <QLocale>
 #include <QPainter>
 #include <QProgressBar>
 #include <QStackedWidget>
+#include <bit>
+#include <cmath>
+#include <functional>
 
 #include "theme/accessible_role.h"
 #include "theme/controls.h"
@@ -15,6 +20,7 @@
 #include "wizard/camera/camera_choice_view.h"
 #include "wizard/camera/checks_view.h"
 #include "wizard/camera/pixel_use_view.h"
+#include "wizard/devices/device_selector.h"
 
 namespace relucent::gui {
 namespace {
@@ -79,6 +85,28 @@ double tallest(const image::PhotographCheck& check) {
 /// Of the best so far: what noise alone takes away is no fault of the lens.
 constexpr double goodFocus = 0.9;
 
+QString nameOfCamera(const CameraPage& model, std::size_t camera) {
+  const QString name = model.session().cameraName(camera);
+  return name.isEmpty() ? CameraPage::tr("Camera %1").arg(camera + 1) : name;
+}
+
+/// The more projectors, the brighter.
+QColor overlapColour(std::size_t projectors, std::size_t of) {
+  return qtColourAt(ColourMap::viridis, static_cast<double>(projectors) / static_cast<double>(of));
+}
+
+QImage overlapPicture(const std::vector<std::uint32_t>& lit, Size size, std::size_t projectors) {
+  QImage picture(size.width, size.height, QImage::Format_RGB32);
+  picture.fill(invalidColour);
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    const Pixel pixel = pixelAt(size, i);
+    if (lit[i] != 0)
+      picture.setPixelColor(pixel.x, pixel.y,
+                            overlapColour(static_cast<std::size_t>(std::popcount(lit[i])), projectors));
+  }
+  return picture;
+}
+
 class FocusMeter : public QWidget {
  public:
   FocusMeter() {
@@ -116,14 +144,107 @@ QString focusText(const CameraPage& model) {
   return model.isFocusJudged() ? percentText(model.focus()) : CameraPage::tr("too bright to tell");
 }
 
+/// What one camera sees, with what its hatches mean below it.
+class CameraTile : public QFrame {
+ public:
+  std::function<void(QPoint)> focusWanted;
+
+  CameraTile(CameraPage& model, std::size_t camera) : model_(model), camera_(camera) {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(4);
+    view_ = new ImageView;
+    view_->setObjectName(camera == 0 ? QString("camera-view") : QString("camera-view-%1").arg(camera + 1));
+    view_->setScaleBar(true);
+    column->addWidget(view_, 1);
+    // Where there are several, each has a line of its own.
+    line_ = new QWidget;
+    auto* words = new QHBoxLayout(line_);
+    words->setContentsMargins(0, 0, 0, 0);
+    words->addWidget(name_ = labelOf({}, "strong"));
+    words->addWidget(facts_ = elidedLabel("note"), 1);
+    column->addWidget(line_);
+    column->addWidget(legend_ = labelOf({}, "note"));
+    legend_->setTextFormat(Qt::RichText);
+    legend_->hide();
+    connect(&view_->link(), &ViewLink::picked, this, [this] {
+      if (auto pick = view_->link().pick(); pick && focusWanted) focusWanted(*pick);
+    });
+  }
+
+  void show(bool hasPeaks, bool isOverlap, bool isAlone) {
+    const QString name = nameOfCamera(model_, camera_);
+    line_->setVisible(!isAlone);
+    name_->setText(name);
+    const bool isShown = !isAlone && camera_ == model_.camera();
+    setRole(name_, isShown ? "strong" : "note");
+    view_->setAccessibleName(isAlone ? CameraPage::tr("What the camera sees now")
+                                     : CameraPage::tr("What %1 sees now").arg(name));
+    if (isOverlap && camera_ < model_.rigCoverage().litBy.size()) return showOverlap();
+    const std::optional<CameraLook>& look = model_.look(camera_);
+    legend_->hide();
+    view_->setAccessibleDescription({});
+    if (!look) {
+      view_->setPicture({});
+      facts_->setWhole({});
+      view_->setEmptyText(model_.isLooking() ? model_.stage()
+                                             : CameraPage::tr("The camera is not being looked through."));
+      return;
+    }
+    view_->setPicture(pictureOf(look->frame.signal, 1.0f));
+    view_->setOverlay(overlayOf(*look, model_.focusArea(camera_), hasPeaks));
+    QStringList facts;
+    if (look->check.tooBright > 0.0)
+      facts << CameraPage::tr("Too bright %1").arg(percentText(look->check.tooBright));
+    if (look->check.tooDark > 0.0)
+      facts << CameraPage::tr("Too dark %1").arg(percentText(look->check.tooDark));
+    if (model_.focus(camera_) > 0.0)
+      facts << CameraPage::tr("Focus %1").arg(percentText(model_.focus(camera_)));
+    facts_->setWhole(QLocale().createSeparatedList(facts));
+  }
+
+ private:
+  /// Where how many projectors shine on each other.
+  void showOverlap() {
+    const linearization::RigCoverage& coverage = model_.rigCoverage();
+    const std::vector<std::uint32_t>& lit = coverage.litBy[camera_];
+    const std::optional<CameraLook>& look = model_.look(camera_);
+    if (!look || look->frame.signal.pixels() != lit.size()) return;
+    view_->setOverlay({});
+    view_->setPicture(overlapPicture(lit, look->frame.signal.size(), coverage.coverages.size()));
+    facts_->setWhole({});
+    const std::vector<double> overlaps = coverage.overlaps(camera_);
+    QStringList words, coloured;
+    for (std::size_t i = 0; i < overlaps.size(); ++i) {
+      if (!(overlaps[i] > 0.0005)) continue;
+      words << CameraPage::tr("%n projector(s): %1", nullptr, static_cast<int>(i + 1))
+                   .arg(percentText(overlaps[i]));
+      coloured << QString::fromUtf8("<span style=\"color:%1\">■</span> %2")
+                      .arg(overlapColour(i + 1, overlaps.size()).name(), words.back().toHtmlEscaped());
+    }
+    legend_->setText(coloured.join(QString::fromUtf8(" &nbsp; ")));
+    legend_->setAccessibleName(words.join(QString::fromUtf8(", ")));
+    legend_->setVisible(!words.isEmpty());
+    view_->setAccessibleDescription(words.join(QString::fromUtf8(", ")));
+  }
+
+  CameraPage& model_;
+  std::size_t camera_;
+  ImageView* view_;
+  QWidget* line_;
+  QLabel* name_;
+  ElidedLabel* facts_;
+  QLabel* legend_;
+};
+
+/// Cameras side by side, in as even a grid as there are.
 class CameraStage : public Card {
  public:
   explicit CameraStage(CameraPage& model) : Card(CameraPage::tr("Camera view")), model_(model) {
-    view_ = new ImageView;
-    view_->setObjectName("camera-view");
-    view_->setAccessibleName(CameraPage::tr("What the camera sees now"));
-    view_->setScaleBar(true);
-    body()->addWidget(view_, 1);
+    auto* tiles = new QWidget;
+    grid_ = new QGridLayout(tiles);
+    grid_->setContentsMargins(0, 0, 0, 0);
+    body()->addWidget(tiles, 1);
     // What the hatches mean.
     for (auto [label, role, name] :
          {std::tuple(&bright_, "amber", "too-bright"), std::tuple(&dark_, "information", "too-dark")}) {
@@ -132,48 +253,65 @@ class CameraStage : public Card {
       (*label)->setWordWrap(false);
       (*label)->hide();
     }
+    addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, this));
+    kind_ = new Segmented({CameraPage::tr("Light"), CameraPage::tr("Overlap")});
+    kind_->setObjectName("camera-overlap");
+    connect(kind_, &Segmented::chosen, this, [this] { refresh(); });
+    addAction(kind_);
     peaks_ = new Tick(CameraPage::tr("Mark what is sharp"));
     peaks_->setObjectName("focus-peaks");
     connect(peaks_, &Tick::toggled, this, [this] { refresh(); });
     addAction(peaks_);
-    connect(&view_->link(), &ViewLink::picked, this, [this] {
-      if (auto pick = view_->link().pick()) moveArea(*pick);
-    });
     refreshOn(
         model_, this, [this] { refresh(); }, &CameraPage::settingsChanged, &CameraPage::resultChanged,
         &CameraPage::progressChanged);
   }
 
  private:
-  void moveArea(QPoint to) {
+  void moveArea(std::size_t camera, QPoint to) {
+    model_.showCamera(camera);
+    if (isOverlap()) return;
     image::Region area = model_.focusArea();
     area.x = to.x() - area.width / 2;
     area.y = to.y() - area.height / 2;
     model_.setFocusArea(area);
   }
-  void refresh() {
-    if (!model_.look()) {
-      view_->setPicture({});
-      setSubtitle({});
-      bright_->hide();
-      dark_->hide();
-      view_->setEmptyText(model_.isLooking() ? model_.stage()
-                                             : CameraPage::tr("The camera is not being looked through."));
-      return;
+  bool isOverlap() const { return kind_->isVisibleTo(this) && kind_->current() == 1; }
+  /// As many tiles as there are cameras; they stay while that does.
+  void arrange() {
+    if (tiles_.size() == model_.cameras()) return;
+    for (CameraTile* tile : tiles_) delete tile;
+    tiles_.clear();
+    const auto cameras = static_cast<int>(model_.cameras());
+    const int across = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cameras))));
+    for (int i = 0; i < cameras; ++i) {
+      auto* tile = new CameraTile(model_, static_cast<std::size_t>(i));
+      tile->focusWanted = [this, i](QPoint to) { moveArea(static_cast<std::size_t>(i), to); };
+      tiles_.push_back(tile);
+      grid_->addWidget(tile, i / across, i % across);
     }
-    const CameraLook& look = *model_.look();
-    setSubtitle(CameraPage::tr("exposure %1. Click where the focus is to be judged.")
-                    .arg(exposureText(look.frame.seconds)));
-    bright_->setVisible(look.check.tooBright > 0.0);
-    bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look.check.tooBright)));
-    dark_->setVisible(look.check.tooDark > 0.0);
-    dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look.check.tooDark)));
-    view_->setPicture(pictureOf(look.frame.signal, 1.0f));
-    view_->setOverlay(overlayOf(look, model_.focusArea(), peaks_->isChecked()));
   }
+  void refresh() {
+    arrange();
+    const bool isAlone = tiles_.size() == 1;
+    kind_->setVisible(model_.projectors() > 1 && !model_.rigCoverage().litBy.empty());
+    for (CameraTile* tile : tiles_) tile->show(peaks_->isChecked(), isOverlap(), isAlone);
+    const std::optional<CameraLook>& look = model_.look();
+    bright_->setVisible(isAlone && look && look->check.tooBright > 0.0);
+    dark_->setVisible(isAlone && look && look->check.tooDark > 0.0);
+    if (!look) return setSubtitle({});
+    setSubtitle(isOverlap() ? CameraPage::tr("how many projectors light each place")
+                            : CameraPage::tr("exposure %1. Click where the focus is to be judged.")
+                                  .arg(exposureText(look->frame.seconds)));
+    bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look->check.tooBright)));
+    dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look->check.tooDark)));
+  }
+
   CameraPage& model_;
-  ImageView* view_;
+  QGridLayout* grid_;
+  std::vector<CameraTile*> tiles_;
   QLabel *bright_, *dark_;
+  Segmented* kind_;
   Tick* peaks_;
 };
 

@@ -57,8 +57,8 @@ class ClusterStage : public QWidget {
     form_->setObjectName("form");
     connect(form_, &Segmented::chosen, error_, [this](int index) { error_->setRelief(index == 1); });
     errorCard_->addAction(form_);
-    for (Card* card : {mapCard, errorCard_})
-      card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
+    // One choice for both: beside each other there is no room for a second.
+    mapCard->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, mapCard));
     auto fail = [&model](const Failure& failure) {
       Q_EMIT model.failed({failure, ClusterPage::tr("What is measured is safe.")});
     };

@@ -19,16 +19,22 @@ DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
 
 void DeviceSelector::refresh() {
   std::size_t devices = kind_ == Kind::projector ? page_.projectors() : page_.cameras();
-  if (static_cast<std::size_t>(count()) != devices) {
+  QStringList names, shown;
+  for (std::size_t device = 0; device < devices; ++device) names << nameOf(device);
+  for (int i = 0; i < count(); ++i) shown << itemText(i);
+  if (shown != names) {
     clear();
-    for (std::size_t device = 0; device < devices; ++device) addItem(nameOf(device));
+    addItems(names);
   }
   setCurrentIndex(static_cast<int>(kind_ == Kind::projector ? page_.projector() : page_.camera()));
   setVisible(devices > 1);
 }
 
 QString DeviceSelector::nameOf(std::size_t device) const {
-  return (kind_ == Kind::projector ? tr("Projector %1") : tr("Camera %1")).arg(device + 1);
+  const bool isProjector = kind_ == Kind::projector;
+  const QString name =
+      isProjector ? page_.session().projectorName(device) : page_.session().cameraName(device);
+  return name.isEmpty() ? (isProjector ? tr("Projector %1") : tr("Camera %1")).arg(device + 1) : name;
 }
 
 }  // namespace relucent::gui

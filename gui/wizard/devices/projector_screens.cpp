@@ -4,6 +4,7 @@
 #include <QGuiApplication>
 
 #include "output/window_projector.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -11,8 +12,9 @@ namespace relucent::gui {
 std::vector<ScreenIdentity> projectorScreens(const Session& session) {
   std::vector<ScreenIdentity> screens;
   if (const pipeline::ScreenRigSettings* measured = session.screenRig()) {
-    const ScreenIdentity identity = identityOf(measured->display);
-    if (findScreen(identity) != nullptr) screens.push_back(identity);
+    for (const pipeline::ScreenRigSettings::Screen& screen : pipeline::screensOf(*measured))
+      if (const ScreenIdentity identity = identityOf(screen.display); findScreen(identity) != nullptr)
+        screens.push_back(identity);
     return screens;
   }
   for (const QScreen* screen : QGuiApplication::screens())

@@ -84,9 +84,17 @@ void StatusStrip::resizeEvent(QResizeEvent* event) {
   for (QLabel* name : names_) name->setVisible(width() >= namesFrom);
 }
 
+/// The connector of the first projector whose screen is not there; empty: all are.
+QString StatusStrip::missingScreen() const {
+  for (std::size_t projector = 0; projector < session_.projectors(); ++projector)
+    if (const auto screen = session_.screenOf(projector);
+        screen && findScreen(identityOf(screen->display)) == nullptr)
+      return QString::fromStdString(screen->display.connector);
+  return {};
+}
+
 bool StatusStrip::isScreenThere() const {
-  const pipeline::ScreenRigSettings* screen = session_.screenRig();
-  return screen == nullptr || findScreen(identityOf(screen->display)) != nullptr;
+  return missingScreen().isEmpty();
 }
 
 /// Its size, and what it is; that it is not there where nobody waits for it, either.
@@ -98,13 +106,19 @@ void StatusStrip::showDisk(const QString& folder) {
 }
 
 QString StatusStrip::projectorText() const {
+  const QString missing = missingScreen();
+  const auto projectors = static_cast<int>(session_.projectors());
   Size size = session_.projectorSize();
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
-  if (const pipeline::ScreenRigSettings* screen = session_.screenRig()) {
+  if (const pipeline::ScreenRigSettings* screen = session_.screenRig(); screen != nullptr && projectors == 1)
     kind = QString::fromStdString(screen->display.connector);
-    if (!isScreenThere()) kind = tr("%1, unplugged").arg(kind);
-  }
-  return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
+  else if (screen != nullptr)
+    kind = tr("%n screen(s)", nullptr, projectors);
+  if (!missing.isEmpty()) kind = tr("%1, unplugged").arg(missing);
+  if (projectors == 1 || session_.screenRig() != nullptr)
+    return QString("%1, %2").arg(sizeText(size.width, size.height), kind);
+  return tr("%n with %1, %2", "projectors and their pixels", projectors)
+      .arg(sizeText(size.width, size.height), kind);
 }
 
 void StatusStrip::showRoomLight() {
@@ -131,6 +145,9 @@ void StatusStrip::refresh() {
   QString kind = session_.isSimulated() ? tr("simulated") : tr("by script");
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     kind = screen->cameraAddress.empty() ? tr("none chosen") : QString::fromStdString(screen->cameraAddress);
+  if (const auto cameras = static_cast<int>(session_.cameras()); cameras > 1)
+    kind = session_.isSimulated() ? tr("%n, simulated", "cameras", cameras)
+                                  : tr("%n camera(s)", nullptr, cameras);
   camera_->setWhole(session_.isCameraSilent()   ? tr("%1, silent").arg(kind)
                     : session_.areDevicesFree() ? kind
                                                 : tr("%1, in use").arg(kind));

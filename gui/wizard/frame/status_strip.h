@@ -26,6 +26,7 @@ class StatusStrip : public QFrame {
   void refresh();
   QString projectorText() const;
   void showDisk(const QString& folder);
+  QString missingScreen() const;
   bool isScreenThere() const;
   void showRoomLight();
   Session& session_;

@@ -57,6 +57,21 @@ QString errorLine(const QString& what, const pipeline::ProvedProjection& project
       .arg(what, decimalText(projection.measured.deltaE, 1), decimalText(projection.predicted.deltaE, 1));
 }
 
+/// Of several cameras: how each of them sees it.
+QString viewsLine(const Proof& proof) {
+  QStringList views;
+  if (proof.figures.others.empty()) return {};
+  for (std::size_t camera = 0; camera <= proof.figures.others.size(); ++camera) {
+    const pipeline::ProvedProjection after = proof.figuresOf(camera).after;
+    const QString figures = isolated(QString::fromUtf8("ΔE %1").arg(decimalText(after.measured.deltaE, 1)));
+    views << (pipeline::isAsPredicted(after) ? OutputPage::tr("Camera %1: %2, as predicted")
+                                             : OutputPage::tr("Camera %1: %2, not as predicted"))
+                 .arg(camera + 1)
+                 .arg(figures);
+  }
+  return views.join('\n');
+}
+
 void showProof(Remark& remark, const OutputPage& page) {
   const Proof* proof = page.proof().proof().get();
   if (page.playsEarlier())
@@ -71,23 +86,31 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
-  const pipeline::ProveResult& figures = proof->figures;
+  const pipeline::ProvedView figures = proof->figuresOf(page.camera());
   QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
                     errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
                     OutputPage::tr("%1 of the picture can be reached.").arg(percentText(figures.reachable));
-  if (proof->isAsPredicted() && pipeline::isPlainToSee(figures))
+  if (const QString views = viewsLine(*proof); !views.isEmpty()) meaning = views + '\n' + meaning;
+  const std::optional<std::size_t> differs = pipeline::viewThatDiffers(proof->figures);
+  if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
     remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
                 meaning + '\n' +
                     OutputPage::tr("Nothing has moved: the prediction itself is coarse. Measuring finer or "
                                    "darker content helps."));
   else if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
-  else if (figures.moved.explains)
+  else if (const sentinels::Movement moved = proof->figuresOf(*differs).moved; moved.explains)
     remark.show(
         Remark::Kind::warning,
-        OutputPage::tr("The camera's view has moved by %1 px sideways and %2 px up or down.")
-            .arg(decimalText(std::abs(figures.moved.x), 1), decimalText(std::abs(figures.moved.y), 1)),
+        (page.cameras() == 1
+             ? OutputPage::tr("The camera's view has moved by %1 px sideways and %2 px up or down.")
+             : OutputPage::tr("The view of camera %3 has moved by %1 px sideways and %2 px up or down.")
+                   .arg(*differs + 1))
+            .arg(decimalText(std::abs(moved.x), 1), decimalText(std::abs(moved.y), 1)),
         meaning);
+  else if (page.cameras() > 1)
+    remark.show(Remark::Kind::warning,
+                OutputPage::tr("Camera %1 or a projector may have moved.").arg(*differs + 1), meaning);
   else
     remark.show(Remark::Kind::warning, OutputPage::tr("The camera or projector may have moved."), meaning);
 }

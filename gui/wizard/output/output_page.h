@@ -135,7 +135,7 @@ class OutputPage : public DevicePage {
   QString screenHint(std::size_t projector) const;
   QString missingScreenOf(std::size_t projector) const;
   QString stepToReview() const;
-  std::optional<std::size_t> usualScreen() const;
+  std::optional<std::size_t> usualScreen(std::size_t projector) const;
   void keepScreen();
   void followScreen();
   void projectorChanged() override { projection_.mirrorProjector(projector()); }
@@ -160,7 +160,7 @@ class OutputPage : public DevicePage {
   std::vector<std::optional<OutputScreen>> wished_;
   std::vector<std::optional<std::size_t>> chosen_;  // where that is among screens_
   std::string playsFrom_;                           // what the output was opened with
-  ScreenIdentity screenBefore_;                     // the calibration's
+  std::vector<ScreenIdentity> screensBefore_;       // the calibration's
   bool reopen_ = false;                             // when the photographs are taken
   QString preferred_;                               // Preview's picture
   QString config_;

@@ -40,7 +40,7 @@ void OutputPage::listScreens() {
     if (wished_[projector]) chosen_[projector] = placeOf(*wished_[projector], screens_);
   for (std::size_t projector = 0; projector < wished_.size(); ++projector) {
     if (wished_[projector]) continue;
-    chosen_[projector] = usualScreen();
+    chosen_[projector] = usualScreen(projector);
     if (chosen_[projector]) wished_[projector] = screens_[*chosen_[projector]];
   }
   tellSettings();
@@ -53,14 +53,14 @@ QString OutputPage::missingScreen() const {
 QString OutputPage::missingScreenOf(std::size_t projector) const {
   if (projector >= wished_.size() || chosen_[projector]) return {};
   if (wished_[projector]) return wished_[projector]->identity.connector;
-  const pipeline::ScreenRigSettings* measured = session_.screenRig();
-  return measured != nullptr ? QString::fromStdString(measured->display.connector) : QString();
+  const std::optional<pipeline::ScreenRigSettings> measured = session_.screenOf(projector);
+  return measured ? QString::fromStdString(measured->display.connector) : QString();
 }
 
 /// The one that was measured, and no other in its place; where none was, one that nobody works at and no
 /// projector has.
-std::optional<std::size_t> OutputPage::usualScreen() const {
-  if (const pipeline::ScreenRigSettings* measured = session_.screenRig()) {
+std::optional<std::size_t> OutputPage::usualScreen(std::size_t projector) const {
+  if (const std::optional<pipeline::ScreenRigSettings> measured = session_.screenOf(projector)) {
     QList<ScreenIdentity> present;
     for (const OutputScreen& screen : screens_) present << screen.identity;
     return findScreen(identityOf(measured->display), present);
@@ -106,23 +106,28 @@ bool OutputPage::isOnPageOnly() const {
 
 /// The calibration was given another screen, here or at Venue.
 void OutputPage::followScreen() {
-  const pipeline::ScreenRigSettings* screen = session_.screenRig();
-  const ScreenIdentity now = screen != nullptr ? identityOf(screen->display) : ScreenIdentity();
-  if (std::exchange(screenBefore_, now) == now || screen == nullptr) return;
-  if (chosen() && screens_[*chosen()].identity == now) return;
+  std::vector<ScreenIdentity> now;
+  for (std::size_t projector = 0; projector < projectors(); ++projector)
+    if (const auto screen = session_.screenOf(projector)) now.push_back(identityOf(screen->display));
+  if (std::exchange(screensBefore_, now) == now || now.empty()) return;
+  bool isFollowed = true;
+  for (std::size_t projector = 0; projector < now.size(); ++projector)
+    isFollowed =
+        isFollowed && screenOf(projector) && screens_[*screenOf(projector)].identity == now[projector];
+  if (isFollowed) return;
   close();
   wished_.clear();
   listScreens();
 }
 
 void OutputPage::keepScreen() {
-  const pipeline::ScreenRigSettings* before = session_.screenRig();
-  if (before == nullptr || !session_.areDevicesFree()) return;
+  const std::optional<pipeline::ScreenRigSettings> before = session_.screenOf(projector());
+  if (!before || !session_.areDevicesFree()) return;
   for (const ScreenChoice& choice : screenChoicesFor(before->projector)) {
     if (!choice.refusal.isEmpty() || identityOf(choice.display) != screens_[*chosen()].identity) continue;
     if (choice.display == before->display) return;
     try {
-      session_.changeScreen(withScreen(*before, choice));
+      session_.changeScreen(withScreen(*before, choice), projector());
     } catch (...) {
       tell(failureOf(std::current_exception()));
     }
@@ -131,8 +136,8 @@ void OutputPage::keepScreen() {
 }
 
 QString OutputPage::meaningOfScreen() const {
-  const pipeline::ScreenRigSettings* now = session_.screenRig();
-  return now != nullptr ? meaningOfMove(session_.measuredDisplay(), now->display) : QString();
+  const std::optional<pipeline::ScreenRigSettings> now = session_.screenOf(projector());
+  return now ? meaningOfMove(session_.measuredDisplay(projector()), now->display) : QString();
 }
 
 QString OutputPage::screenHint(std::size_t projector) const {

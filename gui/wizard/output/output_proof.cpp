@@ -7,7 +7,6 @@
 #include "handover/report_pdf.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/image/exr.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/report/report.h"
 #include "wizard/output/proof_file.h"
@@ -28,10 +27,6 @@ fs::path fileOf(const QString& picture, const fs::path& folder) {
   return file;
 }
 
-QImage read(const fs::path& file) {
-  return QImage(QString::fromStdString(file.string()));
-}
-
 /// Of the show that this program installs.
 std::vector<fs::path> showLogs() {
   fs::path folder = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation).toStdString();
@@ -46,9 +41,7 @@ std::string measurementOf(const Session& session) {
 
 std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& folder) {
   auto proof = std::make_shared<Proof>();
-  proof->wanted = read(folder / "target.png");
-  proof->photograph = read(folder / "after.png");
-  proof->deltaE = image::readExr(folder / "after_delta_e.exr").pixels;
+  proof->views = proofViews(folder, figures.others.size() + 1);
   proof->taken = QDateTime::currentDateTime();
   proof->figures = std::move(figures);
   return proof;
@@ -116,7 +109,9 @@ OutputProof::Next OutputProof::next() const {
   if (proof->isAsPredicted()) return Next::install;
   // What was measured holds: something was in the way of that photograph.
   if (drift != nullptr) return Next::photograph;
-  return proof->figures.moved.explains ? Next::pushBack : Next::checkDrift;
+  // What is pushed back is the first camera.
+  const bool isFirst = pipeline::viewThatDiffers(proof->figures) == std::size_t{0};
+  return isFirst && proof->figures.moved.explains ? Next::pushBack : Next::checkDrift;
 }
 
 void OutputProof::cameraPushedBack() {

@@ -3,7 +3,9 @@
 
 #include <QDateTime>
 #include <QImage>
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "jobs/job.h"
 #include "relucent/pipeline/drift_record.h"
@@ -12,11 +14,20 @@
 
 namespace relucent::gui {
 
+/// One camera's part of a verification photograph.
+struct ProofView {
+  QImage wanted, photograph;  // as somebody sees them who is used to the content's white
+  image::Image deltaE;        // CIEDE2000 of every pixel; NaN outside the content
+};
+
 /// What a verification photograph came to.
 struct Proof {
   pipeline::ProveResult figures;
-  QImage wanted, photograph;  // as somebody sees them who is used to the content's white
-  image::Image deltaE;        // CIEDE2000 of every pixel; NaN outside the content
+  std::vector<ProofView> views;  // of all cameras; of versions that proved one, of that
+  const ProofView& view(std::size_t camera) const { return views[std::min(camera, views.size() - 1)]; }
+  pipeline::ProvedView figuresOf(std::size_t camera) const {
+    return pipeline::viewOf(figures, std::min(camera, figures.others.size()));
+  }
   QDateTime taken;
   /// What it was taken of: with other content, another measurement, threshold or clusters it proves nothing.
   pipeline::ContentSettings content;

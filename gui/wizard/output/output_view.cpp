@@ -216,8 +216,9 @@ class OutputStage : public QWidget {
     projector_ = new Card(OutputPage::tr("On the projector now"));
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});
     compare_->setObjectName("compare");
-    projector_->addAction(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
     projector_->addAction(compare_);
+    // A row of its own: beside the title there is no room for it.
+    projector_->body()->addWidget(new DeviceSelector(DeviceSelector::Kind::projector, page_, projector_));
     output_ = new MirrorView(page_);
     output_->setObjectName("output-view");
     output_->setAccessibleName(OutputPage::tr("What the projector shows"));
@@ -231,6 +232,7 @@ class OutputStage : public QWidget {
   }
   Card* photographCard() {
     photograph_ = new Card(OutputPage::tr("Photograph of the surface"));
+    photograph_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, photograph_));
     photo_ = new ImageView;
     photo_->setObjectName("photograph-view");
     photo_->setLink(&link_);
@@ -260,8 +262,9 @@ class OutputStage : public QWidget {
     output_->reflect();
     output_->setCaption(figures());
     const std::shared_ptr<const Proof>& proof = page_.proof().proof();
-    if (proof != shown_) {
+    if (proof != shown_ || camera_ != page_.camera()) {
       shown_ = proof;
+      camera_ = page_.camera();
       showProof();
     }
     photograph_->setSubtitle(takenText());
@@ -290,12 +293,13 @@ class OutputStage : public QWidget {
       difference_->setPicture({});
       return;
     }
-    photo_->setPicture(shown_->wanted);
-    photo_->setCompared(shown_->photograph, OutputPage::tr("Wanted"), OutputPage::tr("Photograph"));
+    const ProofView& view = shown_->view(camera_);
+    photo_->setPicture(view.wanted);
+    photo_->setCompared(view.photograph, OutputPage::tr("Wanted"), OutputPage::tr("Photograph"));
     ColourScale scale{ColourMap::cividis, 0.0, worstDeltaE, false};
-    difference_->setPicture(mapped(shown_->deltaE.data(), shown_->deltaE.size(), scale));
-    difference_->setReadout([proof = shown_](QPoint pixel) {
-      const float difference = proof->deltaE.at(pixel.x(), pixel.y(), 0);
+    difference_->setPicture(mapped(view.deltaE.data(), view.deltaE.size(), scale));
+    difference_->setReadout([proof = shown_, camera = camera_](QPoint pixel) {
+      const float difference = proof->view(camera).deltaE.at(pixel.x(), pixel.y(), 0);
       return isolated(QString::fromUtf8("%1: ΔE %2")
                           .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
@@ -308,6 +312,7 @@ class OutputStage : public QWidget {
   MirrorView* output_;
   ImageView *photo_, *difference_;
   std::shared_ptr<const Proof> shown_;
+  std::size_t camera_ = 0;  // of it
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/proof_file.h"
 
+#include <algorithm>
+
 #include "relucent/image/exr.h"
 #include "relucent/pipeline/proof_record.h"
 
@@ -19,6 +21,15 @@ fs::path proofFolder(const fs::path& calibration) {
   return calibration / "verification";
 }
 
+std::vector<ProofView> proofViews(const fs::path& folder, std::size_t cameras) {
+  std::vector<ProofView> views;
+  for (std::size_t camera = 0; camera < cameras; ++camera)
+    views.push_back({read(pipeline::proofPicture(folder, "target", camera, ".png")),
+                     read(pipeline::proofPicture(folder, "after", camera, ".png")),
+                     image::readExr(pipeline::proofPicture(folder, "after", camera, "_delta_e.exr")).pixels});
+  return views;
+}
+
 void saveProof(const Proof& proof, const fs::path& folder) {
   pipeline::saveProofRecord({proof.taken.toUTC().toString(Qt::ISODate).toStdString(), proof.measured,
                              proof.shownFrom, proof.content, proof.figures},
@@ -35,11 +46,12 @@ std::shared_ptr<const Proof> loadProof(const fs::path& folder) {
     proof->shownFrom = record->shownFrom;
     proof->content = record->content;
     proof->figures = record->figures;
-    proof->wanted = read(folder / "target.png");
-    proof->photograph = read(folder / "after.png");
-    proof->deltaE = image::readExr(folder / "after_delta_e.exr").pixels;
-    const QSize size(proof->deltaE.size().width, proof->deltaE.size().height);
-    return proof->wanted.size() == size && proof->photograph.size() == size ? proof : nullptr;
+    proof->views = proofViews(folder, proof->figures.others.size() + 1);
+    const bool areWhole = std::ranges::all_of(proof->views, [](const ProofView& view) {
+      const QSize size(view.deltaE.size().width, view.deltaE.size().height);
+      return view.wanted.size() == size && view.photograph.size() == size;
+    });
+    return areWhole ? proof : nullptr;
   } catch (const std::exception&) {
     return nullptr;  // it is taken again, and nothing else is lost
   }

@@ -11,6 +11,9 @@ namespace relucent::gui {
 /// The folder of a calibration's verification photograph.
 std::filesystem::path proofFolder(const std::filesystem::path& calibration);
 
+/// The pictures of so many cameras that lie there. Throws: Error{disk, format}.
+std::vector<ProofView> proofViews(const std::filesystem::path& folder, std::size_t cameras);
+
 /// Keeps figures, time and what they were taken of beside the pictures, as proof.json.  Throws: Error{disk}.
 void saveProof(const Proof& proof, const std::filesystem::path& folder);
 

@@ -2,6 +2,7 @@
 #include "wizard/preview/content_preview.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -29,27 +30,67 @@ std::shared_ptr<const image::Image> contentFor(const pipeline::ContentSettings& 
   return std::make_shared<image::Image>(linearContentOf(defaultPicture()));
 }
 
-/// Per pixel of the first camera, the brightest light that the projectors give, as a share of the content's
-/// white.
-std::vector<float> reachOf(const compensation::MeasuredVenue& venue, float white) {
-  std::vector<float> reach(venue.transport.cameras().size(0).count());
+/// Per pixel of a camera, the brightest light that the projectors give, as a share of the content's white.
+std::vector<float> reachOf(const compensation::MeasuredVenue& venue, std::size_t camera, float white) {
+  const Rasters& cameras = venue.transport.cameras();
+  std::vector<float> reach(cameras.size(camera).count());
+  const std::size_t offset = cameras.offset(camera);
   for (std::size_t i = 0; i < reach.size(); ++i) {
     float brightest = std::numeric_limits<float>::infinity();
     for (std::size_t c = 0; c < 3; ++c)
-      brightest = std::min(brightest, venue.flood[3 * i + c] + venue.black[3 * i + c]);
+      brightest = std::min(brightest, venue.flood[3 * (offset + i) + c] + venue.black[3 * (offset + i) + c]);
     reach[i] = brightest / white;
   }
   return reach;
 }
 
+CameraMask maskOf(const CameraMask& all, const Rasters& cameras, std::size_t camera) {
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera));
+  return {begin, begin + static_cast<std::ptrdiff_t>(cameras.size(camera).count())};
+}
+
 /// As a viewer adapted to the content's white sees it; NaN where no content is.
-double ssimOf(const compensation::Prediction& prediction, const compensation::Target& target,
-              const Rasters& cameras) {
-  std::span<const std::uint8_t> inside(target.inside.data(), cameras.size(0).count());
+double ssimOf(const CameraStack& seen, const compensation::Target& target, const Rasters& cameras,
+              std::size_t camera) {
+  std::span<const std::uint8_t> inside(target.inside.data() + cameras.offset(camera),
+                                       cameras.size(camera).count());
   if (std::none_of(inside.begin(), inside.end(), [](std::uint8_t in) { return in != 0; }))
     return std::numeric_limits<double>::quiet_NaN();
-  return ssim(image::viewed(image::imageFromStack(prediction.camera, cameras, 0), target.white),
-              image::viewed(image::imageFromStack(target.wanted, cameras, 0), target.white), inside);
+  return ssim(image::viewed(image::imageFromStack(seen, cameras, camera), target.white),
+              image::viewed(image::imageFromStack(target.wanted, cameras, camera), target.white), inside);
+}
+
+double weightOf(const compensation::Target& target, std::size_t camera) {
+  return camera < target.viewWeight.size() ? static_cast<double>(target.viewWeight[camera]) : 1.0;
+}
+
+compensation::TargetSettings targetFor(const pipeline::ContentSettings& settings,
+                                       const std::optional<compensation::Position>& viewer) {
+  compensation::TargetSettings target = targetOf(settings);
+  target.viewer = viewer;
+  return target;
+}
+
+ViewPreview viewOf(std::size_t camera, const compensation::MeasuredVenue& venue,
+                   const compensation::Target& target, const CameraStack& without, const CameraStack& with) {
+  const Rasters& cameras = venue.transport.cameras();
+  ViewPreview view;
+  compensation::ViewError error = compensation::errorIn(camera, with, target, cameras);
+  view.with = image::imageFromStack(with, cameras, camera);
+  view.without = image::imageFromStack(without, cameras, camera);
+  view.deltaE = std::move(error.deltaE);
+  view.reach = reachOf(venue, camera, target.white[0]);
+  view.inside = maskOf(target.inside, cameras, camera);
+  view.reachable = maskOf(target.reachable, cameras, camera);
+  view.reachableShare = error.reachable;
+  view.deltaEMean = error.meanDeltaE;
+  view.psnr = error.psnrReachable;
+  view.weight = weightOf(target, camera);
+  if (camera == 0)
+    view.corners = target.corners;
+  else if (camera < target.placements.size() && target.placements[camera])
+    view.corners = target.placements[camera]->corners;
+  return view;
 }
 
 /// What of the content no method can correct, and why.
@@ -68,12 +109,13 @@ void findUncorrectable(const compensation::MeasuredVenue& venue, const compensat
 
 std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
                                                 const pipeline::ContentSettings& settings,
-                                                std::shared_ptr<const image::Image> known) {
+                                                std::shared_ptr<const image::Image> known,
+                                                const std::optional<compensation::Position>& viewer) {
   Progress quiet;
   std::shared_ptr<const image::Image> content = known ? std::move(known) : contentFor(settings);
   const compensation::MeasuredVenue& venue = engine.measured.venue;
   const Rasters& cameras = venue.transport.cameras();
-  compensation::Target target = fitTarget(*content, venue, targetOf(settings));
+  compensation::Target target = fitTarget(*content, venue, targetFor(settings, viewer));
   const compensation::Compensation corrected = engine.compensator->solve(settings.method, target, quiet),
                                    warped =
                                        engine.compensator->solve(compensation::Method::none, target, quiet);
@@ -85,35 +127,48 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
   preview->sentWithout = drivePictures(warped.projector, projectors, engine.encoders);
   preview->content = content;
   preview->picture = settings.picture;
-  preview->with = image::imageFromStack(with.camera, cameras, 0);
-  preview->without = image::imageFromStack(without.camera, cameras, 0);
-  preview->deltaE = with.deltaE;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+    preview->views.push_back(viewOf(camera, venue, target, without.camera, with.camera));
   preview->white = target.white[0];
   preview->corners = target.corners;
   preview->reachableShare = with.reachable;
   preview->clipped = with.clipped;
   preview->deltaEMean = with.meanDeltaE;
   preview->psnr = with.psnrReachable;
-  preview->reach = reachOf(venue, preview->white);
-  auto pixels = static_cast<std::ptrdiff_t>(cameras.size(0).count());
-  preview->inside.assign(target.inside.begin(), target.inside.begin() + pixels);
-  preview->reachable.assign(target.reachable.begin(), target.reachable.begin() + pixels);
   findUncorrectable(venue, target, *preview);
   return preview;
 }
 
 MethodPreview methodPreviewOf(const PreviewEngine& engine, const pipeline::ContentSettings& settings,
-                              const image::Image& content, compensation::Method method) {
+                              const image::Image& content, compensation::Method method,
+                              const std::optional<compensation::Position>& viewer) {
   Progress quiet;
   const compensation::MeasuredVenue& venue = engine.measured.venue;
-  compensation::Target target = fitTarget(content, venue, targetOf(settings));
+  const Rasters& cameras = venue.transport.cameras();
+  compensation::Target target = fitTarget(content, venue, targetFor(settings, viewer));
   engine.compensator->solve(compensation::Method::none, target, quiet);
   Stopwatch watch;
   compensation::Compensation compensation = engine.compensator->solve(method, target, quiet);
-  double seconds = watch.seconds();
-  compensation::Prediction prediction = compensation::predict(venue, target, compensation);
-  return {method, prediction.psnrReachable, ssimOf(prediction, target, venue.transport.cameras()),
-          prediction.meanDeltaE, seconds};
+  MethodPreview preview{method};
+  preview.seconds = watch.seconds();
+  const CameraStack seen = compensation::predict(venue, target, compensation).camera;
+  int views = 0;
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    // Nobody asks for a view without weight, and nothing can be said of one that nothing is wanted in.
+    const double similar = ssimOf(seen, target, cameras, camera);
+    if (!(weightOf(target, camera) > 0.0) || (cameras.devices() > 1 && std::isnan(similar))) continue;
+    const compensation::ViewError error = compensation::errorIn(camera, seen, target, cameras);
+    preview.psnr += error.psnrReachable;
+    preview.deltaE += error.meanDeltaE;
+    preview.ssim += similar;
+    ++views;
+  }
+  if (views > 1) {
+    preview.psnr /= views;
+    preview.deltaE /= views;
+    preview.ssim /= views;
+  }
+  return preview;
 }
 
 }  // namespace relucent::gui

@@ -20,15 +20,24 @@ struct MethodPreview {
   double seconds = 0.0;
 };
 
-/// Pictures of the first camera, linear, and the white they are looked at with.
-struct ContentPreview {
+/// One camera's pictures, linear.
+struct ViewPreview {
   image::Image without, with;  // predicted: nothing corrected, and by the chosen method
   image::Image deltaE;         // CIEDE2000; NaN outside the content
   std::vector<float> reach;    // brightest possible, as a share of the content's white
   CameraMask reachable, inside;
+  double reachableShare = 0.0, deltaEMean = 0.0, psnr = 0.0;
+  double weight = 1.0;                           // of this view in the solve, the heaviest is 1
+  std::optional<compensation::Corners> corners;  // none: it lies on the surface
+};
+
+/// The content in every view, and the white it is looked at with.
+struct ContentPreview {
+  std::vector<ViewPreview> views;
+  const ViewPreview& first() const { return views.front(); }
   float white = 1.0f;
-  compensation::Corners corners{};
-  double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;
+  compensation::Corners corners{};                                           // in the first view
+  double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;  // of the first view
   double tooDark = 0.0, tooBright = 0.0;        // with what is reachable, the whole content
   double unlit = 0.0;                           // share of the content that no projector lights
   std::shared_ptr<const image::Image> content;  // what was placed
@@ -45,12 +54,15 @@ struct PreviewEngine {
 };
 
 /// The content in its place, by the settings' method and uncorrected. Takes as long as the method.
-/// `known`: the settings' picture, where it was read already.  Throws: as fitTarget().
+/// `known`: the settings' picture, where it was read already; `viewer`: for whom; none: for all.
+/// Throws: as fitTarget().
 std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
                                                 const pipeline::ContentSettings& settings,
-                                                std::shared_ptr<const image::Image> known);
-/// The same content by another method, timed.
+                                                std::shared_ptr<const image::Image> known,
+                                                const std::optional<compensation::Position>& viewer = {});
+/// The same content by another method, timed; figures are means over the views that ask for something.
 MethodPreview methodPreviewOf(const PreviewEngine& engine, const pipeline::ContentSettings& settings,
-                              const image::Image& content, compensation::Method method);
+                              const image::Image& content, compensation::Method method,
+                              const std::optional<compensation::Position>& viewer = {});
 
 }  // namespace relucent::gui

@@ -3,6 +3,7 @@
 
 #include <QFileDialog>
 #include <QSlider>
+#include <algorithm>
 #include <cmath>
 
 #include "theme/controls.h"
@@ -10,6 +11,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
+#include "wizard/preview/views_part.h"
 
 namespace relucent::gui {
 namespace {
@@ -52,6 +54,7 @@ QWidget* previewInspector(PreviewPage& page) {
   problem->setObjectName("place-problem");
   column->addWidget(problem);
   column->addWidget(lineOf());
+  column->addWidget(viewsPart(page));
   column->addWidget(labelOf(PreviewPage::tr("Light"), "section"));
   auto* bright = new ValueRow(PreviewPage::tr("May stay too dark"));
   auto* brightness = new QSlider(Qt::Horizontal);
@@ -117,7 +120,7 @@ QWidget* previewInspector(PreviewPage& page) {
     lift->setValue(static_cast<int>(std::lround(100.0 * settings.blackLift)));
     bright->setValue(percentText(settings.reachablePercentile / 100.0));
     black->setValue(percentText(settings.blackLift));
-    automatic->setEnabled(settings.corners.has_value());
+    automatic->setEnabled(page.isPlacedByHand());
     problem->setVisible(!page.problem().isEmpty());
     problem->setText(page.problem());
     constexpr double worthSaying = 0.01;
@@ -132,10 +135,11 @@ QWidget* previewInspector(PreviewPage& page) {
     others->setText(expected);
     others->setVisible(!expected.isEmpty());
     if (const auto& preview = page.preview()) {
-      reach->setValue(percentText(preview->reachableShare), preview->reachableShare > 0.8 ? "good" : "amber");
+      const ViewPreview& view = preview->views[std::min(page.camera(), preview->views.size() - 1)];
+      reach->setValue(percentText(view.reachableShare), view.reachableShare > 0.8 ? "good" : "amber");
       dark->setValue(percentText(preview->tooDark));
       never->setValue(percentText(preview->tooBright));
-      error->setValue(isolated(QString::fromUtf8("ΔE %1").arg(decimalText(preview->deltaEMean, 1))));
+      error->setValue(isolated(QString::fromUtf8("ΔE %1").arg(decimalText(view.deltaEMean, 1))));
     }
   };
   refreshOn(page, card, refresh, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);

@@ -47,8 +47,7 @@ void make(PreviewEngine& engine, const std::filesystem::path& path, Progress& pr
 }  // namespace
 
 PreviewPage::PreviewPage(Session& session, QObject* parent)
-    : PageModel(stepName, parent),
-      session_(session),
+    : DevicePage(stepName, session, parent),
       computing_(
           [this](std::shared_ptr<const ContentPreview> preview) {
             preview_ = std::move(preview);
@@ -93,6 +92,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     content_ = nullptr;
     problem_.clear();
     preparedFor_.clear();
+    viewer_.reset();
     forgetTable();
     looked_ = false;
   });
@@ -201,20 +201,40 @@ void PreviewPage::setCorners(const compensation::Corners& corners) {
     tellSettings();
     return;
   }
+  if (camera() > 0) {
+    compensation::ViewSettings changed = view(camera());
+    if (changed.placement != compensation::ViewPlacement::own) return;
+    changed.corners = corners;
+    return setView(camera(), changed, tr("Corners"));
+  }
   pipeline::ContentSettings after = settings_;
   after.corners = corners;
   setSettings(after, tr("Corners"));
 }
 
 void PreviewPage::placeAutomatically() {
+  if (camera() > 0) {
+    compensation::ViewSettings changed = view(camera());
+    changed.corners.reset();
+    return setView(camera(), changed, tr("Automatic place"));
+  }
   pipeline::ContentSettings after = settings_;
   after.corners.reset();
   setSettings(after, tr("Automatic place"));
 }
 
+bool PreviewPage::isPlacedByHand() const {
+  return camera() == 0 ? settings_.corners.has_value() : view(camera()).corners.has_value();
+}
+
 std::optional<compensation::Corners> PreviewPage::corners() const {
-  if (settings_.corners) return settings_.corners;
-  return preview_ ? std::optional(preview_->corners) : std::nullopt;
+  if (camera() > 0) {
+    if (view(camera()).placement != compensation::ViewPlacement::own) return std::nullopt;
+    if (view(camera()).corners) return view(camera()).corners;
+  } else if (settings_.corners) {
+    return settings_.corners;
+  }
+  return preview_ && camera() < preview_->views.size() ? preview_->views[camera()].corners : std::nullopt;
 }
 
 /// A place where nothing can be shown is no failure: the sentence stands beside the picture.
@@ -231,7 +251,8 @@ void PreviewPage::refuse(const Failure& failure) {
 void PreviewPage::compute() {
   if (!engine_) return;
   computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
-                  settings = settings_] { return previewOf(*engine, settings, known); });
+                  settings = placedSettings(),
+                  viewer = viewer_] { return previewOf(*engine, settings, known, viewer); });
   tellStatus();
 }
 
@@ -257,8 +278,9 @@ void PreviewPage::compareNext() {
       table_.size() >= comparedMethods.size())
     return;
   compensation::Method method = comparedMethods[table_.size()];
-  comparing_.ask([engine = engine_, content = content_, settings = settings_, method, round = round_] {
-    return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
+  comparing_.ask([engine = engine_, content = content_, settings = placedSettings(), viewer = viewer_, method,
+                  round = round_] {
+    return std::pair(round, methodPreviewOf(*engine, settings, *content, method, viewer));
   });
 }
 

@@ -4,16 +4,17 @@
 #include "jobs/job.h"
 #include "jobs/latest.h"
 #include "output/surface_pictures.h"
+#include "wizard/devices/device_page.h"
 #include "wizard/devices/on_measurement.h"
-#include "wizard/frame/page_model.h"
 #include "wizard/preview/content_preview.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
 
-/// Step 7: content in its place, before it is projected. It lies in the first camera's view, and what all
-/// projectors give together is shown: there is no device to choose.
-class PreviewPage : public PageModel {
+/// Step 7: content in its place, before it is projected. It lies in the first camera's view, in others on the
+/// surface or in a place of its own; what all projectors give together is shown, as the chosen camera sees
+/// it.
+class PreviewPage : public DevicePage {
   Q_OBJECT
 
  public:
@@ -39,17 +40,35 @@ class PreviewPage : public PageModel {
   void finish() override;
 
   bool isReady() const { return engine_ != nullptr; }
-  std::size_t projectors() const { return session_.projectors(); }
   const pipeline::ContentSettings& settings() const { return settings_; }
   /// `what`: changed, in the list of what can be undone.
   void setSettings(const pipeline::ContentSettings& settings, const QString& what = tr("Content"));
-  /// Where the content lies in the first camera's view. Corners that cross over are refused: problem() says
-  /// so.
+  /// Where the content lies in the shown camera's view. Corners that cross over are refused: problem() says
+  /// so. In a view where it lies on the surface there are none.
   void setCorners(const compensation::Corners& corners);
   /// In the largest upright rectangle that can be reached.
   void placeAutomatically();
+  bool isPlacedByHand() const;
   /// The corners as they are, chosen or found; none before the first prediction.
   std::optional<compensation::Corners> corners() const;
+
+  /// What a camera's view asks for.
+  compensation::ViewSettings view(std::size_t camera) const;
+  void setView(std::size_t camera, const compensation::ViewSettings& view, const QString& what);
+  /// Where the cameras stand in the plan, metres: to the right of the surface's middle, and away from it. As
+  /// somebody placed them, or all round the surface as long as nobody has.
+  std::vector<compensation::Position> cameraPositions() const;
+  bool areCamerasPlaced() const;
+  void placeCamera(std::size_t camera, const compensation::Position& position);
+  /// For whom the picture is; none: for everybody who looks from the cameras.
+  const std::optional<compensation::Position>& viewer() const { return viewer_; }
+  void setViewer(const std::optional<compensation::Position>& viewer);
+  /// He walks from the first camera to the last: 0 to cameras() - 1; whole numbers are cameras' places.
+  void setViewerOnPath(double place);
+  /// The nearest place of that path; 0 if there is no viewer.
+  double viewerOnPath() const;
+  /// How much each view counts for him; empty: there is none.
+  std::vector<double> viewerShares() const;
   /// What stands against the last place that was asked for; empty: nothing.
   const QString& problem() const { return problem_; }
   /// Read on another thread. Tells failed() if it is no picture; the one before stays.
@@ -90,7 +109,8 @@ class PreviewPage : public PageModel {
   const std::vector<QImage>& sent() const;
   void surfaceChanged();
 
-  Session& session_;
+  pipeline::ContentSettings placedSettings() const;
+
   PageCommand *accept_, *goOnMeasuring_, *shine_, *compare_;
   DeviceLease lease_;
   Job job_;
@@ -109,6 +129,7 @@ class PreviewPage : public PageModel {
   Latest<std::pair<std::string, std::shared_ptr<const image::Image>>> reading_;
   bool looked_ = false;  // now
   bool shinesCorrected_ = true;
+  std::optional<compensation::Position> viewer_;
   SurfacePictures surface_;
 };
 

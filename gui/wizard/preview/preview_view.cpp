@@ -10,6 +10,7 @@
 #include "views/image_view.h"
 #include "views/number_text.h"
 #include "views/view_actions.h"
+#include "wizard/devices/device_selector.h"
 #include "wizard/preview/corner_view.h"
 #include "wizard/preview/methods_card.h"
 #include "wizard/preview/preview_inspector.h"
@@ -19,7 +20,7 @@ namespace {
 
 /// Hatches where the content cannot be reached, and its corners. Finer than the picture, so that lines stay
 /// thin.
-QImage hatchesOf(const ContentPreview& preview) {
+QImage hatchesOf(const ViewPreview& preview) {
   constexpr int fine = 4;
   Size size = preview.with.size();
   QImage overlay(size.width * fine, size.height * fine, QImage::Format_ARGB32_Premultiplied);
@@ -34,8 +35,9 @@ QImage hatchesOf(const ContentPreview& preview) {
   }
   QPainter painter(&overlay);
   painter.setRenderHint(QPainter::Antialiasing);
+  if (!preview.corners) return overlay;
   QPolygonF corners;
-  for (const auto& corner : preview.corners) corners.append(QPointF(corner[0], corner[1]) * fine);
+  for (const auto& corner : *preview.corners) corners.append(QPointF(corner[0], corner[1]) * fine);
   painter.setPen(QPen(colours(Look::dark).accent, 3.0));
   painter.drawPolygon(corners);
   return overlay;
@@ -56,6 +58,8 @@ class PreviewStage : public QWidget {
     card_->setMinimumHeight(leastHeight);
     kind_ = new Segmented(
         {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference")});
+    kind_->setObjectName("preview-kind");
+    card_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, card_));
     card_->addAction(kind_);
     views_ = {place_ = new CornerView, new ImageView, new ImageView};
     for (ImageView* view : views_) {
@@ -115,16 +119,21 @@ class PreviewStage : public QWidget {
   ShownView shownView() const {
     const auto index = static_cast<std::size_t>(kind_->current());
     std::function<image::Image()> values;
-    if (shown_ && index == reachable)
-      values = [preview = shown_] { return image::Image(preview->with.size(), 1, preview->reach); };
-    if (shown_ && index == difference) values = [preview = shown_] { return preview->deltaE; };
-    if (shown_ && index == picture) values = [preview = shown_] { return preview->with; };
+    const auto of = [preview = shown_, camera = camera_]() -> const ViewPreview& {
+      return preview->views[camera];
+    };
+    if (shown_ && index == reachable) values = [of] { return image::Image(of().with.size(), 1, of().reach); };
+    if (shown_ && index == difference) values = [of] { return of().deltaE; };
+    if (shown_ && index == picture) values = [of] { return of().with; };
     static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000"};
     return {*views_[index], {values, units[index]}};
   }
+  std::size_t shownCamera() const {
+    return page_.preview() ? std::min(page_.camera(), page_.preview()->views.size() - 1) : 0;
+  }
   /// What the hatches say.
   QString legend() const {
-    const double missing = 1.0 - shown_->reachableShare;
+    const double missing = 1.0 - shown_->views[camera_].reachableShare;
     return missing < 0.0005 ? PreviewPage::tr("All of it can be reached")
                             : PreviewPage::tr("Hatched: %1 cannot be reached").arg(percentText(missing));
   }
@@ -132,28 +141,30 @@ class PreviewStage : public QWidget {
     place_->setWrong(!page_.problem().isEmpty());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
-    if (preview == shown_) return;
+    if (preview == shown_ && (!preview || camera_ == shownCamera())) return;
     shown_ = preview;
+    if (preview) camera_ = shownCamera();
     if (!preview) {
       for (ImageView* view : views_) view->setPicture({});
       return;
     }
-    Size size = preview->with.size();
-    views_[picture]->setPicture(pictureOf(preview->without, preview->white));
-    views_[picture]->setCompared(pictureOf(preview->with, preview->white), PreviewPage::tr("Uncorrected"),
+    const ViewPreview& view = preview->views[camera_];
+    Size size = view.with.size();
+    views_[picture]->setPicture(pictureOf(view.without, preview->white));
+    views_[picture]->setCompared(pictureOf(view.with, preview->white), PreviewPage::tr("Uncorrected"),
                                  page_.settings().method == compensation::Method::none
                                      ? PreviewPage::tr("Uncorrected, too")
                                      : PreviewPage::tr("Corrected, predicted"));
     ColourScale reach{ColourMap::viridis, 0.02, 4.0, true};
     views_[reachable]->setScale(reach, PreviewPage::tr("of white"), true);
-    views_[reachable]->setPicture(mapped(preview->reach, size, reach));
-    views_[reachable]->setOverlay(hatchesOf(*preview));
+    views_[reachable]->setPicture(mapped(view.reach, size, reach));
+    views_[reachable]->setOverlay(hatchesOf(view));
     views_[reachable]->setCaption(legend());
     ColourScale deltaE{ColourMap::cividis, 0.0, 12.0, false};
     views_[difference]->setScale(deltaE, QString::fromUtf8("ΔE₀₀"), false);
-    views_[difference]->setPicture(mapped(preview->deltaE.data(), size, deltaE));
-    views_[difference]->setReadout([preview](QPoint pixel) {
-      const float difference = preview->deltaE.at(pixel.x(), pixel.y(), 0);
+    views_[difference]->setPicture(mapped(view.deltaE.data(), size, deltaE));
+    views_[difference]->setReadout([preview, camera = camera_](QPoint pixel) {
+      const float difference = preview->views[camera].deltaE.at(pixel.x(), pixel.y(), 0);
       return isolated(QString::fromUtf8("%1: ΔE %2")
                           .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
@@ -168,6 +179,7 @@ class PreviewStage : public QWidget {
   MethodsCard* methods_;
   QPointer<QWidget> room_;
   std::shared_ptr<const ContentPreview> shown_;
+  std::size_t camera_ = 0;  // of it
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "output/projector_window.h"
 #include "output/window_projector.h"
 #include "relucent/base/error.h"
+#include "relucent/pipeline/screen_devices.h"
 
 namespace relucent::gui {
 namespace {
@@ -19,10 +20,13 @@ namespace {
 /// Looks at whether the waiting thread is asked to end.
 constexpr std::chrono::milliseconds patience(20);
 
-/// What must stay as it is: the projector's screen, and where the operator works.
+/// What must stay as it is: the projectors' screens, and where the operator works.
 std::vector<QRect> takenPlaces(const pipeline::ScreenRigSettings& projector) {
   std::vector<QRect> places;
-  for (const QScreen* screen : {findScreen(identityOf(projector.display)), QGuiApplication::primaryScreen()})
+  std::vector<const QScreen*> taken{QGuiApplication::primaryScreen()};
+  for (const pipeline::ScreenRigSettings::Screen& own : pipeline::screensOf(projector))
+    taken.push_back(findScreen(identityOf(own.display)));
+  for (const QScreen* screen : taken)
     if (screen != nullptr) places.push_back(screen->geometry());
   for (const QWindow* window : QGuiApplication::topLevelWindows())
     if (window->isVisible() && qobject_cast<const ProjectorWindow*>(window) == nullptr)
@@ -39,7 +43,7 @@ std::vector<pipeline::ScreenRigSettings> otherScreens(const pipeline::ScreenRigS
     if (std::any_of(taken.begin(), taken.end(),
                     [screen](const QRect& place) { return place.intersects(screen->geometry()); }))
       continue;
-    pipeline::ScreenRigSettings& other = others.emplace_back(projector);
+    pipeline::ScreenRigSettings& other = others.emplace_back(pipeline::withScreenAlone(projector, 0));
     const QSize size = nativeSize(*screen);
     other.display = displayOf(*screen);
     other.projector = {size.width(), size.height()};

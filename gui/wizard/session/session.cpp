@@ -14,6 +14,7 @@
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/reductions.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "wizard/session/kept_shots.h"
 
@@ -24,9 +25,21 @@ namespace {
 constexpr int audienceLimit = 3;  // patterns a second
 
 struct ProjectorSize {
+  std::size_t projector = 0;
   Size operator()(const pipeline::ReplayRigSettings&) const { return {}; }  // only the recording knows
+  Size operator()(const pipeline::ScreenRigSettings& rig) const {
+    const auto screens = pipeline::screensOf(rig);
+    return projector < screens.size() ? screens[projector].projector : rig.projector;
+  }
   Size operator()(const auto& rig) const { return rig.projector; }
 };
+
+std::optional<venue::VenueDescription> descriptionOf(const pipeline::RigSettings& rig) {
+  if (const auto* simulated = std::get_if<venue::VenueSettings>(&rig))
+    for (const venue::VenueDescription& venue : venue::venues())
+      if (venue.name == simulated->name) return venue;
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -102,12 +115,16 @@ void Session::makeDevices() {
 
 /// Called on a worker's thread.
 std::unique_ptr<devices::ScreenProjector> Session::openScreen(const pipeline::ScreenRigSettings& settings) {
-  return std::make_unique<WindowProjector>(identityOf(settings.display), settings.projector,
-                                           [self = QPointer<Session>(this)](bool waits) {
-                                             if (!self) return;
-                                             self->screenMissing_ = waits;
-                                             Q_EMIT self->devicesChanged();
-                                           });
+  return std::make_unique<WindowProjector>(
+      identityOf(settings.display), settings.projector,
+      [self = QPointer<Session>(this), connector = settings.display.connector](bool waits) {
+        if (!self) return;
+        if (waits)
+          self->missingScreens_.insert(connector);
+        else
+          self->missingScreens_.erase(connector);
+        Q_EMIT self->devicesChanged();
+      });
 }
 
 /// What was read of a measurement that is no longer the one is let go of.
@@ -142,9 +159,10 @@ void Session::changeRig(const pipeline::RigSettings& rig) {
   changeDevices([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeRig(folder, rig); });
 }
 
-void Session::changeScreen(const pipeline::ScreenRigSettings& screen) {
-  changeDevices(
-      [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeScreen(folder, screen); });
+void Session::changeScreen(const pipeline::ScreenRigSettings& screen, std::size_t projector) {
+  changeDevices([&](calibration::CalibrationFolder& folder) {
+    relucent::pipeline::changeScreen(folder, screen, projector);
+  });
 }
 
 void Session::close() {
@@ -164,8 +182,9 @@ void Session::close() {
 void Session::look(const calibration::CalibrationFolder& folder) {
   settings_ = pipeline::settingsOf(folder);
   const pipeline::RigSettings measured = pipeline::measuredRigOf(folder);
-  const auto* screen = std::get_if<pipeline::ScreenRigSettings>(&measured);
-  measuredDisplay_ = screen != nullptr ? screen->display : pipeline::ScreenRigSettings::Display();
+  measuredDisplays_.clear();
+  if (const auto* screens = std::get_if<pipeline::ScreenRigSettings>(&measured))
+    for (const auto& screen : pipeline::screensOf(*screens)) measuredDisplays_.push_back(screen.display);
   keptPhotographs_ = pipeline::keptPhotographs(folder);
   photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
   shownFrom_ = pipeline::fingerprintOfShown(folder);
@@ -202,10 +221,17 @@ std::size_t Session::projectors() const {
 }
 
 std::size_t Session::projectorsOf(const pipeline::RigSettings& rig) {
-  if (const auto* simulated = std::get_if<venue::VenueSettings>(&rig))
-    for (const venue::VenueDescription& venue : venue::venues())
-      if (venue.name == simulated->name) return static_cast<std::size_t>(venue.projectors);
-  return 1;
+  if (const auto* screens = std::get_if<pipeline::ScreenRigSettings>(&rig))
+    return 1 + screens->moreScreens.size();
+  const auto venue = descriptionOf(rig);
+  return venue ? static_cast<std::size_t>(venue->projectors) : 1;
+}
+
+std::size_t Session::camerasOf(const pipeline::RigSettings& rig) {
+  if (const auto* screens = std::get_if<pipeline::ScreenRigSettings>(&rig))
+    return 1 + screens->moreCameras.size();
+  const auto venue = descriptionOf(rig);
+  return venue ? static_cast<std::size_t>(venue->cameras) : 1;
 }
 
 std::size_t Session::cameras() const {
@@ -214,14 +240,36 @@ std::size_t Session::cameras() const {
     return measured->cameras.size();
   if (const auto& measured = figures<calibration::Stage::linearization>(); measured && measured->cameras > 0)
     return measured->cameras;
-  return 1;
+  return camerasOf(settings_.rig);
 }
 
 Size Session::projectorSize(std::size_t projector) const {
   if (const auto& measured = figures<calibration::Stage::acquisition>();
       measured && projector < measured->projectors.size())
     return measured->projectors[projector];
-  return std::visit(ProjectorSize{}, settings_.rig);
+  return std::visit(ProjectorSize{projector}, settings_.rig);
+}
+
+std::optional<pipeline::ScreenRigSettings> Session::screenOf(std::size_t projector) const {
+  if (screenRig() == nullptr || projector >= pipeline::screensOf(*screenRig()).size()) return std::nullopt;
+  return pipeline::withScreenAlone(*screenRig(), projector);
+}
+
+QString Session::projectorName(std::size_t projector) const {
+  if (screenRig() == nullptr) return {};
+  const auto screens = pipeline::screensOf(*screenRig());
+  return projector < screens.size() ? QString::fromStdString(screens[projector].name) : QString();
+}
+
+QString Session::cameraName(std::size_t camera) const {
+  if (screenRig() == nullptr) return {};
+  const auto cameras = pipeline::camerasOf(*screenRig());
+  return camera < cameras.size() ? QString::fromStdString(cameras[camera].name) : QString();
+}
+
+pipeline::ScreenRigSettings::Display Session::measuredDisplay(std::size_t projector) const {
+  return projector < measuredDisplays_.size() ? measuredDisplays_[projector]
+                                              : pipeline::ScreenRigSettings::Display();
 }
 
 Rasters Session::projectorRasters() const {

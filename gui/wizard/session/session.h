@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
@@ -46,17 +48,17 @@ class SessionDevices {
         patience_(patience),
         surprises_(std::move(surprises)) {}
 
-  /// Called on a worker's thread. A camera must be seen to see the projector's screen before it is used;
-  /// where it does not, other screens light up too, to tell which one it sees: see other_screens.h. Throws:
-  /// as openRig() and requireSeen().
+  /// Called on a worker's thread. A camera must be seen to see a projector's screen before it is used, and
+  /// each projector to be seen by one; where a camera sees none, other screens light up too, to tell which
+  /// one it sees: see other_screens.h. Throws: as openRig() and requireSeen(); ScreenNotSeen.
   rig::Rig& open(Progress& progress);
   /// The same before anybody knows what the camera sees: for a first look through it.
   rig::Rig& openUnproved(Progress& progress);
   /// A first look through the camera of an open screen: white, at the exposures that are tried until one
   /// suits.
   void lookFirst(const Progress& progress);
-  /// Of an open screen: how long a picture takes, waited for from now on, and how steady its light is.
-  /// Called on a worker's thread.  Throws: as measureLatency() and checkLight().
+  /// Of open screens: how long a picture takes, of several the slowest one's, waited for from now on, and how
+  /// steady their light is. Called on a worker's thread.  Throws: as measureLatency() and checkLight().
   pipeline::RigCheck check(Progress& progress);
   /// Whether check() has something to say.
   bool hasScreen() const { return std::holds_alternative<pipeline::ScreenRigSettings>(settings_); }
@@ -73,6 +75,8 @@ class SessionDevices {
   double unmeasuredLatency() const;
   rig::Rig& opened(Progress& progress);
   void prove(Progress& progress);
+  void proveEach(const std::vector<rig::Projector*>& others, Progress& progress);
+  pipeline::RigCheck checkOne(std::size_t projector, Progress& progress);
 
   pipeline::RigSettings settings_;
   std::filesystem::path cache_;
@@ -84,6 +88,7 @@ class SessionDevices {
   std::mutex guard_;
   std::optional<pipeline::OpenedRig> opened_;
   devices::ScreenProof proof_;
+  std::vector<std::size_t> watching_;  // per projector: the camera that was seen to see it
   // Held for an instant only: the interface asks for it while a worker opens the devices.
   mutable std::mutex screenGuard_;
   std::shared_ptr<devices::ScreenControl> screen_;
@@ -152,16 +157,22 @@ class Session : public QObject {
   bool isSimulated() const;
   /// Devices that shine into a room.
   bool hasLight() const;
-  /// The projector is a screen of the desktop; nullptr: it is not.
+  /// The projectors are screens of the desktop; nullptr: they are not.
   const pipeline::ScreenRigSettings* screenRig() const {
     return std::get_if<pipeline::ScreenRigSettings>(&settings_.rig);
   }
+  /// The same as if that projector's were the only one; none: there is no such screen.
+  std::optional<pipeline::ScreenRigSettings> screenOf(std::size_t projector) const;
   /// How many there are, as they were measured; before that, as the rig is described.
   std::size_t projectors() const;
   std::size_t cameras() const;
   /// As a rig is described; only its measurement tells how many a recording has.
   static std::size_t projectorsOf(const pipeline::RigSettings& rig);
+  static std::size_t camerasOf(const pipeline::RigSettings& rig);
   Size projectorSize(std::size_t projector = 0) const;
+  /// What people call them; empty: by their numbers.
+  QString projectorName(std::size_t projector) const;
+  QString cameraName(std::size_t camera) const;
   Rasters projectorRasters() const;
   /// Photographs of a stage in the journal: what an interrupted measurement has already.
   int photographsKept(calibration::Stage stage) const;
@@ -194,10 +205,11 @@ class Session : public QObject {
   /// Other devices, before anything is measured. Throws: as changeRig().
   void changeRig(const pipeline::RigSettings& rig);
   /// The projector is another screen from now on; nothing that was measured becomes stale.
-  /// Contract: screenRig(). Throws: as gui::changeScreen().
-  void changeScreen(const pipeline::ScreenRigSettings& screen);
-  /// As which screen the projector was measured; see screenRig() for what it is now.
-  const pipeline::ScreenRigSettings::Display& measuredDisplay() const { return measuredDisplay_; }
+  /// Of `screen` its first one is that projector's. Contract: screenRig(). Throws: as
+  /// pipeline::changeScreen().
+  void changeScreen(const pipeline::ScreenRigSettings& screen, std::size_t projector = 0);
+  /// As which screen a projector was measured; see screenRig() for what it is now.
+  pipeline::ScreenRigSettings::Display measuredDisplay(std::size_t projector = 0) const;
   /// Something was measured that belongs to these devices.
   bool isMeasured() const { return result(calibration::Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
@@ -234,8 +246,8 @@ class Session : public QObject {
   bool needsConsent() const { return isOpen() && hasLight() && flashLimit_ == 0; }
   bool mayMeasure() const { return !needsConsent() || roomClear_; }
 
-  /// The projector's screen is unplugged, and work waits for it.
-  bool isScreenMissing() const { return screenMissing_; }
+  /// A projector's screen is unplugged, and work waits for it.
+  bool isScreenMissing() const { return !missingScreens_.empty(); }
 
   /// A photograph does not come.
   bool isCameraSilent() const { return cameraSilent_; }
@@ -305,7 +317,7 @@ class Session : public QObject {
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
   std::string shownFrom_, correction_;
-  pipeline::ScreenRigSettings::Display measuredDisplay_;
+  std::vector<pipeline::ScreenRigSettings::Display> measuredDisplays_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;
   std::shared_ptr<LiveRig> live_;
@@ -319,7 +331,8 @@ class Session : public QObject {
   bool isShowing_ = false;
   int flashLimit_ = 0;
   bool roomClear_ = false;
-  bool screenMissing_ = false, cameraSilent_ = false;
+  std::set<std::string> missingScreens_;  // by connector
+  bool cameraSilent_ = false;
   QString cameraFailure_;
   QTimer silence_;  // runs while somebody uses the devices
   std::optional<RoomLight> roomLight_;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The devices of the open calibration: opened, proved and checked.
+#include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/base/message.h"
 #include "relucent/devices/check/test_exposure.h"
+#include "relucent/linearization/test_light.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/rig/watched_rig.h"
 #include "wizard/session/other_screens.h"
 #include "wizard/session/session.h"
@@ -67,8 +71,58 @@ void SessionDevices::lookFirst(const Progress& progress) {
   require(opened_ && hasScreen(), "only an open screen is looked at first");
   devices::LatencySettings settling;
   settling.mostFrames = 1;  // show() waits long enough
-  std::ignore = devices::testExposure(*opened_->rig.projectors.front(), *opened_->rig.cameras.front(),
-                                      settling, devices::sleepFor, progress);
+  rig::Rig& rig = opened_->rig;
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
+    std::ignore = devices::testExposure(*rig.projectors[std::min(camera, rig.projectors.size() - 1)],
+                                        *rig.cameras[camera], settling, devices::sleepFor, progress);
+}
+
+/// Of several projectors and cameras: which camera sees which projector is nobody's to say before, but each
+/// camera sees one of them, and each of them is seen.
+void SessionDevices::proveEach(const std::vector<rig::Projector*>& others, Progress& progress) {
+  rig::Rig& rig = opened_->rig;
+  devices::LatencySettings settling;
+  settling.mostFrames = 1;  // show() waits long enough
+  std::vector<std::optional<std::size_t>> watching(rig.projectors.size());
+  std::optional<devices::ScreenProof> first;
+  const auto proved = [&](std::size_t projector, std::size_t camera,
+                          const std::vector<rig::Projector*>& beside) {
+    const devices::ScreenExposure exposureOf = [&](rig::Projector& screen) {
+      return devices::testExposure(screen, *rig.cameras[camera], settling, devices::sleepFor, progress);
+    };
+    devices::ScreenProof proof = devices::proveScreen(*rig.projectors[projector], beside,
+                                                      *rig.cameras[camera], exposureOf, {}, progress);
+    linearization::showEven(rig, {0, 0, 0});
+    if (proof.isSeen && !watching[projector]) {
+      watching[projector] = camera;
+      if (projector == 0) first = proof;
+    }
+    return proof;
+  };
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
+    bool sees = false;
+    // Those that nobody was seen to see come first.
+    for (bool isWatched : {false, true})
+      for (std::size_t projector = 0; projector < rig.projectors.size() && !sees; ++projector)
+        if (watching[projector].has_value() == isWatched) sees = proved(projector, camera, {}).isSeen;
+    if (!sees) devices::requireSeen(proved(0, camera, others), *rig.projectors.front(), *rig.cameras[camera]);
+  }
+  for (std::size_t projector = 0; projector < rig.projectors.size(); ++projector) {
+    for (std::size_t camera = 0; camera < rig.cameras.size() && !watching[projector]; ++camera)
+      proved(projector, camera, {});
+    if (watching[projector]) continue;
+    throw devices::ScreenNotSeen(
+        ErrorKind::device,
+        RELUCENT_MESSAGE("device.projector-unseen", "no camera sees what is shown on {}")
+            .with(rig.projectors[projector]->name()),
+        RELUCENT_MESSAGE("device.check-projector-or-aim-another",
+                         "check that this projector is on and shows that output, and aim a camera at it; or "
+                         "remove it from the venue"),
+        rig.projectors[projector]->name());
+  }
+  proof_ = *first;
+  watching_.clear();
+  for (const std::optional<std::size_t>& camera : watching) watching_.push_back(*camera);
 }
 
 void SessionDevices::prove(Progress& progress) {
@@ -85,21 +139,59 @@ void SessionDevices::prove(Progress& progress) {
   beside = rig::watched(std::move(beside), std::make_shared<OtherScreensWatcher>(live_));
   std::vector<rig::Projector*> others;
   for (const std::unique_ptr<rig::Projector>& other : beside.projectors) others.push_back(other.get());
+  if (opened_->rig.projectors.size() > 1 || opened_->rig.cameras.size() > 1)
+    return proveEach(others, proving);
   const devices::ScreenExposure exposureOf = [&](rig::Projector& screen) {
     return devices::testExposure(screen, camera, settling, devices::sleepFor, proving);
   };
   proof_ = devices::proveScreen(projector, others, camera, exposureOf, {}, proving);
   devices::requireSeen(proof_, projector, camera);
+  watching_ = {0};
 }
 
 pipeline::RigCheck SessionDevices::check(Progress& progress) {
   std::scoped_lock lock(guard_);
   require(opened_ && hasScreen(), "only an open screen is checked");
-  rig::Projector& projector = *opened_->rig.projectors.front();
-  rig::Camera& camera = *opened_->rig.cameras.front();
-  const double frame = 1.0 / std::get<pipeline::ScreenRigSettings>(settings_).frameRate;
+  const auto share = 1.0 / static_cast<double>(watching_.size());
+  pipeline::RigCheck check;
+  for (std::size_t projector = 0; projector < watching_.size(); ++projector) {
+    Progress checking = progress.part(
+        share, RELUCENT_MESSAGE("stage.checking-projector-and-camera", "Checking projector and camera"));
+    pipeline::RigCheck of = checkOne(projector, checking);
+    if (projector == 0) {
+      check = std::move(of);
+      continue;
+    }
+    // All are waited for as long as the slowest needs; what the others do besides is said.
+    auto add = [](std::vector<devices::CheckVerdict>& to, const std::vector<devices::CheckVerdict>& more) {
+      to.insert(to.end(), more.begin(), more.end());
+    };
+    std::vector<devices::CheckVerdict> latency = check.latency.verdicts, light = check.light.verdicts;
+    add(latency, of.latency.verdicts);
+    add(light, of.light.verdicts);
+    if (of.latency.seconds > check.latency.seconds) check.latency = of.latency;
+    check.latency.verdicts = std::move(latency);
+    check.light.verdicts = std::move(light);
+  }
+  setLatency(check.latency.seconds);
+  return check;
+}
+
+/// Of one projector, by the camera that sees it.
+pipeline::RigCheck SessionDevices::checkOne(std::size_t index, Progress& progress) {
+  rig::Projector& projector = *opened_->rig.projectors[index];
+  rig::Camera& camera = *opened_->rig.cameras[watching_[index]];
+  const double frame =
+      1.0 / pipeline::screensOf(std::get<pipeline::ScreenRigSettings>(settings_))[index].frameRate;
+  if (watching_.size() > 1) linearization::showEven(opened_->rig, {0, 0, 0});
   pipeline::RigCheck check;
   check.proof = proof_;
+  double exposure = proof_.exposure;
+  if (index > 0) {
+    devices::LatencySettings settling;
+    settling.mostFrames = 1;
+    exposure = devices::testExposure(projector, camera, settling, devices::sleepFor, progress);
+  }
 
   Progress measuring =
       progress.part(0.6, RELUCENT_MESSAGE("stage.measuring-latency", "Measuring the latency"));
@@ -109,7 +201,7 @@ pipeline::RigCheck SessionDevices::check(Progress& progress) {
   screen()->setLatency(0.0);
   try {
     check.latency =
-        devices::measureLatency(projector, camera, proof_.exposure, latency, devices::sleepFor, measuring);
+        devices::measureLatency(projector, camera, exposure, latency, devices::sleepFor, measuring);
   } catch (...) {
     screen()->setLatency(unmeasuredLatency());
     throw;
@@ -124,7 +216,7 @@ pipeline::RigCheck SessionDevices::check(Progress& progress) {
   // Within a frame: that is what is judged.
   screen()->setWholeFrames(false);
   try {
-    check.light = devices::checkLight(projector, camera, proof_.exposure, light, devices::sleepFor, judging);
+    check.light = devices::checkLight(projector, camera, exposure, light, devices::sleepFor, judging);
   } catch (...) {
     screen()->setWholeFrames(true);
     throw;

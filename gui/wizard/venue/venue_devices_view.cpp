@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <memory>
+#include <utility>
+
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
+#include "wizard/devices/camera_rows.h"
 #include "wizard/devices/flash_consent.h"
 #include "wizard/frame/page_view.h"
+#include "wizard/venue/device_list_view.h"
 #include "wizard/venue/screen_list.h"
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
@@ -26,12 +31,39 @@ QWidget* devicesStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  auto* list = new ScreenList([&model](const ScreenChoice& choice) { model.chooseScreen(choice); });
+  auto* list = new ScreenList([&model](const ScreenChoice& choice) { model.chooseScreen(choice); },
+                              [&model] { return model.screensToChoose(); });
   column->addWidget(screensCard(stage, list), 1);
+  auto* cameras = new CameraRows(
+      model.finder(), VenuePage::tr("Add those that look at the surface."),
+      [&model](const devices::ListedCamera& camera, const QString& name) {
+        return model.hasCamera(camera.address)
+                   ? CameraRows::Offer{VenuePage::tr("Remove"), VenuePage::tr("Remove %1").arg(name)}
+                   : CameraRows::Offer{VenuePage::tr("Add"), VenuePage::tr("Add %1").arg(name)};
+      },
+      [&model](const devices::ListedCamera& camera) {
+        if (model.hasCamera(camera.address))
+          model.removeCamera(camera.address);
+        else
+          model.addCamera(camera.address);
+      });
+  cameras->setObjectName("venue-cameras");
+  column->addWidget(cameras, 1);
   pointOutScreens(model, list);
   auto* note = new Note(Note::Kind::amber);
   column->addWidget(note);
-  auto refresh = [&model, note] {
+  // What is offered depends on the projector that it is for, and on the others' screens.
+  auto known = std::make_shared<std::pair<std::size_t, std::vector<std::string>>>();
+  auto knownCameras = std::make_shared<std::vector<pipeline::ScreenRigSettings::Camera>>();
+  auto refresh = [&model, note, list, known, cameras, knownCameras] {
+    const auto screens = model.projectors();
+    std::pair now(model.projector(), std::vector<std::string>());
+    for (std::size_t i = 0; i < screens.size(); ++i)
+      if (i != model.projector()) now.second.push_back(screens[i].display.connector);
+    if (std::exchange(*known, now) != now)
+      list->start(screens.empty() ? pipeline::ScreenRigSettings::Display()
+                                  : screens[model.projector()].display);
+    if (std::exchange(*knownCameras, model.cameras()) != model.cameras()) cameras->refresh();
     const QString warning = model.screenWarning();
     note->setVisible(!warning.isEmpty());
     note->setText(VenuePage::tr("The projector shares your screen"), warning);
@@ -44,21 +76,12 @@ QWidget* devicesInspector(VenuePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
   column->addWidget(labelOf(VenuePage::tr("Real devices"), "section"));
-  auto* screen = new ValueRow(VenuePage::tr("Projector"));
-  column->addWidget(screen);
-  column->addWidget(labelOf(VenuePage::tr("The camera is chosen at the next step."), "note"));
+  column->addWidget(projectorList(model));
+  column->addWidget(cameraList(model));
   column->addWidget(lineOf());
   column->addWidget(keepingPart(model));
   column->addWidget(consentToBegin(model));
   column->addStretch(1);
-  auto refresh = [&model, screen] {
-    const pipeline::ScreenRigSettings& chosen = model.screen();
-    screen->setValue(chosen.projector.empty()
-                         ? QString::fromUtf8("–")
-                         : QString("%1, %2").arg(QString::fromStdString(chosen.display.connector),
-                                                 sizeText(chosen.projector.width, chosen.projector.height)));
-  };
-  refreshOn(model, screen, refresh, &VenuePage::settingsChanged);
   return card;
 }
 

@@ -42,6 +42,9 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   connect(&session_, &Session::stepsChanged, this, &VenuePage::tellSettings);
   connect(&session_, &Session::devicesChanged, this, &VenuePage::tellSettings);
   connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::tellSettings);
+  connect(&finder_, &CameraFinder::failed, this, [this](const Failure& failure) {
+    Q_EMIT failed({failure, tr("Nothing was changed.")});
+  });
   connect(&session_, &Session::acquisitionChanged, this, [this] { keepThumbnail(session_); });
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
@@ -73,7 +76,7 @@ QString VenuePage::subtitle() const {
     case Mode::script:
       return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
     case Mode::devices:
-      return tr("Say which screen shines on the surface, and where the work is kept.");
+      return tr("Say which screens shine on the surface, which cameras watch, and where the work is kept.");
     case Mode::screen:
       return tr("Say which screen the projector is now. What was measured stays.");
     case Mode::start:
@@ -87,6 +90,11 @@ QString VenuePage::subtitle() const {
 
 StepStatus VenuePage::status() const {
   if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
+  if (session_.projectors() > 1 || session_.cameras() > 1) {
+    const QString projectors = tr("%n projector(s)", nullptr, static_cast<int>(session_.projectors()));
+    const QString cameras = tr("%n camera(s)", nullptr, static_cast<int>(session_.cameras()));
+    return {StepState::done, tr("%1, %2").arg(projectors, cameras)};
+  }
   if (const pipeline::ScreenRigSettings* screen = session_.screenRig())
     return {StepState::done,
             tr("%1, %2").arg(QString::fromStdString(screen->display.connector), sizeText(screen->projector))};
@@ -127,10 +135,11 @@ std::vector<PageCommand*> VenuePage::secondary() const {
 
 std::optional<Banner> VenuePage::banner() const {
   if (mode_ != Mode::start || !openScreen_.isChangeable() || !openScreen_.isMissing()) return std::nullopt;
-  return Banner{Banner::Kind::amber,
-                tr("The projector's screen %1 is not there")
-                    .arg(QString::fromStdString(session_.screenRig()->display.connector)),
-                tr("Plug it in, or say which screen the projector is now."), changeScreen_};
+  return Banner{
+      Banner::Kind::amber,
+      tr("The projector's screen %1 is not there")
+          .arg(QString::fromStdString(session_.screenOf(*openScreen_.missing())->display.connector)),
+      tr("Plug it in, or say which screen the projector is now."), changeScreen_};
 }
 
 bool VenuePage::goBack() {
@@ -149,6 +158,7 @@ void VenuePage::setMode(Mode mode) {
   roomClear_ = false;
   openScreen_.forget();
   if (mode != Mode::start) suggestName();
+  if (mode == Mode::devices) finder_.look();
   tellSettings();
 }
 
@@ -200,15 +210,6 @@ void VenuePage::reportNoVenue(const QDir& folder) {
 
 void VenuePage::setScript(const pipeline::CommandRigSettings& script) {
   script_ = script;
-  tellSettings();
-}
-
-void VenuePage::chooseScreen(const ScreenChoice& choice) {
-  if (!choice.refusal.isEmpty()) return;
-  screen_.display = choice.display;
-  screen_.projector = choice.size;
-  screen_.frameRate = choice.frameRate;
-  screenWarning_ = choice.warning;
   tellSettings();
 }
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "relucent/pipeline/screen_devices.h"
+#include "wizard/devices/camera_finder.h"
 #include "wizard/devices/screen_choice.h"
 #include "wizard/frame/end_question.h"
 #include "wizard/frame/page_model.h"
@@ -93,9 +95,29 @@ class VenuePage : public PageModel {
   const pipeline::CommandRigSettings& script() const { return script_; }
   void setScript(const pipeline::CommandRigSettings& script);
 
-  /// The screen of the desktop that is the projector, in the mode `devices`.
+  /// Screens of the desktop as projectors, and cameras, in the mode `devices`.
   const pipeline::ScreenRigSettings& screen() const { return screen_; }
+  std::vector<pipeline::ScreenRigSettings::Screen> projectors() const { return pipeline::screensOf(screen_); }
+  /// The one that chooseScreen() gives a screen to.
+  std::size_t projector() const { return projector_; }
+  void selectProjector(std::size_t projector);
   void chooseScreen(const ScreenChoice& choice);
+  /// All that are there; those of other projectors are refused.
+  std::vector<ScreenChoice> screensToChoose() const;
+  /// A screen is left for another projector.
+  bool mayAddProjector() const;
+  /// On the first screen that is left, and selected.
+  void addProjector();
+  void removeProjector(std::size_t projector);
+  void nameProjector(std::size_t projector, const QString& name);
+
+  /// Chosen here, or at the step Camera where none is; content is placed in the first one's view.
+  std::vector<pipeline::ScreenRigSettings::Camera> cameras() const { return pipeline::camerasOf(screen_); }
+  CameraFinder& finder() { return finder_; }
+  bool hasCamera(const std::string& address) const;
+  void addCamera(const std::string& address);
+  void removeCamera(const std::string& address);
+  void nameCamera(std::size_t camera, const QString& name);
   /// What choosing that screen means, a sentence; empty: nothing out of the ordinary.
   QString screenWarning() const { return screenWarning_; }
 
@@ -167,6 +189,8 @@ class VenuePage : public PageModel {
   std::optional<std::uint64_t> surpriseSeed_;
   pipeline::CommandRigSettings script_;
   pipeline::ScreenRigSettings screen_;
+  std::size_t projector_ = 0;
+  CameraFinder finder_;
   QString screenWarning_;
   QString venueName_, parent_;
   QString usualFolder_;

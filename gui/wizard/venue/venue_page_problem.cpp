@@ -4,6 +4,8 @@
 #include <QFileInfo>
 #include <QGuiApplication>
 
+#include <algorithm>
+
 #include "jobs/free_space.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/message.h"
@@ -56,19 +58,27 @@ pipeline::CalibrateSettings VenuePage::wanted() const {
 }
 
 WorkLeft VenuePage::expectedWith(double secondsAPhotograph) const {
+  const auto forecastOf = [&](const Rasters& cameras, const Rasters& projectors) {
+    constexpr std::size_t exposures = 2;
+    return acquisition::forecast({cameras, projectors, exposures, meanExposure}, wanted().acquisition,
+                                 photographsOf(secondsAPhotograph), {});
+  };
   Size projector, camera;
   if (mode_ == Mode::script) {
     projector = script_.projector;
     camera = script_.camera.value_or(projector);
   } else if (mode_ == Mode::devices) {
-    // A camera is chosen later; until then one of as many pixels.
-    projector = camera = screen_.projector.empty() ? usualScreen : screen_.projector;
+    // Of a camera about as many pixels are used as the projector has; one is chosen later if none is yet.
+    std::vector<Size> screens;
+    for (const pipeline::ScreenRigSettings::Screen& screen : projectors())
+      screens.push_back(screen.projector);
+    if (screens.empty()) screens.push_back(usualScreen);
+    const std::vector<Size> seen(std::max<std::size_t>(1, cameras().size()), screens.front());
+    return forecastOf(Rasters(seen), Rasters(screens));
   } else {
     return expectedOf(venues_[venue_]);
   }
-  constexpr std::size_t exposures = 2;
-  return acquisition::forecast({Rasters(camera), Rasters(projector), exposures, meanExposure},
-                               wanted().acquisition, photographsOf(secondsAPhotograph), {});
+  return forecastOf(Rasters(camera), Rasters(projector));
 }
 
 /// By the same forecast as Acquire asks once the response is measured.
@@ -79,10 +89,10 @@ WorkLeft VenuePage::expectedOf(const RehearsalVenue& venue) const {
   venue::VenueSettings simulated;
   simulated.name = venue.id;
   const Rasters projectors(std::vector<Size>(Session::projectorsOf(simulated), size.projector));
+  const Rasters cameras(std::vector<Size>(Session::camerasOf(simulated), size.camera));
   constexpr std::size_t exposures = 2;
-  return acquisition::forecast({Rasters(size.camera), projectors, exposures, meanExposure},
-                               wanted().acquisition,
-                               photographsOf(secondsAPixel * static_cast<double>(size.camera.count())), {});
+  return acquisition::forecast({cameras, projectors, exposures, meanExposure}, wanted().acquisition,
+                               photographsOf(secondsAPixel * static_cast<double>(cameras.count())), {});
 }
 
 WorkLeft VenuePage::expected() const {
@@ -101,6 +111,8 @@ VenuePage::Problem VenuePage::firstProblem() const {
     if (!openScreen_.isChangeable())
       return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
     if (!openScreen_.isDifferentScreen()) return {tr("Choose another screen."), Remedy::screen};
+    if (const auto other = openScreen_.alsoOf())
+      return {tr("That screen is projector %1. Choose another screen.").arg(*other + 1), Remedy::screen};
     return {};
   }
   if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), Remedy::name};

@@ -26,6 +26,11 @@ std::vector<RehearsalVenue> VenuePage::rehearsalVenues() {
        Difficulty::hard},
       {"relief", QT_TR_NOOP("Relief, two projectors"), QT_TR_NOOP("Each shines into the other's shadows"),
        ":/venues/relief.png", Difficulty::hard},
+      {"dome4", QT_TR_NOOP("Dome, four projectors"), QT_TR_NOOP("They overlap; two cameras watch"),
+       ":/venues/dome4.png", Difficulty::hard},
+      {"statue3", QT_TR_NOOP("Bust seen from three sides"),
+       QT_TR_NOOP("Two projectors, three cameras: for an audience that walks"), ":/venues/statue3.png",
+       Difficulty::hard},
       {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),
        ":/venues/plain.png", Difficulty::easy}};
 }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <QComboBox>
+#include <optional>
+
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -16,16 +19,26 @@ class OpenScreenList : public ScreenList {
   explicit OpenScreenList(VenuePage& model)
       : ScreenList([&model](const ScreenChoice& choice) { model.openScreen().choose(choice); },
                    [&model] { return model.openScreen().choices(); }),
-        model_(model) {}
+        model_(model) {
+    connect(&model, &VenuePage::settingsChanged, this, [this] {
+      if (isVisible() && started_ && *started_ != model_.openScreen().projector()) startOfProjector();
+    });
+  }
 
  protected:
   void showEvent(QShowEvent* event) override {
-    if (const pipeline::ScreenRigSettings* screen = model_.session().screenRig()) start(screen->display);
+    startOfProjector();
     ScreenList::showEvent(event);
   }
 
  private:
+  void startOfProjector() {
+    started_ = model_.openScreen().projector();
+    if (const auto screen = model_.session().screenOf(*started_)) start(screen->display);
+  }
+
   VenuePage& model_;
+  std::optional<std::size_t> started_;
 };
 
 }  // namespace
@@ -60,6 +73,13 @@ QWidget* screenInspector(VenuePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
   column->addWidget(labelOf(VenuePage::tr("This venue"), "section"));
+  auto* which = new QComboBox;
+  which->setObjectName("moved-projector");
+  which->setAccessibleName(VenuePage::tr("Projector whose screen is changed"));
+  column->addWidget(which);
+  QObject::connect(which, &QComboBox::activated, &model, [&model](int index) {
+    model.openScreen().chooseProjector(static_cast<std::size_t>(index));
+  });
   auto* measured = new ValueRow(VenuePage::tr("Measured at"));
   auto* used = new ValueRow(VenuePage::tr("Used at"));
   auto* pixels = new ValueRow(VenuePage::tr("Pixels"));
@@ -69,11 +89,19 @@ QWidget* screenInspector(VenuePage& model) {
                                           "that is plugged in elsewhere has to be said here."),
                             "note"));
   column->addStretch(1);
-  auto refresh = [&model, measured, used, pixels] {
-    const pipeline::ScreenRigSettings* screen = model.session().screenRig();
-    if (screen == nullptr) return;
+  auto refresh = [&model, which, measured, used, pixels] {
+    const std::size_t projector = model.openScreen().projector();
+    const std::optional<pipeline::ScreenRigSettings> screen = model.session().screenOf(projector);
+    if (!screen) return;
+    const auto projectors = static_cast<int>(model.session().projectors());
+    which->setVisible(projectors > 1);
+    if (which->count() != projectors) {
+      which->clear();
+      for (int i = 0; i < projectors; ++i) which->addItem(VenuePage::tr("Projector %1").arg(i + 1));
+    }
+    which->setCurrentIndex(static_cast<int>(projector));
     measured->setVisible(model.session().isMeasured());
-    measured->setValue(QString::fromStdString(model.session().measuredDisplay().connector));
+    measured->setValue(QString::fromStdString(model.session().measuredDisplay(projector).connector));
     used->setValue(QString::fromStdString(screen->display.connector));
     pixels->setValue(sizeText(screen->projector.width, screen->projector.height));
   };

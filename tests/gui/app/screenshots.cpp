@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
-// 1920x1080, from a finished calibration, which is changed: give it a copy. To be run on an X server of its
-// own:
+// 1920x1080, from a finished calibration, which is changed: give it a copy. `finished`: without measuring
+// another one. Of a calibration with several views, these too. To be run on an X server of its own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
 #include <QApplication>
 #include <QDialog>
@@ -98,6 +98,18 @@ CameraList someCameras() {
   return {{}, {industrial, webcam, taken}};
 }
 
+/// A new venue with a projector on every screen that is there, and two cameras.
+void takeDevices(WizardWindow& wizard, Photographs& photographs) {
+  auto& venue = wizard.page<VenuePage>();
+  for (const ScreenChoice& choice : venue.screensToChoose())
+    if (choice.refusal.isEmpty() && venue.projectors().empty()) venue.chooseScreen(choice);
+  while (venue.mayAddProjector()) venue.addProjector();
+  until([&] { return !venue.finder().isLooking(); });
+  for (const char* camera : {"genicam:40012345", "v4l2:/dev/video0"}) venue.addCamera(camera);
+  venue.nameCamera(0, "Door");
+  photographs.take("01-devices-several");
+}
+
 /// The choice of cameras for a screen of the desktop.
 void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
   wizard.page<CameraPage>().setLister(someCameras);
@@ -109,7 +121,8 @@ void takeCameras(WizardWindow& wizard, Photographs& photographs, const QTemporar
   wizard.session().begin(own.filePath("Chapel niche").toStdString(), settings);
   wizard.wizard().go(1);
   until([&] {
-    return !wizard.page<CameraPage>().isListing() && !wizard.page<CameraPage>().cameras().cameras.empty();
+    return !wizard.page<CameraPage>().isListing() &&
+           !wizard.page<CameraPage>().foundCameras().cameras.empty();
   });
   photographs.take("02-cameras");
   wizard.session().decide(CameraCheckResult{{1.0}, std::nullopt, {}});
@@ -155,6 +168,31 @@ void takeMeasuring(WizardWindow& wizard, Photographs& photographs, const QTempor
   until([&] { return !wizard.page<AcquirePage>().isMeasuring(); });
 }
 
+/// Where several projectors overlap.
+void takeOverlap(WizardWindow& wizard, Photographs& photographs) {
+  auto* overlap = wizard.window().findChild<Segmented*>("camera-overlap");
+  if (wizard.session().projectors() < 2 || !overlap->isVisible()) return;
+  overlap->setCurrent(1);
+  Q_EMIT overlap->chosen(1);
+  photographs.take("02-camera-overlap");
+  overlap->setCurrent(0);
+  Q_EMIT overlap->chosen(0);
+}
+
+/// Somebody who stands between the cameras, as the second one sees it.
+void takeViewer(WizardWindow& wizard, Photographs& photographs) {
+  auto& preview = wizard.page<PreviewPage>();
+  if (preview.cameras() < 2) return;
+  const auto ready = [&preview] { return !preview.isComputing() && preview.table().size() >= 5; };
+  preview.showCamera(1);
+  preview.setViewerOnPath(0.7);
+  until(ready);
+  photographs.take("07-preview-viewer");
+  preview.setViewer(std::nullopt);
+  preview.showCamera(0);
+  until(ready);
+}
+
 /// A measurement that was stopped early, and what follows from it.
 void takeStopped(WizardWindow& wizard, Photographs& photographs) {
   AcquirePage& acquire = wizard.page<AcquirePage>();
@@ -180,7 +218,7 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
 int main(int argc, char** argv) {
   QApplication application(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE [LANGUAGE]]\n");
+    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE [LANGUAGE [finished]]]\n");
     return 2;
   }
   QDir folder(argv[1]);
@@ -197,12 +235,16 @@ int main(int argc, char** argv) {
   photographs.take("01-rehearse");
   wizard.page<VenuePage>().setMode(VenuePage::Mode::script);
   photographs.take("01-script");
+  wizard.page<VenuePage>().finder().setLister(someCameras);
   wizard.page<VenuePage>().setMode(VenuePage::Mode::devices);
   photographs.take("01-devices");
+  takeDevices(wizard, photographs);
 
   takeCameras(wizard, photographs, own);
-  takeMeasuring(wizard, photographs, own);
-  takeStopped(wizard, photographs);
+  if (argc < 6) {
+    takeMeasuring(wizard, photographs, own);
+    takeStopped(wizard, photographs);
+  }
   wizard.page<VenuePage>().open(argv[2]);
   wizard.wizard().go(0);
   photographs.take("00-start");
@@ -212,6 +254,7 @@ int main(int argc, char** argv) {
   const bool isDecided = wizard.session().result(Stage::camera).has_value();
   if (!isDecided) until([&] { return wizard.page<CameraPage>().tooDarkEverywhere().has_value(); });
   photographs.take("02-camera");
+  takeOverlap(wizard, photographs);
   if (isDecided)
     steps.go(2);
   else
@@ -256,6 +299,13 @@ int main(int argc, char** argv) {
   });
   wizard.window().findChild<QWidget*>("preview-view")->setFocus(Qt::TabFocusReason);
   photographs.take("07-preview-corners");
+  auto* kind = wizard.window().findChild<Segmented*>("preview-kind");
+  for (auto [index, name] : {std::pair{1, "07-preview-reach"}, {0, ""}}) {
+    kind->setCurrent(index);
+    Q_EMIT kind->chosen(index);
+    if (index > 0) photographs.take(name);
+  }
+  takeViewer(wizard, photographs);
   wizard.page<PreviewPage>().primary()->trigger();
   wizard.page<OutputPage>().open();
   until([&] { return !wizard.page<OutputPage>().projection().mirror().isNull(); });
@@ -270,6 +320,16 @@ int main(int argc, char** argv) {
   photographs.takeDialog("08-push-back", "nudge");
   until([&] { return wizard.window().findChild<QDialog*>("nudge") == nullptr; });
   photographs.take("08-output");
+  if (wizard.session().cameras() > 1) {
+    wizard.page<OutputPage>().showCamera(1);
+    photographs.take("08-output-second");
+    wizard.page<OutputPage>().showCamera(0);
+  }
+  wizard.page<OutputPage>().report();
+  until([&] { return !wizard.page<OutputPage>().reportFile().isEmpty(); });
+  const QString paper = QFileInfo(wizard.page<OutputPage>().reportFile()).dir().filePath("report.pdf");
+  QFile::remove(folder.filePath("13-report.pdf"));
+  QFile::copy(paper, folder.filePath("13-report.pdf"));
   wizard.window().close();
   photographs.takeDialog("12-question-show", "failure");
   CalibrateSettings changed = wizard.session().settings();

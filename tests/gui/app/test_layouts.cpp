@@ -418,7 +418,7 @@ class TestLayouts : public QObject {
     wizard_->session().begin(folder_.filePath("real").toStdString(), settings);
     steps().go(1);
     QTRY_VERIFY_WITH_TIMEOUT(
-        !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().cameras().cameras.empty(),
+        !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().foundCameras().cameras.empty(),
         patience);
     page("choosing");
     wizard_->session().decide(CameraCheckResult{{1.0}, std::nullopt, {}});

@@ -544,7 +544,8 @@ class TestWizardWindow : public QObject {
     // What was chosen at Preview reaches the projector.
     QVERIFY(proof.figures.method == Method::optimum);
     QVERIFY(find<QWidget>("method-note")->isVisible());
-    QVERIFY(!proof.photograph.isNull() && proof.photograph.size() == proof.wanted.size());
+    const ProofView& view = proof.view(0);
+    QVERIFY(!view.photograph.isNull() && view.photograph.size() == view.wanted.size());
     QVERIFY(proof.figures.after.measured.deltaE < proof.figures.before.measured.deltaE);
     QVERIFY(!find<ImageView>("photograph-view")->picture().isNull());
     QVERIFY(output.isOpen());  // a simulated camera is in nobody's way

@@ -303,8 +303,8 @@ class TestRealDevices : public QObject {
     QVERIFY(camera.needsCamera() && !camera.primary()->isEnabled());
     QSignalSpy listed(&camera, &CameraPage::camerasListed);
     camera.enter();
-    QTRY_VERIFY_WITH_TIMEOUT(!camera.cameras().cameras.empty(), 10000);
-    const ListedCamera& found = camera.cameras().cameras.front();
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.foundCameras().cameras.empty(), 10000);
+    const ListedCamera& found = camera.foundCameras().cameras.front();
     QVERIFY2(found.usable, english(found.problem).c_str());
     QElapsedTimer since;
     since.start();

@@ -64,8 +64,8 @@ class TestProofFile : public QObject {
     QCOMPARE(loaded->measured, saved.measured);
     QCOMPARE(loaded->shownFrom, saved.shownFrom);
     QVERIFY(loaded->content == saved.content);
-    QCOMPARE(loaded->photograph.size(), QSize(4, 3));
-    QCOMPARE(loaded->deltaE.at(1, 1, 0), 2.5f);
+    QCOMPARE(loaded->view(0).photograph.size(), QSize(4, 3));
+    QCOMPARE(loaded->view(0).deltaE.at(1, 1, 0), 2.5f);
     QVERIFY(loaded->isAsPredicted());
   }
 

@@ -44,6 +44,7 @@ std::string grouped(std::uint64_t number) {
 }
 
 std::string duration(double seconds) {
+  if (seconds < 0.1) return fmt::format("{:.3g} ms", 1000.0 * seconds);
   if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
   return fmt::format("{:.0f} min {:.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
 }

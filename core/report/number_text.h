@@ -17,7 +17,7 @@ std::string exposureTime(double seconds);
 std::string stageDuration(double seconds);
 /// Digits in groups of three, with narrow spaces that no line breaks at.
 std::string grouped(std::uint64_t number);
-/// "1.23 s", "2 min 5 s".
+/// "0.34 ms", "1.23 s", "2 min 5 s".
 std::string duration(double seconds);
 /// "2026-01-02T03:04:05Z" as "2 January 2026, 04:04" where the report is written; other texts as they are.
 std::string localTime(const std::string& iso);

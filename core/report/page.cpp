@@ -255,7 +255,8 @@ Data ridge(const ReportData& data) {
 void setTransport(Data& page, const ReportData& data) {
   page.set("connections", grouped(data.result.connections));
   page.set("leaves", grouped(data.result.leaves));
-  page.set("unresolved", percent(data.result.unresolvedEnergy));
+  // Noise may find a little more light than there is.
+  page.set("unresolved", percent(std::max(0.0, data.result.unresolvedEnergy)));
   page.set("verificationError", percent(data.result.verificationError));
   if (data.evaluation) {
     Data truth;

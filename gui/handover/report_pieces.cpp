@@ -184,7 +184,7 @@ class Parser {
     else if (name == "table" || name == "tr")
       beginTable(name, style);
     else
-      beginWithin(name);
+      beginWithin(name, style);
   }
 
   void beginItem(const QString& style) {
@@ -200,14 +200,14 @@ class Parser {
     if (name == "table" && style == "long")
       open({}, {}).rowsBreak = true;
     else if (name == "table")
-      openPiece({{}, 6.0, false, false}, "<table cellpadding=\"3\">", "</table>");
+      openPiece({{}, 6.0, false, false}, "<table width=\"100%\" cellpadding=\"3\">", "</table>");
     else if (isInLongTable())
       openPiece({{}, 0.0, false, false}, "<table width=\"100%\" cellpadding=\"2\"><tr>", "</tr></table>");
     else
       open("<tr>", "</tr>");
   }
 
-  void beginWithin(const QString& name) {
+  void beginWithin(const QString& name, const QString& style) {
     if (name == "figcaption")
       open("<p>", "</p>");
     else if (name == "caption" || name == "summary" || name == "footer")
@@ -215,14 +215,18 @@ class Parser {
     else if (name == "br")
       open("<br>", "");
     else if (name == "th" || name == "td")
-      open(cellOf(name), "</td>");
+      open(cellOf(name, style), "</td>");
     else if (name == "b")
       open("<b>", "</b>");
     else
       open({}, {});
   }
-  QString cellOf(const QString& name) const {
-    if (!isInLongTable()) return "<td>";
+  QString cellOf(const QString& name, const QString& style) const {
+    // Figures are short and stay whole; what is read needs room, or it becomes a column of single words.
+    if (!isInLongTable() && style == "prose") return "<td width=\"25%\" style=\"font-size:7.5pt\">";
+    const bool isWhole = name == "td" || xml_.attributes().value("scope") == QLatin1String("row");
+    if (!isInLongTable())
+      return QString("<td style=\"font-size:7.5pt%1\">").arg(isWhole ? ";white-space:nowrap" : "");
     return name == "th" ? "<td width=\"45%\" style=\"color:#555\">" : "<td width=\"55%\">";
   }
 

@@ -134,6 +134,8 @@ class TestReport : public QObject {
     QCOMPARE(smallPercent(3.16e-5), std::string("0.0032 %"));
     QCOMPARE(exposureTime(0.00559), std::string("1/179 s"));
     QCOMPARE(exposureTime(0.5), std::string("0.5 s"));
+    QCOMPARE(duration(0.000339), std::string("0.339 ms"));
+    QCOMPARE(duration(3.612), std::string("3.61 s"));
     QCOMPARE(stageDuration(1.38), std::string("1 s"));
     QCOMPARE(stageDuration(0.2), std::string("1 s"));
     QCOMPARE(stageDuration(75.4), std::string("1 min 15 s"));

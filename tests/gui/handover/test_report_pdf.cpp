@@ -70,6 +70,22 @@ class TestReportPdf : public QObject {
     QVERIFY2(pdf.count("/Subtype /Image") >= 5, QByteArray::number(pdf.count("/Subtype /Image")));
   }
 
+  /// Law: in a wide table names and figures stay whole, and what is read has a quarter of the page.
+  void wideTablesKeepTheirWordsWhole() {
+    const QString table =
+        "<html><body><table><thead><tr><th scope=\"col\">Method</th><th class=\"prose\">What it "
+        "does</th></tr>"
+        "</thead><tbody><tr><th scope=\"row\">optimum</th><td>27.7 dB</td><td class=\"prose\">the best for "
+        "still pictures</td></tr></tbody></table></body></html>";
+    const ReportPieces pieces = reportPieces(table, 640.0);
+    QCOMPARE(pieces.pieces.size(), 1);
+    const QString& paper = pieces.pieces[0].html;
+    for (const char* whole : {"optimum", "27.7 dB"})
+      QVERIFY(QRegularExpression(QString("nowrap\">%1").arg(whole)).match(paper).hasMatch());
+    QVERIFY(!QRegularExpression("nowrap\">(Method|What|the best)").match(paper).hasMatch());
+    QCOMPARE(paper.count("width=\"25%\""), 2);
+  }
+
   /// Law: pieces keep their order, do not overlap, stay on their page, and no heading ends a page.
   void headingsStandWithWhatFollows_data() {
     QTest::addColumn<QList<PieceSize>>("pieces");

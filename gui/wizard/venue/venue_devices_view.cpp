@@ -48,6 +48,8 @@ QWidget* devicesStage(VenuePage& model) {
           model.addCamera(camera.address);
       });
   cameras->setObjectName("venue-cameras");
+  constexpr int leastHeight = 220;  // a camera and a half: where there is less room, the stage scrolls
+  cameras->setMinimumHeight(leastHeight);
   column->addWidget(cameras, 1);
   pointOutScreens(model, list);
   auto* note = new Note(Note::Kind::amber);

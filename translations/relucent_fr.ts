@@ -1011,7 +1011,7 @@
     <name>device.camera-twice</name>
     <message>
         <source>{} is camera {} and camera {}: choose another camera, or one with a serial number of its own</source>
-        <translation>{} est la caméra {} et la caméra {} : choisissez une autre caméra, ou une qui a son propre numéro de série</translation>
+        <translation>{} est la caméra {} et la caméra {}&#x202f;: choisissez une autre caméra, ou une qui a son propre numéro de série</translation>
     </message>
 </context>
 <context>
@@ -1109,7 +1109,7 @@
     <name>device.check-projector-or-aim-another</name>
     <message>
         <source>check that this projector is on and shows that output, and aim a camera at it; or remove it from the venue</source>
-        <translation>vérifiez que ce projecteur est allumé et montre cette sortie, et pointez une caméra dessus ; ou retirez-le du lieu</translation>
+        <translation>vérifiez que ce projecteur est allumé et montre cette sortie, et pointez une caméra dessus&#x202f;; ou retirez-le du lieu</translation>
     </message>
 </context>
 <context>
@@ -1739,7 +1739,7 @@
     <name>device.screen-twice</name>
     <message>
         <source>screen {} is projector {} and projector {}: choose another screen</source>
-        <translation>l’écran {} est le projecteur {} et le projecteur {} : choisissez un autre écran</translation>
+        <translation>l’écran {} est le projecteur {} et le projecteur {}&#x202f;: choisissez un autre écran</translation>
     </message>
 </context>
 <context>
@@ -3520,7 +3520,7 @@
     </message>
     <message>
         <source>Camera %1: %2 is too bright in every exposure.</source>
-        <translation>Caméra %1 : %2 est trop clair à chaque temps de pose.</translation>
+        <translation>Caméra %1&#x202f;: %2 est trop clair à chaque temps de pose.</translation>
     </message>
     <message>
         <source>Camera %1</source>
@@ -3537,8 +3537,8 @@
     <message numerus="yes">
         <source>%n projector(s): %1</source>
         <translation>
-            <numerusform>%n projecteur : %1</numerusform>
-            <numerusform>%n projecteurs : %1</numerusform>
+            <numerusform>%n projecteur&#x202f;: %1</numerusform>
+            <numerusform>%n projecteurs&#x202f;: %1</numerusform>
         </translation>
     </message>
     <message>
@@ -3574,7 +3574,7 @@
     </message>
     <message>
         <source>Cannot be used: %1</source>
-        <translation>Inutilisable : %1</translation>
+        <translation>Inutilisable&#x202f;: %1</translation>
     </message>
     <message numerus="yes">
         <source>%1 pixels, %n bit(s), exposures %2 to %3</source>
@@ -3585,23 +3585,23 @@
     </message>
     <message>
         <source>Recommended: it tells faint light apart best</source>
-        <translation>Conseillée : distingue le mieux la lumière faible</translation>
+        <translation>Conseillée&#x202f;: distingue le mieux la lumière faible</translation>
     </message>
     <message>
         <source>Fewer bits: faint light is told apart less well</source>
-        <translation>Moins de bits : la lumière faible est moins bien distinguée</translation>
+        <translation>Moins de bits&#x202f;: la lumière faible est moins bien distinguée</translation>
     </message>
     <message>
         <source>Recommended: its exposures cover most, from bright to dark</source>
-        <translation>Conseillée : ses temps de pose couvrent le plus, du clair au sombre</translation>
+        <translation>Conseillée&#x202f;: ses temps de pose couvrent le plus, du clair au sombre</translation>
     </message>
     <message>
         <source>Fewer exposures: bright and dark are harder to cover</source>
-        <translation>Moins de temps de pose : clair et sombre sont plus durs à couvrir</translation>
+        <translation>Moins de temps de pose&#x202f;: clair et sombre sont plus durs à couvrir</translation>
     </message>
     <message>
         <source>Recommended: it has most pixels</source>
-        <translation>Conseillée : elle a le plus de pixels</translation>
+        <translation>Conseillée&#x202f;: elle a le plus de pixels</translation>
     </message>
     <message>
         <source>Fewer pixels than the first</source>
@@ -5107,11 +5107,11 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Camera %1: %2, as predicted</source>
-        <translation>Caméra %1 : %2, comme prévu</translation>
+        <translation>Caméra %1&#x202f;: %2, comme prévu</translation>
     </message>
     <message>
         <source>Camera %1: %2, not as predicted</source>
-        <translation>Caméra %1 : %2, pas comme prévu</translation>
+        <translation>Caméra %1&#x202f;: %2, pas comme prévu</translation>
     </message>
     <message>
         <source>The view of camera %3 has moved by %1 px sideways and %2 px up or down.</source>
@@ -6740,7 +6740,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>%1: choose its screen</source>
-        <translation>%1 : choisissez son écran</translation>
+        <translation>%1&#x202f;: choisissez son écran</translation>
     </message>
     <message>
         <source>Cameras</source>
@@ -6814,7 +6814,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>They overlap; two cameras watch</source>
-        <translation>Ils se recouvrent ; deux caméras regardent</translation>
+        <translation>Ils se recouvrent&#x202f;; deux caméras regardent</translation>
     </message>
     <message>
         <source>Bust seen from three sides</source>
@@ -6822,7 +6822,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Two projectors, three cameras: for an audience that walks</source>
-        <translation>Deux projecteurs, trois caméras : pour un public qui marche</translation>
+        <translation>Deux projecteurs, trois caméras&#x202f;: pour un public qui marche</translation>
     </message>
     <message>
         <source>Projector whose screen is changed</source>
@@ -6856,11 +6856,11 @@ projecteur %2</translation>
     </message>
     <message>
         <source>%1: %2 m to the left, %3 m from the surface</source>
-        <translation>%1 : %2 m à gauche, à %3 m de la surface</translation>
+        <translation>%1&#x202f;: %2 m à gauche, à %3 m de la surface</translation>
     </message>
     <message>
         <source>%1: %2 m to the right, %3 m from the surface</source>
-        <translation>%1 : %2 m à droite, à %3 m de la surface</translation>
+        <translation>%1&#x202f;: %2 m à droite, à %3 m de la surface</translation>
     </message>
 </context>
 <context>

@@ -129,6 +129,7 @@ struct Bench {
   pipeline::ScaleBenchSettings scale;
   std::filesystem::path chart;  // of `acquisition`: where to; empty: none
   engine::BackendChoice backend = engine::BackendChoice::automatic;  // of `engine`
+  bool oneThread = false;                                            // of these devices
   std::optional<engine::EngineBenchSettings> engine{};               // these devices alone
   std::filesystem::path cache;
 };

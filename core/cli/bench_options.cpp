@@ -53,6 +53,8 @@ void addEngine(CLI::App* sub, Bench& command) {
           "a "
           "viewer who walks")
       ->type_name("NxWxH/NxWxH");
+  group->add_flag("--one-thread", command.oneThread,
+                  "Of --devices on the processor: seconds of one core, for machines that others use too");
 }
 
 void addScale(CLI::App* sub, Bench& command) {
@@ -99,7 +101,10 @@ std::function<Command()> addBenchOptions(CLI::App* sub) {
   addCache(sub, command->cache);
   return [command] {
     command->suite = valueNamed<BenchSuite>(command->name).value_or(BenchSuite::parts);
-    if (command->engine) command->engine->backend = command->backend;
+    if (command->engine) {
+      command->engine->backend = command->backend;
+      command->engine->oneThread = command->oneThread;
+    }
     return Command(*command);
   };
 }

@@ -223,10 +223,11 @@ class TestArguments : public QObject {
     QVERIFY(parsed<Bench>("bench engine --backend opengl").backend == BackendChoice::openGl);
     QVERIFY(parsed<Bench>("bench engine").suite == BenchSuite::engine);
     QVERIFY(!parsed<Bench>("bench engine").engine);
-    const Bench devices = parsed<Bench>("bench engine --devices 4x1024x768/3x640x480 --backend cpu");
+    const Bench devices =
+        parsed<Bench>("bench engine --devices 4x1024x768/3x640x480 --backend cpu --one-thread");
     QVERIFY(devices.engine && devices.engine->projectors == 4 && devices.engine->cameras == 3 &&
             devices.engine->projector == Size({1024, 768}) && devices.engine->camera == Size({640, 480}) &&
-            devices.engine->backend == BackendChoice::cpu);
+            devices.engine->backend == BackendChoice::cpu && devices.engine->oneThread);
     const Bench scale = parsed<Bench>("bench scale --sizes 64x48/40x30 --sizes 80x60/50x40");
     QVERIFY(scale.suite == BenchSuite::scale);
     QVERIFY(

@@ -185,7 +185,8 @@ class TestBlending : public QObject {
     QVERIFY(seams.mean > 0.3 * step && seams.mean < 0.5 * step);  // of one edge of two, smoothed
     QVERIFY(seams.elsewhere < 0.05 * step);
     QVERIFY(std::isnan(seamsOf(even, cameras, all, white, {}).mean));
-    QVERIFY(std::abs(seams.edgeP95 - step) < 0.01);
+    // Of three columns of pairs, of which smoothing leaves two of them two thirds.
+    QVERIFY(seams.edgeP95 > 0.6 * step && seams.edgeP95 < step + 0.01);
 
     // Law: what is uneven without a seam is none of its own.
     for (CameraStack* uneven : {&even, &stepped})

@@ -8,6 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/terminal_text.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/cli/devices_document.h"
 #include "relucent/cli/interruption.h"
@@ -213,7 +214,7 @@ std::string interruptedSentence(const Command& command) {
 }
 
 int fail(const std::string& sentence, int status) {
-  std::cerr << "relucent-cli: " << sentence << std::endl;
+  std::cerr << "relucent-cli: " << forTerminal(sentence) << std::endl;
   return status;
 }
 
@@ -221,7 +222,7 @@ void print(const CommandResult& outcome, bool json) {
   if (json)
     std::cout << outcome.document.dump(2, ' ', false, calibration::Json::error_handler_t::replace) << "\n";
   else
-    std::cout << outcome.text;
+    std::cout << forTerminal(outcome.text);
   std::cout.flush();
   if (!std::cout)
     throw Error(ErrorKind::disk,

@@ -16,6 +16,7 @@
 #include "output/shared_gl.h"
 #include "output/show.h"
 #include "relucent/base/error.h"
+#include "relucent/base/terminal_text.h"
 #include "relucent/calibration/calibration_folder.h"
 
 namespace relucent::gui {
@@ -24,12 +25,12 @@ namespace {
 constexpr int done = 0, failed = 1, wrongUsage = 2;
 
 int fail(const QString& sentence, int status) {
-  std::fprintf(stderr, "relucent: %s\n", qPrintable(sentence));
+  std::fprintf(stderr, "relucent: %s\n", forTerminal(sentence.toStdString()).c_str());
   return status;
 }
 
 int say(const QString& text) {
-  std::fputs(qPrintable(text), stdout);
+  std::fputs(forTerminal(text.toStdString()).c_str(), stdout);
   return done;
 }
 

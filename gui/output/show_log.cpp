@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "relucent/base/error.h"
+#include "relucent/base/terminal_text.h"
 
 namespace relucent::gui {
 namespace {
@@ -40,11 +41,11 @@ ShowLog::ShowLog(const QString& folder) {
 ShowLog::~ShowLog() = default;
 
 void ShowLog::tell(const QString& sentence) {
-  logger_->info(sentence.toStdString());
+  logger_->info(forLogLine(sentence.toStdString()));
 }
 
 void ShowLog::warn(const QString& sentence) {
-  logger_->warn(sentence.toStdString());
+  logger_->warn(forLogLine(sentence.toStdString()));
 }
 
 }  // namespace relucent::gui

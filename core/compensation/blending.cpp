@@ -76,9 +76,8 @@ Compensation solvedSeparately(const Compensator& compensator, const Target& targ
   for (std::size_t k = 0; k < projectors.devices(); ++k) {
     Progress solving = progress.part(1.0 / static_cast<double>(projectors.devices()), progress.stage());
     const ProjectorMask own = onlyOf(k, free, projectors);
-    const CameraStack wanted = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
-      return masks[k][i / 3] * (target.wanted[i] - venue.black[i]);
-    });
+    const CameraStack wanted = stackOf<CameraStack>(
+        target.wanted.size(), [&](std::size_t i) { return masks[k][i / 3] * target.asked[i]; });
     const ConstrainedProblem problem{venue.transport, wanted, target.weight, own};
     const SolveResult solved =
         solveConstrained(problem, ProjectorStack(together.projector.size(), 0.0f), settings, solving);

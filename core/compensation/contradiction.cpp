@@ -45,11 +45,9 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
   const auto asking = std::ranges::count_if(target.viewWeight, [](float weight) { return weight > 0.0f; });
   if (asking < 2) return result;
 
-  const CameraStack wantedLessBlack = stackOf<CameraStack>(
-      target.wanted.size(), [&](std::size_t i) { return target.wanted[i] - venue.black[i]; });
   const ProjectorMask free = compensator.contentPixelsOf(target);
   const auto seenWith = [&](const std::vector<float>& weight) {
-    return seenAfterSteps(compensator, wantedLessBlack, weight, free, compensation.projector, progress);
+    return seenAfterSteps(compensator, target.asked, weight, free, compensation.projector, progress);
   };
   const auto errorOf = [&](const CameraStack& seen, std::size_t camera, const CameraMask& mask) {
     return image::deltaEMap(

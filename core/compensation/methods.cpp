@@ -112,8 +112,7 @@ float Compensator::bestBrightness(const Target& target) const {
     for (std::size_t i = begin; i < end; ++i) {
       if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
       double light = static_cast<double>(venue_.flood[i]) * static_cast<double>(target.content[i]);
-      wanted +=
-          weight * light * (static_cast<double>(target.wanted[i]) - static_cast<double>(venue_.black[i]));
+      wanted += weight * light * static_cast<double>(target.asked[i]);
       seen += weight * light * light;
     }
   }
@@ -124,8 +123,7 @@ Compensation Compensator::sharpened(const Target& target, Compensation mixed, co
                                     Progress& progress) const {
   Progress separating = progress.part(0.3, RELUCENT_MESSAGE("stage.finding-defocus", "Finding the defocus"));
   transport::TransportMatrix defocus = defocusOnly(venue_.transport, settings_.direct, separating);
-  CameraStack wantedLessBlack = difference(target.wanted, venue_.black);
-  ConstrainedProblem problem{defocus, wantedLessBlack, target.weight, free};
+  ConstrainedProblem problem{defocus, target.asked, target.weight, free};
   Progress solving = progress.part(0.7, RELUCENT_MESSAGE("stage.sharpening", "Sharpening"));
   SolveResult solved = solveConstrained(problem, mixed.projector, settings_.sharpening, solving);
   mixed.projector = std::move(solved.x);
@@ -159,9 +157,12 @@ Compensation Compensator::byInverse(const std::function<ProjectorStack(const Cam
   result.clipped = finish(result.projector, free);
   progress.checkpoint();
   CameraStack residual = difference(wantedLessBlack, venue_.transport.apply(result.projector));
-  parallelFor(0, residual.size(), 4096, [&](std::size_t i) { residual[i] *= target.weight[i / 3]; });
-  ProjectorStack sharpening = inverse(residual);
-  ProjectorStack byAdjoint = venue_.transport.applyTransposed(residual);
+  // M knows of no weights: where they differ within a window, it would take them for light.
+  const auto weighted = [&](const std::vector<float>& weight) {
+    return stackOf<CameraStack>(residual.size(), [&](std::size_t i) { return weight[i / 3] * residual[i]; });
+  };
+  ProjectorStack sharpening = inverse(weighted(target.windowsWeight));
+  ProjectorStack byAdjoint = venue_.transport.applyTransposed(weighted(target.weight));
   parallelFor(0, sharpening.size(), 4096, [&](std::size_t j) {
     result.projector[j] += settings_.correctionByInverse * sharpening[j] +
                            settings_.correctionByAdjoint * preconditioner[j] * byAdjoint[j];
@@ -190,8 +191,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
     return result;
   }
 
-  CameraStack wantedLessBlack = difference(target.wanted, venue_.black);
-  ConstrainedProblem problem{venue_.transport, wantedLessBlack, target.weight, free};
+  ConstrainedProblem problem{venue_.transport, target.asked, target.weight, free};
   ProjectorStack c = diagonalPreconditioner(problem);
   auto apply = [](const auto& inverse) { return [&](const CameraStack& r) { return inverse.apply(r); }; };
   result = method == Method::clusters ? byInverse(apply(clusters(progress)), target, free, c, progress)

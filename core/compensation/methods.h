@@ -51,19 +51,20 @@ class Compensator {
   Compensator(const MeasuredVenue& venue, const inverse::WindowInverse& inverse,
               CompensatorSettings settings = {});
 
-  /// With o = target.wanted, i*(j) = the brightest camera pixel of projector pixel j, B = the row sums of T:
+  /// With o = target.wanted, a = target.asked, W = target.weight, V = target.windowsWeight, i*(j) = the
+  /// brightest camera pixel of projector pixel j, B = the row sums of T:
   ///   none     b content at i*(j) as drive: geometric warp only, under the single best brightness
-  ///            b = <F c, o - e> / <F c, F c>, at most 1   (F flood, c content, pixels inside)
+  ///            b = <F c, a> / <F c, F c>, at most 1   (F flood, c content, pixels inside)
   ///   scalar   (o - e) / flood at i*(j), channel by channel                    [Bimber et al. 2005]
   ///   mix      B^-1 (o - e) at i*(j)                        [Nayar et al. 2003, Grossberg et al. 2004]
   ///   sharpen  mix, then the constrained optimum through the defocus alone, see defocusOnly(): no light goes
   ///            further than the direct light does                             [Zhang & Nayar 2006]
   ///   clusters the same as windows with M = T+ of Algorithm 1's clusters, held to a size
   ///                                                                           [Wetzstein & Bimber 2007]
-  ///   windows  p = clamp01(M b), b = o - e held between 0 and flood, then
-  ///            p <- clamp01(p + (m M + a C T^T) W (b - T p)): a window knows its own neighbourhood, T the
+  ///   windows  p = clamp01(M r), r = o - e held between 0 and flood, then
+  ///            p <- clamp01(p + (m M V + n C T^T W) (r - T p)): a window knows its own neighbourhood, T the
   ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
-  ///   refined  windows, then p <- clamp01(p + a_k C T^T W (o - e - T p)) for every a_k
+  ///   refined  windows, then p <- clamp01(p + a_k C T^T W (a - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
   /// `clusters` is prepared when it is first asked for.
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().

@@ -26,7 +26,7 @@ std::vector<Target> trialTargets(const MeasuredVenue& venue) {
   if (!largestUpright(placeable(venue), view, static_cast<double>(pictureSize.width) / pictureSize.height))
     return targets;
   for (std::uint64_t seed : {1, 2})
-    targets.push_back(fitTarget(image::deadLeaves(pictureSize, seed), venue, {}));
+    targets.push_back(fitTarget(image::deadLeaves(pictureSize, seed), venue, TargetSettings::ofLight()));
   return targets;
 }
 

@@ -212,7 +212,8 @@ std::vector<Message> problems(const TargetSettings& settings) {
   if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
-  if (!(settings.unreachableWeight >= 0.0 && settings.unreachableWeight <= 1.0))
+  if (settings.unreachableWeight &&
+      !(*settings.unreachableWeight >= 0.0 && *settings.unreachableWeight <= 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.unreachable-weight-out-of-range",
                                              "the weight of unreachable pixels must lie between 0 and 1"));
   return found;
@@ -229,6 +230,12 @@ CameraMask placeable(const MeasuredVenue& venue, std::size_t camera) {
   const CameraMask pixels = seesProjection(venue);
   const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(venue.transport.cameras().offset(camera));
   return {begin, begin + static_cast<std::ptrdiff_t>(viewOf(venue, camera).count())};
+}
+
+float unreachableWeightOf(const TargetSettings& settings) {
+  // Measured, see the README. Objective::light asks for what cannot be had: little weight limits the harm.
+  const double ofObjective = settings.objective == Objective::light ? 0.1 : 0.5;
+  return static_cast<float>(settings.unreachableWeight.value_or(ofObjective));
 }
 
 bool hasOwnPictures(const Target& target) {
@@ -280,20 +287,30 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   target.white = {white, white, white};
   transport::ColourBlock mixing = meanColourMixing(venue);
   auto lift = static_cast<float>(settings.blackLift);
+  const float unreachableWeight = unreachableWeightOf(settings);
   target.wanted = venue.black;
+  target.asked.assign(3 * pixels, 0.0f);
   target.reachable.assign(pixels, 0);
   target.weight.assign(pixels, 0.0f);
+  target.windowsWeight.assign(pixels, 0.0f);
   const auto fit = [&](std::size_t i, float weight) {
     if (!target.inside[i]) return;
     Eigen::Map<const Eigen::Vector3f> content(&target.content[3 * i]);
     Eigen::Map<Eigen::Vector3f> wanted(&target.wanted[3 * i]);
     wanted = white * (lift + (1.0f - lift) * (mixing * content).array());
-    if (!venue.usable[i]) return;
     Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
+    Eigen::Map<Eigen::Vector3f> asked(&target.asked[3 * i]);
+    asked = wanted - black;
+    if (settings.objective == Objective::seen) asked = asked.cwiseMin(flood).cwiseMax(0.0f);
+    if (!venue.usable[i]) return;
     bool reachable =
         (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();
     target.reachable[i] = reachable;
-    target.weight[i] = weight * (reachable ? 1.0f : static_cast<float>(settings.unreachableWeight));
+    target.windowsWeight[i] = weight * (reachable ? 1.0f : unreachableWeight);
+    target.weight[i] = target.windowsWeight[i];
+    if (settings.objective == Objective::seen)
+      target.weight[i] *= sensitivity(Eigen::Vector3f((asked + black) / white)
+                                          .dot(Eigen::Map<const Eigen::Vector3f>(luminanceShares.data())));
   };
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera);

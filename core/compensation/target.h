@@ -42,6 +42,18 @@ constexpr EnumNames<ViewPlacement> namesOf(ViewPlacement) {
   return {"placement", viewPlacementNames};
 }
 
+/// Which error the solve makes small.
+enum class Objective {
+  seen,   // as an eye weighs it: an error counts by the brightness around it
+  light,  // of light alone: an error in the dark counts as one in the bright
+};
+inline constexpr EnumName<Objective> objectiveNames[]{
+    {Objective::seen, "seen", "what an eye sees: errors in the dark count more"},
+    {Objective::light, "light", "errors of light count alike, bright or dark"}};
+constexpr EnumNames<Objective> namesOf(Objective) {
+  return {"objective", objectiveNames};
+}
+
 /// What one camera's view asks for.
 struct ViewSettings {
   double weight = 1.0;  // of its pixels in the solve, relative to other views; 0: it asks for nothing
@@ -60,23 +72,47 @@ struct TargetSettings {
   Fit fit = Fit::fill;                // if content and corners differ in aspect ratio
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black
-  double unreachableWeight = 0.1;     // weight of unreachable pixels
+  Objective objective = Objective::seen;
+  /// Weight of unreachable pixels; none: as the objective has it.
+  std::optional<double> unreachableWeight{};
+
+  /// For measuring how well T and its inverse are known: errors of light, as one always has measured them.
+  static TargetSettings ofLight() {
+    TargetSettings settings;
+    settings.objective = Objective::light;
+    return settings;
+  }
 };
 std::vector<Message> problems(const TargetSettings& settings);
 
 /// The target image at the cameras.
 struct Target {
-  CameraStack content;        // the placed content, 0 to 1; 0 outside
-  CameraStack wanted;         // camera signal per second; e outside
-  CameraMask inside;          // per camera pixel: the content covers it
-  CameraMask reachable;       // per camera pixel inside: e <= wanted <= T 1 + e in all channels
-  std::vector<float> weight;  // per camera pixel: its view's inside, less where unreachable, 0 where unusable
-  std::array<float, 3> white{};  // wanted signal of the content's white: the peak for PSNR
-  Corners corners{};             // where the content was placed: within the quadrilateral for Fit::fit
+  CameraStack content;   // the placed content, 0 to 1; 0 outside
+  CameraStack wanted;    // camera signal per second; e outside
+  CameraMask inside;     // per camera pixel: the content covers it
+  CameraMask reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
+  CameraStack asked;     // what the solve asks for, less e; Objective::seen: held between 0 and the flood
+  /// Per camera pixel: its view's inside, less where unreachable, 0 where unusable; times its sensitivity().
+  std::vector<float> weight;
+  std::vector<float> windowsWeight;  // the same without sensitivity, for what M corrects
+  std::array<float, 3> white{};      // wanted signal of the content's white: the peak for PSNR
+  Corners corners{};                 // where the content was placed: within the quadrilateral for Fit::fit
   /// Per camera: where the content was placed in its own view; none: it lies on the surface.
   std::vector<std::optional<Placement>> placements{};
   std::vector<float> viewWeight{};  // per camera, of its view; the largest is 1
 };
+
+/// The weight of unreachable pixels.
+float unreachableWeightOf(const TargetSettings& settings);
+
+/// How much the square of an error counts where the eye sees this much light, as a share of white:
+///   s = (1 + a) / (Y + a),   Y = 0.2126 r + 0.7152 g + 0.0722 b, at most 1,   a = 0.1
+/// the squared slope of the scale sqrt(Y + a), 1 at white.  Source: core/compensation/README.md.
+inline constexpr float sensitivityOffset = 0.1f;
+inline constexpr std::array luminanceShares{0.2126f, 0.7152f, 0.0722f};
+inline float sensitivity(float luminance) {
+  return (1.0f + sensitivityOffset) / ((luminance < 1.0f ? luminance : 1.0f) + sensitivityOffset);
+}
 
 /// Whether a view beyond the first has a quadrilateral of its own.
 bool hasOwnPictures(const Target& target);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <thread>
 #include <type_traits>
 
@@ -29,15 +30,16 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       name_(fmt::format("CPU, {}", kernels_.instructions)),
       windows_(engine.inverse.view()),
       patchSums_(engine.transport, engine.venue.transport.layout().count()),
-      scratch_(std::thread::hardware_concurrency() + 1, stepFloats * (engine.transport.mostColumns() + 1)),
+      scratch_(std::thread::hardware_concurrency() + 1,
+               correctionFloats * (engine.transport.mostColumns() + 1)),
       contentScratch_(std::thread::hardware_concurrency() + 1, 0) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
   const compensation::MeasuredVenue& venue = engine.venue;
   const std::size_t cameraPixels = venue.usable.size();
-  for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_}) values->resize(4 * cameraPixels);
+  for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &lit_})
+    values->resize(4 * cameraPixels);
   known_.resize(8 * cameraPixels);
-  reach_.resize(cameraPixels);
   for (std::size_t i = 0; i < cameraPixels; ++i) {
     std::copy_n(&venue.black[3 * i], 3, &known_[8 * i]);
     std::copy_n(&venue.flood[3 * i], 3, &known_[8 * i + 4]);
@@ -50,19 +52,18 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
   std::size_t nodes = engine.venue.transport.layout().count();
   nodes_.resize(3 * nodes + 1);  // four values can be read at once wherever three are
   adjoint_.resize(3 * nodes);
-  part_.resize(3 * nodes);
-  waiting_.resize(PatchSums::placeFloats * patchSums_.places());
+  bound_.resize(3 * nodes);
+  for (std::vector<float>* values : {&waiting_, &waitingBound_})
+    values->resize(PatchSums::placeFloats * patchSums_.places());
   std::size_t projectorValues = 3 * engine.brightest.size();
-  bound_.resize(projectorValues);
-  reachableC_.resize(projectorValues);
-  frameC_.resize(projectorValues);
+  leastBound_.resize(projectorValues);
+  preconditioner_.resize(projectorValues);
 }
 
 void CpuBackend::setContent(const EngineContent& content) {
   content_ = &content;
   for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &nodes_})
     std::fill(values->begin(), values->end(), 0.0f);
-  std::fill(reach_.begin(), reach_.end(), 0.0f);
   hasLast_ = false;
   warp_ = WarpTiles(content.warp, engine_.venue.transport.cameras());
   contentScratch_.resize(4 * (warp_.mostPixels + WarpTiles::together));
@@ -71,13 +72,15 @@ void CpuBackend::setContent(const EngineContent& content) {
 
 void CpuBackend::takeWeights() {
   const EngineContent& content = *content_;
-  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 3] = content.weight[i];
-  weightedLit_.resize(content.isWeighted ? content.lit.size() : 0);
-  parallelFor(0, weightedLit_.size(), 4096,
-              [&](std::size_t i) { weightedLit_[i] = content.weight[i / 3] * content.lit[i]; });
+  for (std::size_t i = 0; i < content.weight.size(); ++i) {
+    known_[8 * i + 3] = content.weight[i];
+    std::copy_n(&content.lit[3 * i], 3, &lit_[4 * i]);
+  }
+  // Where nothing is free C is 0, so that p stays 0.
+  for (std::size_t j = 0; j < leastBound_.size(); ++j)
+    leastBound_[j] = content.free[j / 3] != 0 ? content.leastBound : std::numeric_limits<float>::infinity();
   findFreeTiles();
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
-  prepareBound();
 }
 
 void CpuBackend::contentFollowed() {
@@ -105,14 +108,14 @@ bool CpuBackend::render(const ContentFrame& frame, const FrameRequest& request,
     const int steps = std::clamp(request.steps, 0, static_cast<int>(lengths.size()));
     const bool goesOn = request.fromLast && hasLast_;
     if (goesOn) {
+      fillMeans();
+      passThrough(Pass::correct);
       makePreconditioner();
       clipped_ = 0;
-      fillMeans();
       if (steps == 0) encodeAll(words);
     } else {
       invert();
       passThrough(Pass::correct);
-      makePreconditioner();
       correct(steps == 0 ? words : OutputWords{});
     }
     Clock::time_point refining = Clock::now();
@@ -240,7 +243,7 @@ void CpuBackend::correct(OutputWords words) noexcept {
       // While the tiles are in the cache.
       const int pairs = windows_.tile / 2, first = static_cast<int>(row) * pairs;
       const int end = std::min(first + pairs, pairsOfLines(device));
-      for (int pair = first; pair < end; ++pair) finishPair(device, pair, byAdjoint, words);
+      for (int pair = first; pair < end; ++pair) finishPair(Pass::correct, device, pair, byAdjoint, words);
     });
 }
 
@@ -249,8 +252,23 @@ void CpuBackend::refine(float length, OutputWords words) noexcept {
   clipped_ = 0;
   const Rasters& projectors = engine_.venue.transport.projectors();
   for (std::size_t device = 0; device < projectors.devices(); ++device)
-    parallelFor(0, static_cast<std::size_t>(pairsOfLines(device)), 4,
-                [&](std::size_t pair) { finishPair(device, static_cast<int>(pair), length, words); });
+    parallelFor(0, static_cast<std::size_t>(pairsOfLines(device)), 4, [&](std::size_t pair) {
+      finishPair(Pass::step, device, static_cast<int>(pair), length, words);
+    });
+}
+
+void CpuBackend::makePreconditioner() noexcept {
+  const transport::NodeLayout& layout = engine_.venue.transport.layout();
+  for (std::size_t device = 0; device < layout.projectors().devices(); ++device) {
+    const Size size = layout.projectors().size(device);
+    parallelFor(0, static_cast<std::size_t>(size.height), 8, [&](std::size_t y) {
+      layout.addToLine(device, static_cast<int>(y), bound_);
+      const std::size_t first =
+          3 * (layout.projectors().offset(device) + indexOf(size, {0, static_cast<int>(y)}));
+      kernels_.reciprocal(&preconditioner_[first], &bound_[first], &leastBound_[first],
+                          3 * static_cast<std::size_t>(size.width));
+    });
+  }
 }
 
 void CpuBackend::fillMeans() noexcept {
@@ -271,16 +289,20 @@ int CpuBackend::pairsOfLines(std::size_t device) const noexcept {
   return (engine_.venue.transport.projectors().size(device).height + 1) / 2;
 }
 
-void CpuBackend::finishPair(std::size_t device, int pair, float length, OutputWords words) noexcept {
+void CpuBackend::finishPair(Pass pass, std::size_t device, int pair, float length,
+                            OutputWords words) noexcept {
   const transport::NodeLayout& layout = engine_.venue.transport.layout();
   const Size size = layout.projectors().size(device);
   for (int y = 2 * pair; y < std::min(2 * pair + 2, size.height); ++y) {
     layout.addToLine(device, y, adjoint_);
     const std::size_t first = 3 * (layout.projectors().offset(device) + indexOf(size, {0, y}));
-    // Where nothing is free, C is 0 and p stays 0.
+    const std::size_t values = 3 * static_cast<std::size_t>(size.width);
+    if (pass == Pass::correct) {
+      layout.addToLine(device, y, bound_);
+      kernels_.reciprocal(&preconditioner_[first], &bound_[first], &leastBound_[first], values);
+    }
     const std::size_t cut =
-        kernels_.update(&nodes_[first], preconditioner_ + first, &adjoint_[first],
-                        length * preconditionerScale_, 3 * static_cast<std::size_t>(size.width));
+        kernels_.update(&nodes_[first], &preconditioner_[first], &adjoint_[first], length, values);
     clipped_.fetch_add(cut, std::memory_order_relaxed);
     if (!words.empty()) encodeLine(device, y, words);
   }

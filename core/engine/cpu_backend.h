@@ -55,7 +55,7 @@ class CpuBackend : public EngineBackend {
   int pairsOfLines(std::size_t device) const noexcept;
   /// The update of a refine() or a correct() on two lines, and their words if requested, otherwise their
   /// means.
-  void finishPair(std::size_t device, int pair, float length, OutputWords words) noexcept;
+  void finishPair(Pass pass, std::size_t device, int pair, float length, OutputWords words) noexcept;
   void encodeLine(std::size_t device, int y, OutputWords words) const noexcept;
   void encodeAll(OutputWords words) const noexcept;
   /// One row of tiles of M u: put(p, values, count) for the lines of its tiles where something is free.
@@ -63,17 +63,11 @@ class CpuBackend : public EngineBackend {
   void putTiles(std::size_t device, std::size_t tileRow, bool clamped, const Put& put) noexcept;
   void findFreeTiles();
 
-  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r.
-  void passThrough(Pass pass) noexcept;
-  /// `sums` = T^T lit of all nodes, only of the camera pixels with that reach.
-  void passBack(float reach, std::vector<float>& sums) noexcept;
-  void prepareBound() noexcept;
-  /// Without this limit, projector pixels that hardly any weighted pixel sees would take arbitrarily long
-  /// steps because of rounding errors.
-  float leastBound() const noexcept { return 1e-7f * largestBound_; }
+  /// C, of the correction's pass.
   void makePreconditioner() noexcept;
+  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r and T^T W lit.
+  void passThrough(Pass pass) noexcept;
   PatchRows rowsOf(const TransportPatch& patch) const noexcept;
-  CameraArrays cameraArrays(const float* wanted) noexcept;
 
   const EngineVenue& engine_;
   const EngineContent* content_ = nullptr;
@@ -83,23 +77,20 @@ class CpuBackend : public EngineBackend {
   std::array<float, 256> linearOfSrgb_{};
 
   // Per camera pixel, see ContentTarget.
-  std::vector<float> known_, reach_, wanted_, held_, unmixed_, placed_;
-  std::vector<float> weightedLit_;    // where views differ in weight: their share of what is lit
+  std::vector<float> known_, wanted_, held_, unmixed_, placed_;
+  std::vector<float> lit_;            // see CameraArrays
   std::vector<PackedMixings> unmix_;  // of every slice of T's rows
-  // Node values: p with its means, and the adjoint sums of the residual or of a part of the lit pixels.
-  std::vector<float> nodes_, adjoint_, part_;
+  // Node values: p with its means, and the adjoint sums of the residual and of what is lit.
+  std::vector<float> nodes_, adjoint_, bound_;
   PatchSums patchSums_;
-  std::vector<float> waiting_;
-  // Projector values: T^T W lit while all content is reachable, C then and C of the frame.
-  std::vector<float> bound_, reachableC_, frameC_;
-  float largestBound_ = 0.0f;
-  const float* preconditioner_ = nullptr;  // C = scale * preconditioner
-  float preconditionerScale_ = 1.0f;
+  std::vector<float> waiting_, waitingBound_;
+  // Projector values: what C^-1 must exceed, and C of the frame.
+  std::vector<float> leastBound_, preconditioner_;
   ScratchPool scratch_, contentScratch_;
   WarpTiles warp_;
   enum class Free : std::uint8_t { none, some, all };
   std::vector<Free> freeOfTile_;  // of the windows' tiles
-  std::atomic<std::size_t> clipped_{0}, reachable_{0}, unreachable_{0};
+  std::atomic<std::size_t> clipped_{0};
   std::size_t freeValues_ = 0;
   bool hasLast_ = false;  // nodes_ hold what was projected last
 };

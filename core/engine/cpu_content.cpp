@@ -52,15 +52,15 @@ void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& req
   ContentTarget target;
   std::copy_n(mixing.data(), target.mixing.size(), target.mixing.begin());
   target.offset = white * lift;
-  target.unreachable = static_cast<float>(engine_.settings.target.unreachableWeight);
+  target.unreachable = unreachableWeightOf(engine_.settings.target);
+  if (engine_.settings.target.objective == compensation::Objective::seen && white > 0.0f)
+    target.perWhite = 1.0f / white;
   target.known = known_.data();
   target.unmix = windows_.unmix;
-  target.reach = reach_.data();
   target.wanted = wanted_.data();
   target.held = held_.data();
   target.unmixed = unmixed_.data();
   target.placed = request.compensated ? nullptr : placed_.data();
-  reachable_ = unreachable_ = 0;
   withPixels(frame.format, linearOfSrgb_.data(), [&](const auto& pixels) {
     parallelFor(0, warp_.tiles.size(), 1, [&](std::size_t i) {
       const WarpTiles::Tile& tile = warp_.tiles[i];
@@ -71,10 +71,7 @@ void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& req
       float* to = part.data();
       for (std::uint32_t y = 0; y < tile.height; ++y, line += frame.bytesPerLine, to += 4 * tile.width)
         pixels.decode(line, tile.width, to);
-      TargetCounts counts;
-      kernels_.place(warp_, tile, part.data(), target, counts);
-      reachable_.fetch_add(counts.reached, std::memory_order_relaxed);
-      unreachable_.fetch_add(counts.usable - counts.reached, std::memory_order_relaxed);
+      kernels_.place(warp_, tile, part.data(), target);
     });
   });
 }

@@ -5,6 +5,8 @@
 
 #include <cstring>
 
+#include "relucent/compensation/target.h"
+
 namespace relucent::engine {
 namespace {
 

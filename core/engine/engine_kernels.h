@@ -18,24 +18,20 @@ struct ContentTarget {
   std::array<float, 9> mixing{};  // row-major: target = mixing content + offset
   float offset = 0.0f;
   float unreachable = 0.0f;      // the weight of what cannot be reached
+  float perWhite = 0.0f;         // 1 / white, by compensation::Objective::seen; otherwise 0
   const float* known = nullptr;  // 8: black 3, and the weight of its view; flood 4
   const float* unmix = nullptr;  // 3x3, row-major
-  float* reach = nullptr;        // 1: the weight without the share of its view
-  float* wanted = nullptr;       // 4: the target minus black; its weight
-  float* held = nullptr;         // 4: the same between 0 and flood; its weight
-  float* unmixed = nullptr;      // 4: `held` through `unmix`
+  float* wanted = nullptr;       // 4: what is asked for; its weight
+  float* held = nullptr;         // 4: the target minus black, between 0 and flood; weight for the windows
+  float* unmixed = nullptr;      // 4: `held` through `unmix`; sensitivity, which the two weights differ by
   float* placed = nullptr;       // 4: the content, where asked for
-};
-struct TargetCounts {
-  std::size_t usable = 0, reached = 0;  // of camera pixels
 };
 
 /// Inputs and outputs of a pass over T per camera pixel. Arrays over all camera pixels.
 struct CameraArrays {
-  const float* wanted = nullptr;         // 4: the target, minus black; its weight
-  const float* reach = nullptr;          // 1: the weight without the share of its view
-  const float* lit = nullptr;            // 3: the signal with all free projector pixels at full drive
-  float* unmixed = nullptr;              // 4: the weighted residual through `unmix`
+  const float* wanted = nullptr;         // 4: as ContentTarget's `wanted`, or as `held` for the correction
+  const float* lit = nullptr;            // 4: the signal with all free projector pixels at full drive
+  float* unmixed = nullptr;              // 4: of ContentTarget; then the weighted residual through `unmix`
   const PackedMixings* unmix = nullptr;  // of every slice of rows
 };
 
@@ -48,8 +44,8 @@ struct PatchRows {
   const LeavesAbreast* leaves = nullptr;
 };
 
-/// Floats per column of a patch in a pass over T, and in one that only sums.
-inline constexpr std::size_t stepFloats = 8, sumFloats = 4;
+/// Floats per column of a patch in a pass over T, and in the correction's.
+inline constexpr std::size_t stepFloats = 8, correctionFloats = 12;
 
 /// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly clipped.
 inline constexpr float visibleCut = 0.002f;
@@ -60,7 +56,7 @@ struct EngineKernels {
   /// The content into one tile of camera pixels, and their targets. `part`: the tile's part of the content as
   /// linear light, 4 a pixel.
   void (*place)(const WarpTiles& warp, const WarpTiles::Tile& tile, const float* part,
-                const ContentTarget& target, TargetCounts& counts);
+                const ContentTarget& target);
   /// One tile of the windows: values[3 * i + c] = p of the tile's pixel i. `unmixed`: 4 a camera pixel.
   /// `clamped`: to 0 and 1.
   void (*window)(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed, bool clamped,
@@ -70,16 +66,13 @@ struct EngineKernels {
   /// `columns`: 8 floats a column, light and adjoint sums together, so that what is read of the one brings
   /// the other into the cache: projector value 3, unused; sum 3, 0.
   void (*step)(const PatchRows& patch, const CameraArrays& camera, float* columns);
-  /// The same, and `unmixed` is written.
+  /// The same; `unmixed` is written, and behind the adjoint sum of a column there is that of what C is made
+  /// of, T^T weight lit: 12 floats a column.
   void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);
-  /// sums += T^T lit, only for rows whose reach is `reach`. 4 floats a column: sum 3, 0.
-  void (*bound)(const PatchRows& patch, const CameraArrays& camera, float reach, float* sums);
   /// p <- clamp(p + length c back); returns the number of visibly clipped values.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
-  /// c <- 1 / d,  d = share bound + partShare part, where that exceeds `least` and the rounding error of the
-  /// difference; 0 elsewhere.
-  void (*reciprocal)(float* c, const float* bound, const float* part, float share, float partShare,
-                     float least, std::size_t count);
+  /// c <- 1 / bound where that exceeds `least`, 0 elsewhere.
+  void (*reciprocal)(float* c, const float* bound, const float* least, std::size_t count);
 };
 
 /// What this processor can run, the quickest last; the first runs on every processor of its kind.

@@ -53,10 +53,12 @@ struct EngineContent {
   std::vector<std::int32_t> brightest;  // i*(j), see contentCorrespondence()
   CameraStack lit;                // camera stack: the signal with all free projector pixels at full drive
   std::vector<float> weight;      // per camera pixel: of its view, the largest 1; 0 where it is not usable
-  bool isWeighted = false;        // a view has less weight than another
   std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
   std::vector<std::optional<compensation::Placement>> placements;  // as Target's
   std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed
+  /// Projector pixels of which less comes back than this, T^T W lit, are seen by next to nothing: they would
+  /// take steps of any length on rounding errors.
+  float leastBound = 0.0f;
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

@@ -125,13 +125,14 @@ struct Rows {
 constexpr std::size_t leavesFetched = 2048;
 
 /// What some rows of leaves see of their columns' light, before mixing.
+template <std::size_t stride>
 RELUCENT_KERNEL void seenBy(const LeavesAbreast* leaves, std::size_t length, const float* light, Rows& seen) {
   for (std::size_t p = 0; p < parts; ++p) seen.part[p] = Wide{};
   for (std::size_t k = 0; k < length; ++k) {
     __builtin_prefetch(reinterpret_cast<const char*>(leaves + k) + leavesFetched);
     for (std::size_t p = 0; p < parts; ++p) {
       const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
-      seen.part[p] += codesAt(leaf->code.data()) * gathered(light, Columns<stepFloats>{leaf});
+      seen.part[p] += codesAt(leaf->code.data()) * gathered(light, Columns<stride>{leaf});
     }
   }
 }
@@ -144,6 +145,19 @@ RELUCENT_KERNEL void sendBack(const LeavesAbreast* leaves, std::size_t length, c
     for (std::size_t p = 0; p < parts; ++p) {
       const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
       addTo(sums, Columns<stride>{leaf}, codesAt(leaf->code.data()) * down.part[p]);
+    }
+}
+
+/// The same of two lights at once, which have their sums beside each other.
+template <std::size_t stride>
+RELUCENT_KERNEL void sendBothBack(const LeavesAbreast* leaves, std::size_t length, const Rows& down,
+                                  const Rows& downToo, float* sums) {
+  for (std::size_t k = 0; k < length; ++k)
+    for (std::size_t p = 0; p < parts; ++p) {
+      const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
+      const Wide codes = codesAt(leaf->code.data());
+      addTo(sums, Columns<stride>{leaf}, codes * down.part[p]);
+      addTo(sums + 4, Columns<stride>{leaf}, codes * downToo.part[p]);
     }
 }
 
@@ -189,6 +203,7 @@ struct GroupLight {
   static constexpr std::size_t most = GroupSlice::nobody + 1;
   alignas(64) float seen[4 * most];
   alignas(64) float back[4 * most];
+  alignas(64) float backToo[4 * most];  // of the second light
 };
 using GroupPlaces = Places<4, std::uint8_t>;
 
@@ -196,13 +211,14 @@ RELUCENT_KERNEL GroupPlaces placesOf(const GroupSlice::Each<std::uint8_t>& place
   return {&places[part * rowsOfAPart]};
 }
 
+template <std::size_t stride>
 RELUCENT_KERNEL void lightGroups(const PatchRows& patch, const PackedSquare& square, const float* light,
                                  GroupLight& groups) {
   store(groups.seen, Four{});
   for (std::size_t i = square.groupSliceBegin; i < square.groupSliceEnd; ++i) {
     const GroupSlice& slice = patch.groupSlice[i];
     Rows seen;
-    seenBy(patch.leaves + slice.leafBegin, slice.length, light, seen);
+    seenBy<stride>(patch.leaves + slice.leafBegin, slice.length, light, seen);
     for (std::size_t p = 0; p < parts; ++p)
       storeAt(groups.seen, placesOf(slice.place, p),
               eachRow(&slice.scale[p * rowsOfAPart]) * seen.part[p] +
@@ -211,32 +227,50 @@ RELUCENT_KERNEL void lightGroups(const PatchRows& patch, const PackedSquare& squ
 }
 
 /// Passes on what groups have got from their rows, the narrow ones first.
-template <std::size_t stride>
+template <bool both>
 RELUCENT_KERNEL void sendGroupsBack(const PatchRows& patch, const PackedSquare& square, GroupLight& groups,
                                     float* sums) {
   for (std::size_t i = square.groupSliceEnd; i-- > square.groupSliceBegin;) {
     const GroupSlice& slice = patch.groupSlice[i];
-    Rows down;
+    Rows down, downToo;
     for (std::size_t p = 0; p < parts; ++p) {
-      const Wide back = gathered(groups.back, placesOf(slice.place, p));
-      addTo(groups.back, placesOf(slice.parent, p), back);
-      down.part[p] = eachRow(&slice.scale[p * rowsOfAPart]) * back;
+      const GroupPlaces place = placesOf(slice.place, p), parent = placesOf(slice.parent, p);
+      const Wide scale = eachRow(&slice.scale[p * rowsOfAPart]), back = gathered(groups.back, place);
+      addTo(groups.back, parent, back);
+      down.part[p] = scale * back;
+      if constexpr (both) {
+        const Wide backToo = gathered(groups.backToo, place);
+        addTo(groups.backToo, parent, backToo);
+        downToo.part[p] = scale * backToo;
+      }
     }
-    sendBack<stride>(patch.leaves + slice.leafBegin, slice.length, down, sums);
+    if constexpr (both)
+      sendBothBack<correctionFloats>(patch.leaves + slice.leafBegin, slice.length, down, downToo, sums);
+    else
+      sendBack<stepFloats>(patch.leaves + slice.leafBegin, slice.length, down, sums);
   }
 }
 
-/// Through the leaves of rows and to their groups.
-template <std::size_t stride>
+/// Through the leaves of rows and to their groups. `lightToo`: a second light that goes the same way.
+template <bool both>
 RELUCENT_KERNEL void sendRowsBack(const PatchRows& patch, const RowSlice& slice, const Rows& light,
-                                  GroupLight& groups, float* sums) {
-  Rows down;
+                                  const Rows& lightToo, GroupLight& groups, float* sums) {
+  Rows down, downToo;
   for (std::size_t p = 0; p < parts; ++p) {
-    addTo(groups.back, placesOf(slice.group, p),
-          unmixedBack(mixingsAt(slice.shared, p), scalesAt(slice.shared, p) * light.part[p]));
-    down.part[p] = unmixedBack(mixingsAt(slice.own, p), scalesAt(slice.own, p) * light.part[p]);
+    const Mixings shared = mixingsAt(slice.shared, p), own = mixingsAt(slice.own, p);
+    const Wide sharedScale = scalesAt(slice.shared, p), ownScale = scalesAt(slice.own, p);
+    const GroupPlaces group = placesOf(slice.group, p);
+    addTo(groups.back, group, unmixedBack(shared, sharedScale * light.part[p]));
+    down.part[p] = unmixedBack(own, ownScale * light.part[p]);
+    if constexpr (both) {
+      addTo(groups.backToo, group, unmixedBack(shared, sharedScale * lightToo.part[p]));
+      downToo.part[p] = unmixedBack(own, ownScale * lightToo.part[p]);
+    }
   }
-  sendBack<stride>(patch.leaves + slice.leafBegin, slice.length, down, sums);
+  if constexpr (both)
+    sendBothBack<correctionFloats>(patch.leaves + slice.leafBegin, slice.length, down, downToo, sums);
+  else
+    sendBack<stepFloats>(patch.leaves + slice.leafBegin, slice.length, down, sums);
 }
 
 // Slices ahead of which values of camera pixels are fetched: they lie in squares, which no processor
@@ -256,14 +290,16 @@ RELUCENT_KERNEL void fetch(const PatchRows& patch, const CameraArrays& camera, s
   for (const std::size_t pixel : patch.rowSlice[slice].pixel) {
     __builtin_prefetch(camera.wanted + 4 * pixel);
     if constexpr (correct) __builtin_prefetch(camera.unmixed + 4 * pixel, 1);
+    if constexpr (correct) __builtin_prefetch(camera.lit + 4 * pixel);
   }
 }
 
 /// Of wanted light and weights, the weighted residuals.
+template <std::size_t stride>
 RELUCENT_KERNEL void residualsOf(const PatchRows& patch, const RowSlice& slice, const GroupLight& groups,
                                  const float* light, Rows& rows) {
   Rows seen;
-  seenBy(patch.leaves + slice.leafBegin, slice.length, light, seen);
+  seenBy<stride>(patch.leaves + slice.leafBegin, slice.length, light, seen);
   for (std::size_t p = 0; p < parts; ++p) {
     const Wide own = mixed(mixingsAt(slice.own, p), seen.part[p]);
     const Wide shared = mixed(mixingsAt(slice.shared, p), gathered(groups.seen, placesOf(slice.group, p)));
@@ -299,58 +335,51 @@ RELUCENT_KERNEL bool wantedOf(const RowSlice& slice, const float* wanted, Rows& 
   return sum > 0.0f;
 }
 
+/// Weights residuals of the correction as the objective does, and lit light alike.
+RELUCENT_KERNEL void weigh(const RowSlice& slice, const CameraArrays& camera, Rows& residual, Rows& lit) {
+  for (std::size_t p = 0; p < parts; ++p) {
+    const Places<4, std::uint32_t> at{&slice.pixel[p * rowsOfAPart]};
+    const Wide unmixed = gathered(camera.unmixed, at), held = gathered(camera.wanted, at);
+    const Wide sensitivity = RELUCENT_SHUFFLED(unmixed, unmixed, 3, 3, 3, 3);
+    residual.part[p] *= sensitivity;
+    lit.part[p] = sensitivity * RELUCENT_SHUFFLED(held, held, 3, 3, 3, 3) * gathered(camera.lit, at);
+  }
+}
+
 template <bool correct>
 RELUCENT_KERNEL void passOver(const PatchRows& patch, const CameraArrays& camera, float* columns) {
+  constexpr std::size_t stride = correct ? correctionFloats : stepFloats;
   const float* light = columns;
   float* sums = columns + 4;
   for (const PackedSquare& square : patch.squares) {
     GroupLight groups;
-    lightGroups(patch, square, light, groups);
+    lightGroups<stride>(patch, square, light, groups);
     std::memset(groups.back, 0, sizeof groups.back);
+    if constexpr (correct) std::memset(groups.backToo, 0, sizeof groups.backToo);
     // One slice behind: while one waits for its product, the former one's adjoint keeps the processor busy.
     const RowSlice* waiting = nullptr;
-    Rows residual;
+    Rows residual, lit;
     for (std::size_t i = square.rowSliceBegin; i < square.rowSliceEnd; ++i) {
       const RowSlice& slice = patch.rowSlice[i];
       if (i + fetchedAhead < patch.rowSlices) fetch<correct>(patch, camera, i + fetchedAhead);
-      Rows rows;
+      Rows rows, rowsLit;
       if (!wantedOf(slice, camera.wanted, rows)) {
         if constexpr (correct) unmix(slice, camera.unmix[i], Rows{}, camera.unmixed);
         continue;
       }
-      residualsOf(patch, slice, groups, light, rows);
-      if constexpr (correct) unmix(slice, camera.unmix[i], rows, camera.unmixed);
-      if (waiting != nullptr) sendRowsBack<stepFloats>(patch, *waiting, residual, groups, sums);
+      residualsOf<stride>(patch, slice, groups, light, rows);
+      if constexpr (correct) {
+        const Rows unweighted = rows;
+        weigh(slice, camera, rows, rowsLit);
+        unmix(slice, camera.unmix[i], unweighted, camera.unmixed);
+      }
+      if (waiting != nullptr) sendRowsBack<correct>(patch, *waiting, residual, lit, groups, sums);
       waiting = &slice;
       residual = rows;
+      if constexpr (correct) lit = rowsLit;
     }
-    if (waiting != nullptr) sendRowsBack<stepFloats>(patch, *waiting, residual, groups, sums);
-    sendGroupsBack<stepFloats>(patch, square, groups, sums);
-  }
-}
-
-RELUCENT_KERNEL void boundOf(const PatchRows& patch, const CameraArrays& camera, float only, float* sums) {
-  for (const PackedSquare& square : patch.squares) {
-    GroupLight groups;
-    bool isAnyLit = false;  // mostly none is
-    for (std::size_t i = square.rowSliceBegin; i < square.rowSliceEnd; ++i) {
-      const RowSlice& slice = patch.rowSlice[i];
-      alignas(64) float light[4 * rowsTogether];
-      bool isThisLit = false;
-      for (std::size_t row = 0; row < rowsTogether; ++row) {
-        const bool lit = camera.reach[slice.pixel[row]] == only;
-        const float* from = camera.lit + 3 * std::size_t{slice.pixel[row]};
-        store(light + 4 * row, lit ? Four{from[0], from[1], from[2], 0.0f} : Four{});
-        isThisLit |= lit;
-      }
-      if (!isThisLit) continue;
-      if (!isAnyLit) std::memset(groups.back, 0, sizeof groups.back);
-      isAnyLit = true;
-      Rows rows;
-      for (std::size_t p = 0; p < parts; ++p) rows.part[p] = loaded<Wide>(light + lanes * p);
-      sendRowsBack<sumFloats>(patch, slice, rows, groups, sums);
-    }
-    if (isAnyLit) sendGroupsBack<sumFloats>(patch, square, groups, sums);
+    if (waiting != nullptr) sendRowsBack<correct>(patch, *waiting, residual, lit, groups, sums);
+    sendGroupsBack<correct>(patch, square, groups, sums);
   }
 }
 
@@ -397,11 +426,13 @@ RELUCENT_KERNEL Four meanOver(const WarpTiles::Footprint& at, const std::uint16_
 struct Fitting {
   Mixings mixing;
   Wide offset, unreachable;
+  Wide luminance;  // shares of the channels over white; where light counts alike, 0
+  bool isHeld;     // no more is asked for than there is
 };
 
 /// Makes of content what is wanted of some camera pixels, and what the windows are given.
 RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const Fitting& fitting,
-                         const ContentTarget& target, float* counted) {
+                         const ContentTarget& target) {
   const Places<8, std::uint32_t> known{pixel};
   const Wide black = gathered(target.known, known), flood = gathered(target.known + 4, known);
   const Wide value = fitting.offset + mixed(fitting.mixing, content), wanted = value - black;
@@ -409,29 +440,39 @@ RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const 
   const WideIntegers reachable =
       within & RELUCENT_SHUFFLED(within, within, 1, 2, 0, 3) & RELUCENT_SHUFFLED(within, within, 2, 0, 1, 3);
   const Wide zero{}, view = RELUCENT_SHUFFLED(black, black, 3, 3, 3, 3), one = allLanes(1.0f);
-  const Wide share = reachable ? one : fitting.unreachable, weight = view * share;
+  const Wide share = reachable ? one : fitting.unreachable, ofWindows = view * share;
   const Wide most = flood > zero ? flood : zero, positive = wanted > zero ? wanted : zero;
   const Wide held = positive < most ? positive : most;
-  storeAt(target.wanted, Places<4, std::uint32_t>{pixel}, RELUCENT_SHUFFLED(wanted, weight, 0, 1, 2, 4));
-  storeAt(target.held, Places<4, std::uint32_t>{pixel}, RELUCENT_SHUFFLED(held, weight, 0, 1, 2, 4));
-  storeAt(target.unmixed, Places<4, std::uint32_t>{pixel}, unmixedOf(target.unmix, pixel, held));
-  if (target.placed != nullptr) storeAt(target.placed, Places<4, std::uint32_t>{pixel}, content);
-  // Of every row: whether it is usable, and whether it is reached too; its reach.
-  const Wide usable = view > zero ? one : zero, reached = reachable ? usable : zero;
-  store(counted,
-        RELUCENT_SHUFFLED(RELUCENT_SHUFFLED(usable, reached, 0, 4, 1, 5), usable * share, 0, 1, 4, 5));
+  const Wide lights = fitting.luminance * (held + black);
+  const Wide luminance = RELUCENT_SHUFFLED(lights, lights, 0, 0, 0, 0) +
+                         RELUCENT_SHUFFLED(lights, lights, 1, 1, 1, 1) +
+                         RELUCENT_SHUFFLED(lights, lights, 2, 2, 2, 2);
+  const Wide offset = allLanes(compensation::sensitivityOffset);
+  const Wide sensitivity =
+      fitting.isHeld ? (one + offset) / ((luminance < one ? luminance : one) + offset) : one;
+  const Places<4, std::uint32_t> at{pixel};
+  storeAt(target.wanted, at,
+          RELUCENT_SHUFFLED(fitting.isHeld ? held : wanted, sensitivity * ofWindows, 0, 1, 2, 4));
+  storeAt(target.held, at, RELUCENT_SHUFFLED(held, ofWindows, 0, 1, 2, 4));
+  const Wide unmixed = unmixedOf(target.unmix, pixel, held);
+  storeAt(target.unmixed, at, RELUCENT_SHUFFLED(unmixed, sensitivity, 0, 1, 2, 4));
+  if (target.placed != nullptr) storeAt(target.placed, at, content);
 }
 
 RELUCENT_KERNEL void placeTile(const WarpTiles& warp, const WarpTiles::Tile& tile, const float* part,
-                               const ContentTarget& target, TargetCounts& counts) {
-  Fitting fitting{{}, allLanes(target.offset), allLanes(target.unreachable)};
+                               const ContentTarget& target) {
+  Fitting fitting{{}, allLanes(target.offset), allLanes(target.unreachable), {}, target.perWhite > 0.0f};
+  alignas(64) float luminance[lanes];
+  for (std::size_t i = 0; i < lanes; ++i)
+    luminance[i] = i % 4 < 3 ? target.perWhite * compensation::luminanceShares[i % 4] : 0.0f;
+  fitting.luminance = loaded<Wide>(luminance);
   for (std::size_t k = 0; k < 3; ++k) {
     alignas(64) float column[lanes];
     for (std::size_t i = 0; i < lanes; ++i) column[i] = i % 4 < 3 ? target.mixing[3 * (i % 4) + k] : 0.0f;
     fitting.mixing.column[k] = loaded<Wide>(column);
   }
   for (std::size_t first = tile.begin; first < tile.end; first += rowsTogether) {
-    alignas(64) float mean[4 * rowsTogether], counted[4 * rowsTogether];
+    alignas(64) float mean[4 * rowsTogether];
     std::uint32_t pixel[rowsTogether];
     for (std::size_t i = 0; i < rowsTogether; ++i) {
       const WarpTiles::Footprint& footprint = warp.footprints[first + i];
@@ -439,12 +480,7 @@ RELUCENT_KERNEL void placeTile(const WarpTiles& warp, const WarpTiles::Tile& til
       store(mean + 4 * i, meanOver(footprint, warp.weights.data(), part, tile.width));
     }
     for (std::size_t p = 0; p < parts; ++p)
-      fit(pixel + p * rowsOfAPart, loaded<Wide>(mean + lanes * p), fitting, target, counted + lanes * p);
-    for (std::size_t i = 0; i < rowsTogether; ++i) target.reach[pixel[i]] = counted[4 * i + 2];
-    for (std::size_t i = 0; i < rowsTogether && first + i < tile.end; ++i) {
-      counts.usable += static_cast<std::size_t>(counted[4 * i]);
-      counts.reached += static_cast<std::size_t>(counted[4 * i + 1]);
-    }
+      fit(pixel + p * rowsOfAPart, loaded<Wide>(mean + lanes * p), fitting, target);
   }
 }
 
@@ -517,28 +553,21 @@ RELUCENT_KERNEL std::size_t updateAll(float* p, const float* c, const float* bac
   return static_cast<std::size_t>(all);
 }
 
-RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* part, float share,
-                                  float partShare, float least, std::size_t count) {
-  constexpr float rounding = 1e-6f;
+RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* least, std::size_t count) {
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
-    const Wide all = loaded<Wide>(bound + i), value = share * all + partShare * loaded<Wide>(part + i);
-    const Wide smallest = rounding * all > allLanes(least) ? rounding * all : allLanes(least);
-    store(c + i, value > smallest ? 1.0f / value : Wide{});
+    const Wide value = loaded<Wide>(bound + i);
+    store(c + i, value > loaded<Wide>(least + i) ? 1.0f / value : Wide{});
   }
-  for (; i < count; ++i) {
-    const float value = share * bound[i] + partShare * part[i];
-    const float smallest = rounding * bound[i] > least ? rounding * bound[i] : least;
-    c[i] = value > smallest ? 1.0f / value : 0.0f;
-  }
+  for (; i < count; ++i) c[i] = bound[i] > least[i] ? 1.0f / bound[i] : 0.0f;
 }
 
 #undef RELUCENT_IN_ROW
 #undef RELUCENT_SHUFFLED
 
 RELUCENT_FUNCTION void place(const WarpTiles& warp, const WarpTiles::Tile& tile, const float* part,
-                             const ContentTarget& target, TargetCounts& counts) {
-  placeTile(warp, tile, part, target, counts);
+                             const ContentTarget& target) {
+  placeTile(warp, tile, part, target);
 }
 
 RELUCENT_FUNCTION void window(const inverse::WindowArrays& windows, std::size_t tile, const float* unmixed,
@@ -554,20 +583,15 @@ RELUCENT_FUNCTION void correct(const PatchRows& patch, const CameraArrays& camer
   passOver<true>(patch, camera, columns);
 }
 
-RELUCENT_FUNCTION void bound(const PatchRows& patch, const CameraArrays& camera, float weight, float* sums) {
-  boundOf(patch, camera, weight, sums);
-}
-
 RELUCENT_FUNCTION std::size_t update(float* p, const float* c, const float* back, float length,
                                      std::size_t count) {
   return updateAll(p, c, back, length, count);
 }
 
-RELUCENT_FUNCTION void reciprocal(float* c, const float* bound, const float* part, float share,
-                                  float partShare, float least, std::size_t count) {
-  reciprocalOf(c, bound, part, share, partShare, least, count);
+RELUCENT_FUNCTION void reciprocal(float* c, const float* bound, const float* least, std::size_t count) {
+  reciprocalOf(c, bound, least, count);
 }
 
 constexpr EngineKernels kernelsFor(const char* instructions) {
-  return {instructions, place, window, step, correct, bound, update, reciprocal};
+  return {instructions, place, window, step, correct, update, reciprocal};
 }

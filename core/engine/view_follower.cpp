@@ -75,7 +75,6 @@ void ViewFollower::follow(std::span<const double> weights, EngineContent& conten
     asked.push_back(content.viewWeight.back() > 0.0f);
   }
   target_.viewWeight = content.viewWeight;
-  content.isWeighted = std::ranges::any_of(content.viewWeight, [](float weight) { return weight != 1.0f; });
   content.white = white_.at(content.viewWeight, engine_.settings.target.reachablePercentile);
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();

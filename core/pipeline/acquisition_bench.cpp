@@ -52,6 +52,7 @@ AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& tri
 
   Progress judging = progress.part(0.1, progress.stage());
   EvaluateSettings judged;
+  judged.target = compensation::TargetSettings::ofLight();
   judged.fewImages = true;
   judged.methods = {compensation::Method::windows, compensation::Method::refined};
   EvaluateResult result = evaluate(path, judged, cache, judging);
@@ -109,6 +110,7 @@ std::optional<AcquisitionBenchStop> stopped(const std::filesystem::path& path, i
     measureInverse(folder, measuredVenueOf(acquisition, {}), quiet);
   }
   EvaluateSettings judged;
+  judged.target = compensation::TargetSettings::ofLight();
   judged.fewImages = true;
   judged.methods = {compensation::Method::refined};
   result.refined = meanPsnr(evaluate(path, judged, cache, quiet), compensation::Method::refined);

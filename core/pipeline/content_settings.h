@@ -17,6 +17,7 @@ struct ContentSettings {
   compensation::Method method = compensation::Method::refined;
   double reachablePercentile = 15.0;  // as TargetSettings
   double blackLift = 0.0;
+  compensation::Objective objective = compensation::Objective::seen;
   compensation::Fit fit = compensation::Fit::fit;
   std::optional<compensation::Corners> corners;  // as TargetSettings
   std::vector<compensation::ViewSettings> views;

@@ -60,6 +60,13 @@ void timeInversions(const compensation::MeasuredVenue& venue, VenueInversion& re
              inverse::ClusterSolver::ridge, inverse::ClusterColour::full);
 }
 
+EvaluateSettings judgedByLight() {
+  EvaluateSettings settings;
+  settings.target = compensation::TargetSettings::ofLight();
+  settings.fewImages = true;
+  return settings;
+}
+
 /// dB per method, mean over the product's pictures.
 std::map<compensation::Method, double> qualityOf(const MeasuredCalibration& measured,
                                                  const EvaluateSettings& settings,
@@ -75,8 +82,7 @@ std::map<compensation::Method, double> qualityOf(const MeasuredCalibration& meas
 double clusterQuality(const MeasuredCalibration& measured, inverse::ClusterSolver solver,
                       inverse::ClusterColour colour, const std::filesystem::path& cache, Progress& progress) {
   const compensation::Method method = compensation::Method::clusters;
-  EvaluateSettings settings;
-  settings.fewImages = true;
+  EvaluateSettings settings = judgedByLight();
   settings.methods = {method};
   settings.compensator.clusterInverse.solver = solver;
   settings.compensator.clusterInverse.colour = colour;
@@ -105,7 +111,7 @@ VenueInversion inverted(const std::string& name, const std::filesystem::path& ca
   timeInversions(measured.venue, result, timing);
   Progress evaluating = progress.part(
       0.11, RELUCENT_MESSAGE("stage.comparing-methods-in-venue", "Comparing the methods in {}").with(name));
-  result.quality = qualityOf(measured, {}, cache, evaluating);
+  result.quality = qualityOf(measured, judgedByLight(), cache, evaluating);
   Progress comparing = progress.part(0.04, RELUCENT_MESSAGE("stage.comparing-cluster-inverses-in-venue",
                                                             "Comparing the inverses of clusters in {}")
                                                .with(name));

@@ -80,7 +80,8 @@ Shown shownIn(const compensation::MeasuredVenue& venue, double error, const Unre
   const compensation::Compensator compensator(venue, windows);
   Shown shown;
   for (const NamedImage& picture : pictures()) {
-    const compensation::Target target = fitTarget(picture.linear, venue, {});
+    const compensation::Target target =
+        fitTarget(picture.linear, venue, compensation::TargetSettings::ofLight());
     const compensation::Compensation compensation =
         compensator.solve(compensation::Method::refined, target, progress);
     const compensation::Prediction seen = predict(venue, target, compensation);

@@ -124,6 +124,7 @@ class Measurement {
 
   void judge(Progress& progress) {
     EvaluateSettings judged;
+    judged.target = compensation::TargetSettings::ofLight();
     judged.fewImages = true;
     judged.methods = {compensation::Method::windows, compensation::Method::refined};
     const EvaluateResult result = evaluate(calibration_, judged, cache_, progress);

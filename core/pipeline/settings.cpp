@@ -161,6 +161,7 @@ compensation::TargetSettings targetOf(const ContentSettings& settings) {
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
   target.blackLift = settings.blackLift;
+  target.objective = settings.objective;
   return target;
 }
 

@@ -40,7 +40,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ClusteringSettings, leastLuminan
 
 namespace relucent::pipeline {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContentSettings, picture, method, reachablePercentile,
-                                                blackLift, fit)
+                                                blackLift, objective, fit)
 }  // namespace relucent::pipeline
 
 namespace relucent::venue {

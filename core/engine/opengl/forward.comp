@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One camera pixel an invocation: its residual W (wanted - T p), and what of that goes back to its own leaves and
 // to its group, mixings included. With CORRECTION the light wanted is held to what there is, W T 1 goes back beside it, and
-// the residual is unmixed for the windows.
+// the residual is unmixed for the windows, which know of no sensitivity.
 layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first column
 layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
 layout(std430, binding = 2) readonly buffer ColumnLight { uvec2 columnLight[]; };
@@ -10,7 +10,7 @@ layout(std430, binding = 4) readonly buffer Wanted { vec4 wanted[]; };
 #ifdef CORRECTION
 layout(std430, binding = 5) writeonly buffer Back { uvec4 back[]; };
 layout(std430, binding = 6) readonly buffer Camera { vec4 camera[]; };
-layout(std430, binding = 7) writeonly buffer Unmixed { vec4 unmixed[]; };
+layout(std430, binding = 7) buffer Unmixed { vec4 unmixed[]; };  // see place.comp
 #else
 layout(std430, binding = 5) writeonly buffer Back { uvec2 back[]; };
 #endif
@@ -65,7 +65,7 @@ void main() {
   back[to] = uvec4(packFloats(ownMixing * residual), packFloats(ownMixing * lit));
   back[to + 1u] = uvec4(packFloats(sharedMixing * residual), packFloats(sharedMixing * lit));
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
-  unmixed[pixel] = vec4(unmix * residual, 0.0);
+  unmixed[pixel] = vec4(unmix * residual / unmixed[pixel].w, 0.0);
 #else
   vec3 residual = want.w * (want.xyz - seen);
   back[to] = packFloats(ownMixing * residual);

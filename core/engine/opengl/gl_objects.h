@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -80,6 +81,9 @@ class GlProgram {
   void set(int location, float value) const noexcept { glProgramUniform1f(name_, location, value); }
   void set(int location, std::uint32_t x, std::uint32_t y) const noexcept {
     glProgramUniform2ui(name_, location, x, y);
+  }
+  void set(int location, const std::array<float, 3>& value) const noexcept {
+    glProgramUniform3f(name_, location, value[0], value[1], value[2]);
   }
   void setPairs(int location, std::span<const std::uint32_t> values) const noexcept {
     glProgramUniform2uiv(name_, location, static_cast<GLsizei>(values.size() / 2), values.data());

@@ -4,8 +4,8 @@ layout(std430, binding = 0) readonly buffer Content { uint content[]; };
 layout(std430, binding = 1) readonly buffer Footprints { uint footprint[]; };  // 5 words a camera pixel
 layout(std430, binding = 2) readonly buffer Weights { uint weightPair[]; };
 layout(std430, binding = 3) readonly buffer Camera { vec4 camera[]; };
-layout(std430, binding = 4) writeonly buffer Wanted { vec4 wanted[]; };  // less black; and the weight
-layout(std430, binding = 5) writeonly buffer Unmixed { vec4 unmixed[]; };
+layout(std430, binding = 4) writeonly buffer Wanted { vec4 wanted[]; };  // what is asked for; and the weight
+layout(std430, binding = 5) writeonly buffer Unmixed { vec4 unmixed[]; };  // and the sensitivity
 layout(std430, binding = 6) writeonly buffer Placed { vec4 placed[]; };
 layout(std430, binding = 7) readonly buffer LinearOfSrgb { float linearOfSrgb[]; };
 
@@ -16,6 +16,10 @@ layout(location = 3) uniform float white;
 layout(location = 4) uniform float lift;
 layout(location = 5) uniform float unreachableWeight;
 layout(location = 6) uniform mat3 mixing;
+// Shares of the channels over white, if errors count as they are seen, and what that scale is offset by.
+layout(location = 7) uniform vec3 luminance;
+layout(location = 8) uniform float sensitivityOffset;
+layout(location = 9) uniform bool isHeld;
 
 const uint rgb8 = 0u, rgba8 = 1u, bgra8 = 2u;
 
@@ -64,7 +68,11 @@ void main() {
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);
-  wanted[i] = vec4(rest, weightOf(black.w, known.w) * (reachable ? 1.0 : unreachableWeight));
+  vec3 held = clamp(rest, vec3(0.0), max(flood, vec3(0.0)));
+  float sensitivity = 1.0;
+  if (isHeld) sensitivity = (1.0 + sensitivityOffset) / (min(dot(luminance, held + black.xyz), 1.0) + sensitivityOffset);
+  float share = weightOf(black.w, known.w) * (reachable ? 1.0 : unreachableWeight);
+  wanted[i] = vec4(isHeld ? held : rest, sensitivity * share);
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
-  unmixed[i] = vec4(unmix * clamp(rest, vec3(0.0), max(flood, vec3(0.0))), 0.0);
+  unmixed[i] = vec4(unmix * held, sensitivity);
 }

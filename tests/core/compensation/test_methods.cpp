@@ -6,6 +6,8 @@
 #include <map>
 
 #include "core/inverse/synthetic_transport.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/metrics.h"
 
 using namespace relucent;
 using namespace relucent::clustering;
@@ -49,6 +51,12 @@ struct Prepared {
 
 class TestMethods : public QObject {
   Q_OBJECT
+
+  static void methodsThatWeigh() {
+    QTest::addColumn<Method>("method");
+    for (Method method : {Method::windows, Method::refined, Method::optimum})
+      QTest::addRow("%s", std::string(nameOf(method)).c_str()) << method;
+  }
 
  private slots:
   void namesAndMethodsMatch() {
@@ -97,6 +105,52 @@ class TestMethods : public QObject {
     QVERIFY(mean[Method::refined] > mean[Method::windows]);
     QVERIFY(mean[Method::optimum] >= mean[Method::refined]);
     QVERIFY(mean[Method::optimum] < mean[Method::refined] + 2.5);
+  }
+
+  void objectivesAgreeWhereAllIsAlike_data() { methodsThatWeigh(); }
+  /// Where everything counts as much and can be had, it does not matter how much it counts.
+  void objectivesAgreeWhereAllIsAlike() {
+    QFETCH(Method, method);
+    Prepared prepared(SceneSettings{});
+    TargetSettings settings;
+    settings.reachablePercentile = 0.0;
+    const Image grey({80, 60}, 3, 0.5f);
+    const Compensator compensator(prepared.venue, prepared.inverse);
+    const ProjectorStack seen =
+        compensator.solve(method, fitTarget(grey, prepared.venue, settings), quiet).projector;
+    settings.objective = Objective::light;
+    const ProjectorStack light =
+        compensator.solve(method, fitTarget(grey, prepared.venue, settings), quiet).projector;
+    // Rounding, which T^T attenuates to a few thousandths of C's largest values.
+    for (std::size_t j = 0; j < seen.size(); ++j) QVERIFY(std::abs(seen[j] - light[j]) < 2e-3f);
+  }
+
+  void whatCountsIsSeen_data() { methodsThatWeigh(); }
+  /// The dark gains more than the bright loses: what people see comes nearer to what was wanted.
+  void whatCountsIsSeen() {
+    QFETCH(Method, method);
+    double gained = 0.0;
+    for (std::uint64_t seed : {1, 2, 3}) {
+      SceneSettings s;
+      s.seed = seed;
+      Prepared prepared(s);
+      Image content = makeContent(Content::text, {80, 60}, seed);
+      for (float& value : content.data()) value *= value;  // more of it dark
+      const auto encodedError = [&](Objective objective) {
+        TargetSettings settings;
+        settings.objective = objective;
+        const Target target = fitTarget(content, prepared.venue, settings);
+        const ProjectorStack p =
+            Compensator(prepared.venue, prepared.inverse).solve(method, target, quiet).projector;
+        CameraStack is = prepared.venue.transport.apply(p);
+        for (std::size_t i = 0; i < is.size(); ++i) is[i] += prepared.venue.black[i];
+        const Rasters& cameras = prepared.venue.transport.cameras();
+        return psnr(viewed(imageFromStack(is, cameras, 0), target.white),
+                    viewed(imageFromStack(target.wanted, cameras, 0), target.white), 1.0, target.inside);
+      };
+      gained += (encodedError(Objective::seen) - encodedError(Objective::light)) / 3.0;
+    }
+    QVERIFY2(gained > 0.2, qPrintable(QString("%1 dB").arg(gained)));
   }
 
   void perPixelMethodsAreExactWithoutSpread_data() {

@@ -245,14 +245,20 @@ class TestTarget : public QObject {
 
   void greyStaysGreyAndWhiteIsReachable_data() {
     QTest::addColumn<double>("percentile");
-    for (double percentile : {0.0, 15.0, 50.0}) QTest::addRow("%g", percentile) << percentile;
+    QTest::addColumn<Objective>("objective");
+    for (double percentile : {0.0, 15.0, 50.0})
+      for (Objective objective : allValues<Objective>())
+        QTest::addRow("%g, %s", percentile, std::string(nameOf(objective)).c_str())
+            << percentile << objective;
   }
   void greyStaysGreyAndWhiteIsReachable() {
     QFETCH(double, percentile);
+    QFETCH(Objective, objective);
     Scene scene = makeScene({});
     MeasuredVenue venue = venueOf(scene);
     TargetSettings settings;
     settings.reachablePercentile = percentile;
+    settings.objective = objective;
     Target target = fitTarget(Image({40, 30}, 3, 1.0f), venue, settings);
     double dark = 0.0, inside = 0.0;
     for (std::size_t i = 0; i < target.inside.size(); ++i) {
@@ -265,10 +271,60 @@ class TestTarget : public QObject {
       }
       inside += 1.0;
       dark += target.reachable[i] ? 0.0 : 1.0;
-      QCOMPARE(target.weight[i], target.reachable[i] ? 1.0f : 0.1f);
+      const float unreachable = objective == Objective::light ? 0.1f : 0.5f;
+      QCOMPARE(target.windowsWeight[i], target.reachable[i] ? 1.0f : unreachable);
     }
     QVERIFY2(std::abs(100.0 * dark / inside - percentile) < 1.0,
              qPrintable(QString::number(100.0 * dark / inside)));
+  }
+
+  void sensitivityIsTheSlopeOfTheScale() {
+    // (d/dY sqrt(Y + a))^2, relative to white; what is brighter than white is as white.
+    for (float y : {0.0f, 0.01f, 0.2f, 0.7f}) {
+      const auto slope = [](double at) {
+        constexpr double step = 1e-4, a = sensitivityOffset;
+        return (std::sqrt(at + step + a) - std::sqrt(at - step + a)) / (2.0 * step);
+      };
+      const double expected = std::pow(slope(static_cast<double>(y)) / slope(1.0), 2);
+      QVERIFY(std::abs(static_cast<double>(sensitivity(y)) / expected - 1.0) < 1e-4);
+    }
+    QCOMPARE(sensitivity(1.0f), 1.0f);
+    QCOMPARE(sensitivity(7.0f), 1.0f);
+  }
+
+  /// Nobody asks for what cannot be had, and the dark counts more than the bright.
+  void objectivesAskForWhatTheySay() {
+    const MeasuredVenue venue = venueOf(makeScene({}));
+    Image content = makeContent(Content::natural, {40, 30}, 4);
+    for (std::size_t i = 0; i < content.data().size(); i += 7) content.data()[i] = 0.0f;
+    TargetSettings settings;
+    settings.reachablePercentile = 40.0;
+    const Target seen = fitTarget(content, venue, settings);
+    settings.objective = Objective::light;
+    const Target light = fitTarget(content, venue, settings);
+    QVERIFY(seen.wanted == light.wanted && seen.reachable == light.reachable);
+    QVERIFY(light.weight == light.windowsWeight);
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < seen.asked.size(); ++i) {
+      if (!seen.inside[i / 3]) continue;
+      QCOMPARE(light.asked[i], light.wanted[i] - venue.black[i]);
+      QVERIFY(seen.asked[i] >= 0.0f && seen.asked[i] <= venue.flood[i]);
+      if (seen.reachable[i / 3])
+        QCOMPARE(seen.asked[i], light.asked[i]);
+      else
+        held += seen.asked[i] != light.asked[i];
+    }
+    QVERIFY(held > 0);
+    for (std::size_t i = 0; i < seen.weight.size(); ++i) {
+      if (!(seen.windowsWeight[i] > 0.0f)) {
+        QCOMPARE(seen.weight[i], 0.0f);
+        continue;
+      }
+      float luminance = 0.0f;
+      for (std::size_t c = 0; c < 3; ++c)
+        luminance += luminanceShares[c] * (seen.asked[3 * i + c] + venue.black[3 * i + c]) / seen.white[c];
+      QVERIFY(std::abs(seen.weight[i] / (seen.windowsWeight[i] * sensitivity(luminance)) - 1.0f) < 1e-5f);
+    }
   }
 
   void blackIsLifted() {

@@ -130,7 +130,7 @@ inline const std::vector<std::string>& engineSceneNames() {
   static const std::vector<std::string> names{
       "wall",         "defocus",      "coarse tiles",     "several devices", "several views",
       "single pixel", "holes",        "neighbours share", "several share",   "two views",
-      "weights",      "own pictures", "one asks"};
+      "weights",      "own pictures", "one asks",         "light",           "weights of light"};
   return names;
 }
 
@@ -141,10 +141,17 @@ inline EngineScene engineSceneOf(const std::string& name) {
     venue.views = compensation::viewMap(venue.transport, venue.usable);
     return engineScene(std::move(venue));
   }
-  if (name == "two views" || name == "weights" || name == "own pictures" || name == "one asks") {
+  if (name == "light") {
+    EngineScene scene = engineScene(venueOf(makeScene({})));
+    scene.target = compensation::TargetSettings::ofLight();
+    return scene;
+  }
+  if (name == "two views" || name == "weights" || name == "own pictures" || name == "one asks" ||
+      name == "weights of light") {
     EngineScene scene = engineScene(twoViews());
     std::vector<compensation::ViewSettings>& views = scene.target.views;
-    if (name == "weights") views = {{0.3, {}, {}}, {1.0, {}, {}}};
+    if (name == "weights of light") scene.target = compensation::TargetSettings::ofLight();
+    if (name == "weights" || name == "weights of light") views = {{0.3, {}, {}}, {1.0, {}, {}}};
     if (name == "own pictures") {
       scene.target.corners = compensation::Corners{{{5, 3}, {35, 4}, {33, 25}, {6, 24}}};
       views = {{1.0, {}, {}}, {0.5, compensation::ViewPlacement::own, {}}};

@@ -163,6 +163,7 @@ class TestSettingsJson : public QObject {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QByteArray>("known");
     QTest::newRow("method") << QByteArray(R"({"content":{"method":"magic"}})") << QByteArray("refined");
+    QTest::newRow("objective") << QByteArray(R"({"content":{"objective":"guess"}})") << QByteArray("light");
     QTest::newRow("fit") << QByteArray(R"({"content":{"fit":"stretch"}})") << QByteArray("cover");
     QTest::newRow("scheme") << QByteArray(R"({"acquisition":{"scheme":"magic"}})") << QByteArray("adaptive");
     QTest::newRow("colours") << QByteArray(R"({"acquisition":{"colours":"blue"}})") << QByteArray("white");

@@ -123,6 +123,9 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option("--black-lift", target.blackLift, "Share of white added to black")
       ->type_name("SHARE")
       ->capture_default_str();
+  addNamed(sub, "--brightness", "How bright white is where: " + listOfNames<compensation::Brightness>(),
+           target.brightness)
+      ->type_name("BRIGHTNESS");
   addNamed(sub, "--objective", "Which errors count: " + listOfNames<compensation::Objective>(),
            target.objective)
       ->type_name("OBJECTIVE");

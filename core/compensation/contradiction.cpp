@@ -51,8 +51,8 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
   };
   const auto errorOf = [&](const CameraStack& seen, std::size_t camera, const CameraMask& mask) {
     return image::deltaEMap(
-        image::viewed(image::imageFromStack(seen, cameras, camera), target.white),
-        image::viewed(image::imageFromStack(target.wanted, cameras, camera), target.white), mask);
+        image::viewed(underEvenWhite(seen, target, cameras, camera), target.white),
+        image::viewed(underEvenWhite(target.wanted, target, cameras, camera), target.white), mask);
   };
 
   const CameraStack together = seenWith(target.weight);

@@ -24,8 +24,8 @@ ViewError errorIn(std::size_t camera, const CameraStack& camerasSee, const Targe
   std::size_t pixels = cameras.size(camera).count(), offset = cameras.offset(camera);
   std::span<const std::uint8_t> inside(target.inside.data() + offset, pixels),
       reachable(target.reachable.data() + offset, pixels);
-  image::Image seen = image::imageFromStack(camerasSee, cameras, camera),
-               wanted = image::imageFromStack(target.wanted, cameras, camera);
+  image::Image seen = underEvenWhite(camerasSee, target, cameras, camera),
+               wanted = underEvenWhite(target.wanted, target, cameras, camera);
   error.deltaE =
       image::deltaEMap(image::viewed(seen, target.white), image::viewed(wanted, target.white), inside);
   auto covered =

@@ -154,27 +154,47 @@ Message cornerProblem(const Corners& corners) {
 
 /// Content into a camera's view, as its placement has it.
 void placeInView(const image::Image& content, const MeasuredVenue& venue, std::size_t camera,
-                 Target& target) {
-  const Placed placed = place(content, *target.placements[camera], viewOf(venue, camera));
+                 const Placement& placement, CameraStack& to, CameraMask& inside) {
+  const Placed placed = place(content, placement, viewOf(venue, camera));
   const auto first = static_cast<std::ptrdiff_t>(venue.transport.cameras().offset(camera));
-  std::ranges::copy(placed.inside, target.inside.begin() + first);
-  std::ranges::copy(placed.image.data(), target.content.begin() + 3 * first);
+  std::ranges::copy(placed.inside, inside.begin() + first);
+  std::ranges::copy(placed.image.data(), to.begin() + 3 * first);
 }
 
 /// Content and what it covers, from the first camera's view into another.
-void lieOnSurface(const MeasuredVenue& venue, std::size_t camera, Target& target) {
+void lieOnSurface(const MeasuredVenue& venue, std::size_t camera, CameraStack& to, CameraMask& covered) {
   const Size view = viewOf(venue, 0);
-  const CameraMask inside(target.inside.begin(),
-                          target.inside.begin() + static_cast<std::ptrdiff_t>(view.count()));
+  const CameraMask inside(covered.begin(), covered.begin() + static_cast<std::ptrdiff_t>(view.count()));
   const std::size_t begin = venue.transport.cameras().offset(camera);
   parallelFor(begin, begin + viewOf(venue, camera).count(), 1024, [&](std::size_t i) {
     const std::optional<ViewSample> sample = sampleAt(venue.views[i], view, inside);
     if (!sample) return;
-    target.inside[i] = 1;
+    covered[i] = 1;
     for (std::size_t k = 0; k < sample->pixel.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        target.content[3 * i + c] += sample->share[k] * target.content[3 * sample->pixel[k] + c];
+      for (std::size_t c = 0; c < 3; ++c) to[3 * i + c] += sample->share[k] * to[3 * sample->pixel[k] + c];
   });
+}
+
+/// Gains of white, per camera pixel.
+std::vector<float> gainsOf(const MeasuredVenue& venue, const Target& target,
+                           const transport::ColourBlock& mixing, Brightness way, double aspect) {
+  const CameraStack places = placesInContent(venue, target);
+  const Rasters& cameras = venue.transport.cameras();
+  std::vector<float> weight(target.inside.size());
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+    for (std::size_t i = cameras.offset(camera); i < cameras.offset(camera) + cameras.size(camera).count();
+         ++i)
+      weight[i] = venue.usable[i] != 0 ? target.viewWeight[camera] : 0.0f;
+  BrightnessSamples samples(venue, target.inside, weight, places, target.white[0]);
+  const BrightnessField field = BrightnessFit(way, aspect).fit(samples.of([&](std::size_t i) {
+    const Eigen::Vector3f mixed = mixing * Eigen::Map<const Eigen::Vector3f>(&target.content[3 * i]);
+    return std::array{mixed[0], mixed[1], mixed[2]};
+  }));
+  std::vector<float> gain(target.inside.size(), 1.0f);
+  parallelFor(0, gain.size(), 1024, [&](std::size_t i) {
+    if (target.inside[i] != 0) gain[i] = field.gain(places[3 * i], places[3 * i + 1]);
+  });
+  return gain;
 }
 
 }  // namespace
@@ -238,6 +258,56 @@ float unreachableWeightOf(const TargetSettings& settings) {
   return static_cast<float>(settings.unreachableWeight.value_or(ofObjective));
 }
 
+image::Image underEvenWhite(const CameraStack& stack, const Target& target, const Rasters& cameras,
+                            std::size_t camera) {
+  image::Image image = image::imageFromStack(stack, cameras, camera);
+  if (target.gain.empty()) return image;
+  const float* gain = &target.gain[cameras.offset(camera)];
+  for (std::size_t i = 0; i < image.data().size(); ++i) image.data()[i] /= gain[i / 3];
+  return image;
+}
+
+CameraStack placesInContent(const MeasuredVenue& venue, const Target& target) {
+  constexpr Size steps{256, 256};
+  image::Image ramps(steps, 3);
+  for (int y = 0; y < steps.height; ++y)
+    for (int x = 0; x < steps.width; ++x) {
+      ramps.at(x, y, 0) = (static_cast<float>(x) + 0.5f) / static_cast<float>(steps.width);
+      ramps.at(x, y, 1) = (static_cast<float>(y) + 0.5f) / static_cast<float>(steps.height);
+    }
+  CameraStack places(3 * venue.usable.size(), 0.0f);
+  CameraMask inside(venue.usable.size(), 0);
+  for (std::size_t camera = 0; camera < target.placements.size(); ++camera)
+    if (target.placements[camera])
+      placeInView(ramps, venue, camera, *target.placements[camera], places, inside);
+    else if (!venue.views.empty())
+      lieOnSurface(venue, camera, places, inside);
+  return places;
+}
+
+BrightnessSamples::BrightnessSamples(const MeasuredVenue& venue, const CameraMask& inside,
+                                     const std::vector<float>& weightOfPixel, const CameraStack& place,
+                                     float white) {
+  constexpr std::size_t mostSamples = 4096;
+  std::vector<std::size_t> pixels;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i] != 0 && weightOfPixel[i] > 0.0f) pixels.push_back(i);
+  const std::size_t count = std::min(pixels.size(), mostSamples);
+  for (std::size_t sample = 0; sample < count; ++sample) {
+    const std::size_t i = pixels[sample * pixels.size() / count];
+    pixel_.push_back(i);
+    BrightnessSample one;
+    one.u = place[3 * i];
+    one.v = place[3 * i + 1];
+    one.weight = weightOfPixel[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      one.least[c] = venue.black[3 * i + c] / white;
+      one.most[c] = (venue.black[3 * i + c] + std::max(0.0f, venue.flood[3 * i + c])) / white;
+    }
+    samples_.push_back(one);
+  }
+}
+
 bool hasOwnPictures(const Target& target) {
   return std::any_of(target.placements.begin() + 1, target.placements.end(),
                      [](const auto& placement) { return placement.has_value(); });
@@ -276,9 +346,9 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     if (camera == 0 || views[camera].placement == ViewPlacement::own) {
       target.placements[camera] = placementOf(
           linearContent, venue, camera, camera == 0 ? settings.corners : views[camera].corners, settings.fit);
-      placeInView(linearContent, venue, camera, target);
+      placeInView(linearContent, venue, camera, *target.placements[camera], target.content, target.inside);
     } else if (!venue.views.empty()) {
-      lieOnSurface(venue, camera, target);
+      lieOnSurface(venue, camera, target.content, target.inside);
     }
   }
   target.corners = target.placements.front()->corners;
@@ -289,6 +359,9 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   auto lift = static_cast<float>(settings.blackLift);
   const float unreachableWeight = unreachableWeightOf(settings);
   target.wanted = venue.black;
+  if (settings.brightness != Brightness::even)
+    target.gain = gainsOf(venue, target, mixing, settings.brightness,
+                          static_cast<double>(linearContent.width()) / linearContent.height());
   target.asked.assign(3 * pixels, 0.0f);
   target.reachable.assign(pixels, 0);
   target.weight.assign(pixels, 0.0f);
@@ -297,7 +370,8 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     if (!target.inside[i]) return;
     Eigen::Map<const Eigen::Vector3f> content(&target.content[3 * i]);
     Eigen::Map<Eigen::Vector3f> wanted(&target.wanted[3 * i]);
-    wanted = white * (lift + (1.0f - lift) * (mixing * content).array());
+    wanted = white * (target.gain.empty() ? 1.0f : target.gain[i]) *
+             (lift + (1.0f - lift) * (mixing * content).array());
     Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
     Eigen::Map<Eigen::Vector3f> asked(&target.asked[3 * i]);
     asked = wanted - black;
@@ -309,8 +383,9 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     target.windowsWeight[i] = weight * (reachable ? 1.0f : unreachableWeight);
     target.weight[i] = target.windowsWeight[i];
     if (settings.objective == Objective::seen)
-      target.weight[i] *= sensitivity(Eigen::Vector3f((asked + black) / white)
-                                          .dot(Eigen::Map<const Eigen::Vector3f>(luminanceShares.data())));
+      target.weight[i] *=
+          sensitivity(Eigen::Vector3f((asked + black) / white)
+                          .dot(Eigen::Map<const Eigen::Vector3f>(image::luminanceWeights.data())));
   };
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera);

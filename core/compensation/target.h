@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "relucent/base/message.h"
+#include "relucent/compensation/brightness.h"
 #include "relucent/compensation/placement.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/compensation/views.h"
+#include "relucent/image/colour.h"
 #include "relucent/image/image.h"
 #include "relucent/transport/transport_matrix.h"
 
@@ -72,6 +74,7 @@ struct TargetSettings {
   Fit fit = Fit::fill;                // if content and corners differ in aspect ratio
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
   double blackLift = 0.0;             // share of white added to black
+  Brightness brightness = Brightness::even;
   Objective objective = Objective::seen;
   /// Weight of unreachable pixels; none: as the objective has it.
   std::optional<double> unreachableWeight{};
@@ -96,7 +99,9 @@ struct Target {
   std::vector<float> weight;
   std::vector<float> windowsWeight;  // the same without sensitivity, for what M corrects
   std::array<float, 3> white{};      // wanted signal of the content's white: the peak for PSNR
-  Corners corners{};                 // where the content was placed: within the quadrilateral for Fit::fit
+  /// Per camera pixel, of white there: who adapts to the picture sees signals over white and gain. Empty: 1.
+  std::vector<float> gain{};
+  Corners corners{};  // where the content was placed: within the quadrilateral for Fit::fit
   /// Per camera: where the content was placed in its own view; none: it lies on the surface.
   std::vector<std::optional<Placement>> placements{};
   std::vector<float> viewWeight{};  // per camera, of its view; the largest is 1
@@ -109,10 +114,35 @@ float unreachableWeightOf(const TargetSettings& settings);
 ///   s = (1 + a) / (Y + a),   Y = 0.2126 r + 0.7152 g + 0.0722 b, at most 1,   a = 0.1
 /// the squared slope of the scale sqrt(Y + a), 1 at white.  Source: core/compensation/README.md.
 inline constexpr float sensitivityOffset = 0.1f;
-inline constexpr std::array luminanceShares{0.2126f, 0.7152f, 0.0722f};
 inline float sensitivity(float luminance) {
   return (1.0f + sensitivityOffset) / ((luminance < 1.0f ? luminance : 1.0f) + sensitivityOffset);
 }
+
+/// One camera's part of a stack, over the gain of white: to be compared and viewed under Target::white.
+image::Image underEvenWhite(const CameraStack& stack, const Target& target, const Rasters& cameras,
+                            std::size_t camera);
+
+/// The colours of pixels and their limits, of which the gains of white are found: at most some thousands, on
+/// a regular grid.  `place`: u and v in the content, three values a camera pixel, the third unused.
+class BrightnessSamples {
+ public:
+  BrightnessSamples(const MeasuredVenue& venue, const CameraMask& inside,
+                    const std::vector<float>& weightOfPixel, const CameraStack& place, float white);
+  /// Takes a pixel's colour, mixed as the venue mixes it.
+  template <typename ColourAt>
+  const std::vector<BrightnessSample>& of(const ColourAt& mixedAt) {
+    for (std::size_t sample = 0; sample < pixel_.size(); ++sample)
+      samples_[sample].wanted = mixedAt(pixel_[sample]);
+    return samples_;
+  }
+
+ private:
+  std::vector<std::size_t> pixel_;
+  std::vector<BrightnessSample> samples_;
+};
+
+/// Where in the content, of size one by one, each camera pixel inside looks: u and v, and 0.
+CameraStack placesInContent(const MeasuredVenue& venue, const Target& target);
 
 /// Whether a view beyond the first has a quadrilateral of its own.
 bool hasOwnPictures(const Target& target);
@@ -123,7 +153,7 @@ bool hasOwnPictures(const Target& target);
 transport::ColourBlock meanColourMixing(const MeasuredVenue& venue);
 
 /// Places and scales linear content (three channels, values 0 to 1) to the target of the first camera:
-///   wanted = white * (lift + (1 - lift) K content).
+///   wanted = white * gain * (lift + (1 - lift) K content),   gain by Brightness, 1 where it is even.
 /// In the views of other cameras it lies on the surface where the first one sees it (MeasuredVenue::views),
 /// or in a quadrilateral of their own. White is the same signal in all channels and views: as bright as
 /// `reachablePercentile` allows, that is so bright that this share of the usable pixels inside, each with its

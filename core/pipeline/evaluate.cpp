@@ -132,7 +132,8 @@ class Judge {
   MethodScore score(compensation::Method method, const CameraStack& seen, const compensation::Target& target,
                     const CameraMask& reachable, std::size_t camera) const {
     const CameraMask inside = view(target.inside, camera), mask = view(reachable, camera);
-    const image::Image wanted = view(target.wanted, camera), is = view(seen, camera);
+    const image::Image wanted = underEvenWhite(target.wanted, target, rasters_, camera),
+                       is = underEvenWhite(seen, target, rasters_, camera);
 
     MethodScore result;
     result.method = method;

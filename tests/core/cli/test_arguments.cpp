@@ -164,7 +164,8 @@ class TestArguments : public QObject {
   void otherCommandsTakeTheirOptions() {
     Compensate compensate = parsed<Compensate>(
         "compensate d --image a.png --out o --method mix --corners 1 2 3 4 5 6 7 8 --black-lift 0.02 "
-        "--dark-share 5 --fit cover --solver descent --objective light");
+        "--dark-share 5 --fit cover --solver descent --objective light "
+        "--brightness region");
     QVERIFY(compensate.settings.target.fit == Fit::cover);
     QVERIFY(compensate.settings.solver == SolverSettings::Algorithm::steepestDescent);
     QVERIFY(compensate.settings.method == Method::mix);
@@ -173,6 +174,7 @@ class TestArguments : public QObject {
     QCOMPARE(compensate.settings.target.blackLift, 0.02);
     QCOMPARE(compensate.settings.target.reachablePercentile, 5.0);
     QVERIFY(compensate.settings.target.objective == Objective::light);
+    QVERIFY(compensate.settings.target.brightness == Brightness::region);
 
     Compensate views = parsed<Compensate>(
         "compensate d --image a.png --out o --view-weights 0.5 1 0 --view-corners 2:auto "

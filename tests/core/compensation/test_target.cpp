@@ -322,7 +322,7 @@ class TestTarget : public QObject {
       }
       float luminance = 0.0f;
       for (std::size_t c = 0; c < 3; ++c)
-        luminance += luminanceShares[c] * (seen.asked[3 * i + c] + venue.black[3 * i + c]) / seen.white[c];
+        luminance += image::luminanceWeights[c] * (seen.asked[3 * i + c] + venue.black[3 * i + c]) / seen.white[c];
       QVERIFY(std::abs(seen.weight[i] / (seen.windowsWeight[i] * sensitivity(luminance)) - 1.0f) < 1e-5f);
     }
   }

@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "relucent/base/error.h"
-#include "relucent/image/colour.h"
 
 namespace relucent::engine {
 namespace {
 
-constexpr std::size_t mostSamples = 4096;
 // What is left of a way when it counts as gone: less than one code of a projector's 8 bits.
 constexpr float nearBrightness = 0.002f, nearLift = 0.0005f;
 
@@ -93,21 +91,11 @@ DisplayRange demandedRange(const std::vector<Reach>& reach, const std::vector<st
 
 AdaptiveRange::AdaptiveRange(const EngineVenue& engine, const EngineContent& content,
                              const AdaptiveRangeSettings& settings)
-    : settings_(settings), size_(content.warp.content()), mixing_(engine.mixing) {
+    : settings_(settings), look_(engine, content) {
   auto wrong = problems(settings);
   require(wrong.empty(), "adaptive range: {}", fmt::join(wrong, "; "));
-  for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
-    linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
-
   const compensation::MeasuredVenue& venue = engine.venue;
-  std::vector<std::size_t> pixels;
-  for (std::size_t i = 0; i < content.warp.footprints().size(); ++i)
-    if (content.warp.inside(i) && content.weight[i] > 0.0f) pixels.push_back(i);
-  std::size_t count = std::min(pixels.size(), mostSamples);
-  for (std::size_t sample = 0; sample < count; ++sample) {
-    std::size_t i = pixels[sample * pixels.size() / count];
-    const ContentWarp::Footprint& footprint = content.warp.footprints()[i];
-    place_.push_back({footprint.x + footprint.width / 2, footprint.y + footprint.height / 2});
+  for (const std::size_t i : look_.cameraPixels()) {
     Reach reach;
     for (std::size_t c = 0; c < 3; ++c) {
       reach.least[c] = venue.black[3 * i + c] / content.white;
@@ -115,46 +103,17 @@ AdaptiveRange::AdaptiveRange(const EngineVenue& engine, const EngineContent& con
     }
     reach_.push_back(reach);
   }
-  mixed_.resize(reach_.size());
   lowest_.resize(reach_.size());
   highest_.resize(reach_.size());
 }
 
-void AdaptiveRange::look(const ContentFrame& frame) {
-  histogram_.fill(0.0f);
-  const bool encoded = frame.format != ContentFrame::Format::linearFloat;
-  const bool blueFirst = frame.format == ContentFrame::Format::bgra8;
-  for (std::size_t i = 0; i < place_.size(); ++i) {
-    const auto* pixel = static_cast<const unsigned char*>(frame.data) +
-                        static_cast<std::size_t>(place_[i].y) * frame.bytesPerLine +
-                        static_cast<std::size_t>(place_[i].x) * bytesPerPixel(frame.format);
-    std::array<float, 3> colour;
-    for (std::size_t c = 0; c < 3; ++c)
-      colour[c] = encoded ? linearOfSrgb_[pixel[blueFirst ? 2 - c : c]]
-                          : std::min(1.0f, positive(reinterpret_cast<const float*>(pixel)[c]));
-    for (std::size_t c = 0; c < 3; ++c) {
-      auto row = static_cast<Eigen::Index>(c);
-      mixed_[i][c] = mixing_(row, 0) * colour[0] + mixing_(row, 1) * colour[1] + mixing_(row, 2) * colour[2];
-    }
-    float light = std::min(1.0f, (colour[0] + colour[1] + colour[2]) / 3.0f);
-    auto place = static_cast<std::size_t>(std::sqrt(light) * static_cast<float>(classes - 1) + 0.5f);
-    histogram_[place] += 1.0f / static_cast<float>(place_.size());
-  }
-}
-
 DisplayRange AdaptiveRange::follow(const ContentFrame& frame, std::chrono::duration<double> elapsed) {
-  require(frame.size == size_, "content of {}x{} where {}x{} is prepared", frame.size.width,
-          frame.size.height, size_.width, size_.height);
-  look(frame);
-  DisplayRange goal = demanded(reach_, mixed_, settings_, lowest_, highest_);
-  float changed = 0.0f;
-  for (std::size_t i = 0; i < classes; ++i) changed += 0.5f * std::abs(histogram_[i] - before_[i]);
-  before_ = histogram_;
-
+  look_.look(frame);
+  DisplayRange goal = demanded(reach_, look_.mixed(), settings_, lowest_, highest_);
   auto left = static_cast<float>(std::exp(-std::max(0.0, elapsed.count()) / settings_.timeConstant));
   float apart = std::log(now_.brightness / goal.brightness) * left;
   float lower = (now_.blackLift - goal.blackLift) * left;
-  bool cut = !begun_ || changed > static_cast<float>(settings_.cut);
+  bool cut = !begun_ || look_.changed() > static_cast<float>(settings_.cut);
   settled_ = cut || (std::abs(apart) < nearBrightness && std::abs(lower) < nearLift);
   now_ = settled_ ? goal : DisplayRange{goal.brightness * std::exp(apart), goal.blackLift + lower};
   begun_ = true;

@@ -9,6 +9,7 @@
 #include "relucent/base/message.h"
 #include "relucent/engine/content_frame.h"
 #include "relucent/engine/engine_plan.h"
+#include "relucent/engine/frame_samples.h"
 
 namespace relucent::engine {
 
@@ -62,20 +63,10 @@ class AdaptiveRange {
   bool settled() const { return settled_; }
 
  private:
-  static constexpr std::size_t classes = 32;
-  using Histogram = std::array<float, classes>;
-
-  void look(const ContentFrame& frame);
-
   AdaptiveRangeSettings settings_;
-  Size size_;
-  transport::ColourBlock mixing_;
-  std::array<float, 256> linearOfSrgb_{};
-  std::vector<Pixel> place_;  // of the content, at the centre of a camera pixel
+  FrameSamples look_;
   std::vector<Reach> reach_;
-  std::vector<std::array<float, 3>> mixed_;
   std::vector<float> lowest_, highest_;
-  Histogram histogram_{}, before_{};
   DisplayRange now_;
   bool begun_ = false, settled_ = true;
 };

@@ -20,6 +20,7 @@ struct FrameRequest {
   /// Starts from what was projected last instead of from the windows, where there is something: no M and no
   /// correction, only the steps, from the first on, so that what is wanted now grows in none of them.
   bool fromLast = false;
+  const compensation::BrightnessField* field = nullptr;  // gains of white over the content; none: 1
 };
 
 /// Timing and statistics of a frame.

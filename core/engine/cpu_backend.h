@@ -39,6 +39,8 @@ class CpuBackend : public EngineBackend {
   using OutputWords = std::span<std::uint32_t>;
 
   void placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept;
+  /// Gains of white, where they are not those of the frame before.
+  void takeGains(const compensation::BrightnessField& field) noexcept;
   void warpOnly(OutputWords words) noexcept;
   /// What depends on weights and on what is free.
   void takeWeights();
@@ -78,8 +80,9 @@ class CpuBackend : public EngineBackend {
 
   // Per camera pixel, see ContentTarget.
   std::vector<float> known_, wanted_, held_, unmixed_, placed_;
-  std::vector<float> lit_;            // see CameraArrays
-  std::vector<PackedMixings> unmix_;  // of every slice of T's rows
+  compensation::BrightnessField field_;  // whose gains are known
+  std::vector<float> lit_;               // see CameraArrays
+  std::vector<PackedMixings> unmix_;     // of every slice of T's rows
   // Node values: p with its means, and the adjoint sums of the residual and of what is lit.
   std::vector<float> nodes_, adjoint_, bound_;
   PatchSums patchSums_;

@@ -46,7 +46,17 @@ void withPixels(ContentFrame::Format format, const float* linear, const Visit& v
 
 }  // namespace
 
+void CpuBackend::takeGains(const compensation::BrightnessField& field) noexcept {
+  if (field == field_) return;
+  field_ = field;
+  parallelFor(0, content_->place.size(), 4096, [&](std::size_t i) {
+    if (content_->warp.inside(i))
+      known_[8 * i + 7] = field_.gain(content_->place[i][0], content_->place[i][1]);
+  });
+}
+
 void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept {
+  takeGains(request.field != nullptr ? *request.field : compensation::BrightnessField());
   const float white = content_->white * request.brightness, lift = request.blackLift;
   const transport::ColourBlock mixing = white * (1.0f - lift) * engine_.mixing;
   ContentTarget target;

@@ -19,7 +19,7 @@ struct ContentTarget {
   float offset = 0.0f;
   float unreachable = 0.0f;      // the weight of what cannot be reached
   float perWhite = 0.0f;         // 1 / white, by compensation::Objective::seen; otherwise 0
-  const float* known = nullptr;  // 8: black 3, and the weight of its view; flood 4
+  const float* known = nullptr;  // 8: black 3, and the weight of its view; flood 3, and the gain of white
   const float* unmix = nullptr;  // 3x3, row-major
   float* wanted = nullptr;       // 4: what is asked for; its weight
   float* held = nullptr;         // 4: the target minus black, between 0 and flood; weight for the windows

@@ -97,6 +97,9 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   result.weight = weightsOf(venue, target);
   result.viewWeight = target.viewWeight;
   result.placements = target.placements;
+  const CameraStack places = placesInContent(venue, target);
+  result.place.resize(places.size() / 3);
+  for (std::size_t i = 0; i < result.place.size(); ++i) result.place[i] = {places[3 * i], places[3 * i + 1]};
 
   compensation::ContentCorrespondence correspondence = contentCorrespondence(
       venue.transport, seesProjection(venue), target, engine.brightest, compensation::DirectLightSettings{});

@@ -49,7 +49,9 @@ struct EngineContent {
   ContentWarp warp;                 // into the cameras' views
   compensation::Corners corners{};  // where the content was placed
   float white = 0.0f;               // wanted signal of the content's white
-  ProjectorMask free;               // per projector pixel: it belongs to the content; the others are black
+  std::vector<std::array<float, 2>>
+      place;           // per camera pixel: where it looks in the content, see placesInContent()
+  ProjectorMask free;  // per projector pixel: it belongs to the content; the others are black
   std::vector<std::int32_t> brightest;  // i*(j), see contentCorrespondence()
   CameraStack lit;                // camera stack: the signal with all free projector pixels at full drive
   std::vector<float> weight;      // per camera pixel: of its view, the largest 1; 0 where it is not usable

@@ -435,7 +435,8 @@ RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const 
                          const ContentTarget& target) {
   const Places<8, std::uint32_t> known{pixel};
   const Wide black = gathered(target.known, known), flood = gathered(target.known + 4, known);
-  const Wide value = fitting.offset + mixed(fitting.mixing, content), wanted = value - black;
+  const Wide gain = RELUCENT_SHUFFLED(flood, flood, 3, 3, 3, 3);
+  const Wide value = gain * (fitting.offset + mixed(fitting.mixing, content)), wanted = value - black;
   const WideIntegers within = (value >= black) & (value <= black + flood);
   const WideIntegers reachable =
       within & RELUCENT_SHUFFLED(within, within, 1, 2, 0, 3) & RELUCENT_SHUFFLED(within, within, 2, 0, 1, 3);
@@ -464,7 +465,7 @@ RELUCENT_KERNEL void placeTile(const WarpTiles& warp, const WarpTiles::Tile& til
   Fitting fitting{{}, allLanes(target.offset), allLanes(target.unreachable), {}, target.perWhite > 0.0f};
   alignas(64) float luminance[lanes];
   for (std::size_t i = 0; i < lanes; ++i)
-    luminance[i] = i % 4 < 3 ? target.perWhite * compensation::luminanceShares[i % 4] : 0.0f;
+    luminance[i] = i % 4 < 3 ? target.perWhite * image::luminanceWeights[i % 4] : 0.0f;
   fitting.luminance = loaded<Wide>(luminance);
   for (std::size_t k = 0; k < 3; ++k) {
     alignas(64) float column[lanes];

@@ -92,6 +92,7 @@ struct OpenGlBackend::Objects {
   GlBuffer light, nodeLight, columnLight, groupLight, back, segmentSums, sums;
   GlBuffer counters, brightnessParts, brightest, words, linearOfSrgb;
   GlBuffer frame, footprints, weights;
+  compensation::BrightnessField field;  // behind linearOfSrgb
   std::vector<Encoder> encoders;
   GlTimestamp refining = GlTimestamp::make(), refined = GlTimestamp::make();
 };

@@ -49,7 +49,8 @@ vec3 unpackFloats(uvec2 code) {
 }
 
 /// What a camera pixel is known by, six to a pixel:
-/// black, and 1 where it is usable; flood, and the number of its view; lit; nine of the unmixing matrix, row by row, and nothing.
+/// black, and 1 where it is usable; flood, and the number of its view; lit; nine of the unmixing matrix, row by row, its
+/// place in the content, and nothing.
 const uint cameraBlack = 0u, cameraFlood = 1u, cameraLit = 2u, cameraUnmix = 3u, cameraStride = 6u;
 
 /// The weight of its view, 0 where it is not usable.

@@ -139,6 +139,7 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
   std::vector<float> linear;
   for (int code = 0; code < 256; ++code)
     linear.push_back(static_cast<float>(image::srgbDecode(code / 255.0)));
+  linear.resize(linear.size() + field.octaves.size());  // even
   linearOfSrgb = GlBuffer(linear);
   for (const DriveEncoder& encoder : engine.encoders)
     encoders.push_back({GlBuffer(wordsOf(encoder.firstLevels())), bufferOf(encoder.lights()),
@@ -156,6 +157,8 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   static_assert(sizeof(ContentWarp::Footprint) == 20);
   footprints = GlBuffer(warp.footprints());
   weights = GlBuffer(warp.weights());
+  for (std::size_t i = 0; i < cameraPixels; ++i)
+    std::copy_n(next.place[i].data(), 2, &known[knownFloats * i + 21]);
   content = &next;
   hasLast = false;
   takeFree({});

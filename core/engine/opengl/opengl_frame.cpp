@@ -56,6 +56,12 @@ void OpenGlBackend::Objects::upload(const ContentFrame& picture) noexcept {
 
 void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameRequest& request) noexcept {
   upload(picture);
+  const compensation::BrightnessField wish =
+      request.field != nullptr ? *request.field : compensation::BrightnessField();
+  if (wish != field) {
+    field = wish;
+    linearOfSrgb.write(256 * sizeof(float), field.octaves.data(), sizeof field.octaves);
+  }
   bindAll({&frame, &footprints, &weights, &camera, &wanted, &unmixed, &placed, &linearOfSrgb});
   placing.set(0, cameraPixels);
   placing.set(1, static_cast<std::uint32_t>(picture.format));
@@ -67,7 +73,7 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
   const float white = content->white * request.brightness;
   const bool isHeld = engine.settings.target.objective == compensation::Objective::seen && white > 0.0f;
   std::array<float, 3> luminance{};
-  for (std::size_t c = 0; c < 3 && isHeld; ++c) luminance[c] = compensation::luminanceShares[c] / white;
+  for (std::size_t c = 0; c < 3 && isHeld; ++c) luminance[c] = image::luminanceWeights[c] / white;
   placing.set(7, luminance);
   placing.set(8, compensation::sensitivityOffset);
   placing.set(9, isHeld);

@@ -7,6 +7,7 @@ layout(std430, binding = 3) readonly buffer Camera { vec4 camera[]; };
 layout(std430, binding = 4) writeonly buffer Wanted { vec4 wanted[]; };  // what is asked for; and the weight
 layout(std430, binding = 5) writeonly buffer Unmixed { vec4 unmixed[]; };  // and the sensitivity
 layout(std430, binding = 6) writeonly buffer Placed { vec4 placed[]; };
+// Behind light of codes there are the gains of white, in octaves: BrightnessField.
 layout(std430, binding = 7) readonly buffer LinearOfSrgb { float linearOfSrgb[]; };
 
 layout(location = 0) uniform uint pixels;
@@ -43,6 +44,16 @@ vec3 contentAt(uint x, uint y) {
   return clampLight(uintBitsToFloat(uvec3(content[place], content[place + 1u], content[place + 2u])));
 }
 
+float gainAt(vec2 place) {
+  const vec2 cells = vec2(16.0, 12.0);
+  vec2 at = clamp(place * cells - 0.5, vec2(0.0), cells - 1.0);
+  uvec2 first = min(uvec2(at), uvec2(14u, 10u));
+  vec2 share = at - vec2(first);
+  uint upper = 256u + 16u * first.y + first.x, lower = upper + 16u;
+  return exp2(mix(mix(linearOfSrgb[upper], linearOfSrgb[upper + 1u], share.x),
+                  mix(linearOfSrgb[lower], linearOfSrgb[lower + 1u], share.x), share.y));
+}
+
 void main() {
   uint i = invocation();
   if (i >= pixels) return;
@@ -64,7 +75,8 @@ void main() {
   vec4 black = camera[c + cameraBlack];
   vec4 known = camera[c + cameraFlood];
   vec3 flood = known.xyz;
-  vec3 value = white * (lift + (1.0 - lift) * (mixing * mean));
+  vec4 last = camera[c + cameraUnmix + 2u];  // of the unmixing; the place in the content
+  vec3 value = white * gainAt(last.yz) * (lift + (1.0 - lift) * (mixing * mean));
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);
@@ -73,6 +85,6 @@ void main() {
   if (isHeld) sensitivity = (1.0 + sensitivityOffset) / (min(dot(luminance, held + black.xyz), 1.0) + sensitivityOffset);
   float share = weightOf(black.w, known.w) * (reachable ? 1.0 : unreachableWeight);
   wanted[i] = vec4(isHeld ? held : rest, sensitivity * share);
-  mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
+  mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], last.x);
   unmixed[i] = vec4(unmix * held, sensitivity);
 }

@@ -72,6 +72,19 @@ double errorSeen(const MeasuredVenue& venue, const Target& target, const Project
   return sum / count;
 }
 
+/// The gains that fitTarget() finds.
+BrightnessField fieldOf(const Target& target, const EngineVenue& engine, const Image& content) {
+  const MeasuredVenue& venue = engine.venue;
+  const EngineContent placed = prepareContent(engine, content.size());
+  BrightnessSamples samples(venue, target.inside, placed.weight, placesInContent(venue, target),
+                            target.white[0]);
+  const BrightnessFit fit(Brightness::region, static_cast<double>(content.width()) / content.height());
+  return fit.fit(samples.of([&](std::size_t i) {
+    const Eigen::Vector3f mixed = engine.mixing * Eigen::Map<const Eigen::Vector3f>(&target.content[3 * i]);
+    return std::array{mixed[0], mixed[1], mixed[2]};
+  }));
+}
+
 }  // namespace
 
 class TestBackends : public QObject {
@@ -105,6 +118,43 @@ class TestBackends : public QObject {
       QVERIFY2(apart <= tolerance, qPrintable(QString("K = %1: %2 codes").arg(steps).arg(apart)));
       QCOMPARE(report.steps, steps);
       QVERIFY(std::abs(report.clipped - expected.clipped) < 0.02);
+    }
+  }
+
+  void gainsAreTheTargets_data() { everyBackendInEveryScene(); }
+  /// With the gains of white that the target has, too; and without them as before.
+  void gainsAreTheTargets() {
+    QFETCH(QString, backend);
+    SKIP_WHERE_MISSING(backend);
+    QFETCH(QString, scene);
+    EngineScene made = engineSceneOf(scene.toStdString());
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, exact(made));
+    std::unique_ptr<EngineBackend> device = backendOf(backend, engine);
+    Image content = makeContent(Content::natural, {40, 30}, 3);
+    for (float& value : content.data()) value *= 0.05f;  // so dark that white is made brighter
+    TargetSettings settings = made.target;
+    settings.brightness = Brightness::region;
+    const Target target = fitTarget(content, made.venue, settings);
+    const BrightnessField field = fieldOf(target, engine, content);
+    double most = 0.0;
+    for (float octaves : field.octaves) most = std::max(most, std::abs(static_cast<double>(octaves)));
+    Progress silent;
+    const double tolerance = scene.startsWith("several") ? 6.0 : 1.0;  // as equalsTheMethods()
+    for (int steps : {0, 2}) {
+      CompensatorSettings compensator;
+      compensator.steps.resize(static_cast<std::size_t>(steps));
+      const Compensation expected =
+          Compensator(made.venue, made.inverse, compensator)
+              .solve(steps == 0 ? Method::windows : Method::refined, target, silent);
+      FrameRequest request{true, steps, 1.0f, 0.0f};
+      const auto even = rendered(*device, engine, frameOf(content), request);
+      request.field = &field;
+      const auto words = rendered(*device, engine, frameOf(content), request);
+      const double apart = mostCodesApart(words, expected.projector);
+      QVERIFY2(apart <= tolerance, qPrintable(QString("K = %1: %2 codes").arg(steps).arg(apart)));
+      QVERIFY(most < 0.1 || mostApart(words, even) > 1);
+      request.field = nullptr;
+      QVERIFY(rendered(*device, engine, frameOf(content), request) == even);
     }
   }
 

@@ -63,6 +63,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
 void CpuBackend::setContent(const EngineContent& content) {
   content_ = &content;
   field_ = {};
+  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 7] = 1.0f;
   for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &nodes_})
     std::fill(values->begin(), values->end(), 0.0f);
   hasLast_ = false;
@@ -75,7 +76,6 @@ void CpuBackend::takeWeights() {
   const EngineContent& content = *content_;
   for (std::size_t i = 0; i < content.weight.size(); ++i) {
     known_[8 * i + 3] = content.weight[i];
-    known_[8 * i + 7] = 1.0f;
     std::copy_n(&content.lit[3 * i], 3, &lit_[4 * i]);
   }
   // Where nothing is free C is 0, so that p stays 0.

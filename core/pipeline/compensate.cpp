@@ -47,12 +47,12 @@ class Writer {
     }
   }
 
-  /// A picture to look at: as somebody sees it who is used to `white`.
-  void writeViewed(const std::string& stem, const Stack& stack, const Rasters& rasters,
-                   const std::array<float, 3>& white) {
-    for (std::size_t device = 0; device < rasters.devices(); ++device) {
+  /// A picture to look at: as somebody sees it who is used to its white.
+  void writeViewed(const std::string& stem, const CameraStack& stack, const compensation::Target& target,
+                   const Rasters& cameras) {
+    for (std::size_t device = 0; device < cameras.devices(); ++device) {
       fs::path path = numbered(folder_ / (stem + ".png"), device);
-      image::writePng(path, image::viewed(image::imageFromStack(stack, rasters, device), white), 8);
+      image::writePng(path, image::viewed(underEvenWhite(stack, target, cameras, device), target.white), 8);
       files_.push_back(path);
     }
   }
@@ -171,8 +171,8 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   writer.writeLinear("pattern", compensation.projector, projectors, driveUnits);
   writer.writeLinear("target", target.wanted, cameras, radianceUnits);
   writer.writeLinear("predicted", prediction.camera, cameras, radianceUnits);
-  writer.writeViewed("target", target.wanted, cameras, target.white);
-  writer.writeViewed("predicted", prediction.camera, cameras, target.white);
+  writer.writeViewed("target", target.wanted, target, cameras);
+  writer.writeViewed("predicted", prediction.camera, target, cameras);
   writer.writeMap("delta_e", prediction.deltaE, "CIEDE2000");
   writer.writeMap("uncorrectable", reasonNumbers(reasons, cameras.size(0)), "number of the reason");
   writer.writeColours("uncorrectable", reasonColours(reasons, cameras.size(0)));

@@ -186,10 +186,16 @@ class UnseenPlaces {
     unseen.white = seen.white;
     unseen.wanted = judge_->black();
     unseen.inside.assign(map_.size(), 0);
+    if (!seen.gain.empty()) unseen.gain.assign(map_.size(), 1.0f);
     for (std::size_t i = 0; i < map_.size(); ++i) {
       const std::optional<compensation::ViewSample> sample = compensation::sampleAt(map_[i], view, inside);
       if (!sample) continue;
       unseen.inside[i] = 1;
+      if (!seen.gain.empty()) {
+        unseen.gain[i] = 0.0f;
+        for (std::size_t k = 0; k < sample->pixel.size(); ++k)
+          unseen.gain[i] += sample->share[k] * seen.gain[sample->pixel[k]];
+      }
       for (std::size_t c = 0; c < 3; ++c) {
         float& wanted = unseen.wanted[3 * i + c] = 0.0f;
         for (std::size_t k = 0; k < sample->pixel.size(); ++k)

@@ -183,8 +183,8 @@ std::vector<fs::path> writePictures(const fs::path& out, const compensation::Tar
                                     const Photographed& after) {
   createFolder(out);
   std::vector<fs::path> files;
-  auto shown = [&](const char* name, const Stack& stack) {
-    image::Image picture = image::viewed(image::imageFromStack(stack, cameras, camera), target.white);
+  auto shown = [&](const char* name, const CameraStack& stack) {
+    image::Image picture = image::viewed(underEvenWhite(stack, target, cameras, camera), target.white);
     files.push_back(proofPicture(out, name, camera, ".png"));
     image::writePng(files.back(), picture, 8);
     return picture;

@@ -36,7 +36,10 @@ class TestFollowedBrightness : public QObject {
 
  private slots:
   void init() {
-    for (float& value : scene_.venue.black) value = 0.02f;
+    // The room is lit to a twenty-fifth of white.
+    const EngineVenue engine = prepareVenue(scene_.venue, scene_.inverse, scene_.responses, {});
+    const float black = 0.04f * prepareContent(engine, {40, 30}).white;
+    for (float& value : scene_.venue.black) value = black;
   }
 
   /// The first frame gets at once what fitTarget() gives it.
@@ -61,12 +64,13 @@ class TestFollowedBrightness : public QObject {
     QTest::addColumn<int>("framesPerSecond");
     for (int rate : {24, 60}) QTest::addRow("%d", rate) << rate;
   }
-  /// What changes by little goes there in a second or so, at any rate of frames, and never beyond.
+  /// What changes by little, of one class of brightness, goes there in a second or so, at any rate of frames,
+  /// and never beyond.
   void goesSlowly() {
     QFETCH(int, framesPerSecond);
     const EngineVenue engine = prepareVenue(scene_.venue, scene_.inverse, scene_.responses, {});
     const EngineContent content = prepareContent(engine, {40, 30});
-    const Image before = greyOf(0.0125f), after = greyOf(0.007f);  // of one class
+    const Image before = greyOf(0.0215f), after = greyOf(0.031f);
     FollowedBrightness still(engine, content, Brightness::region);
     const float from = meanOf(still.follow(frameOf(before), Seconds(0.0)));
     const float to =

@@ -37,7 +37,10 @@ CameraRows::CameraRows(CameraFinder& finder, const QString& subtitle, Offering o
 void CameraRows::refresh() {
   again_->setEnabled(!finder_.isLooking());
   while (QLayoutItem* item = rows_->takeAt(0)) {
-    if (item->widget() != nullptr) item->widget()->deleteLater();
+    if (QWidget* row = item->widget()) {
+      row->hide();  // its own button may be what this follows from: it goes later
+      row->deleteLater();
+    }
     delete item;
   }
   const devices::CameraList& devices = finder_.cameras();

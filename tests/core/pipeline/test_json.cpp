@@ -118,17 +118,21 @@ class TestJson : public QObject {
     result.images[0].unseen = {{0.5, {score}}};
     result.images[0].blended = score;
     result.images[0].others = {{0.75, {score}, score}};
-    result.seams = {{0.25, Method::refined, {0.5, 1.5, 0.375}, {2.0, 4.0, 1.0}}};
+    result.seams = {{0.25,
+                     Method::refined,
+                     {.mean = 0.5, .p95 = 1.5, .elsewhere = 0.375, .elsewhereP95 = 0.75, .edgeP95 = 1.25},
+                     {.mean = 2.0, .p95 = 4.0, .elsewhere = 1.0, .elsewhereP95 = 3.0, .edgeP95 = 5.0}}};
     const Json document = toJson(result), image = document["images"][0];
     QCOMPARE(image["unseen_places"][0]["reachable"].get<double>(), 0.5);
     QCOMPARE(image["unseen_places"][0]["methods"]["refined"]["psnr_reachable"].get<double>(), 30.0);
     QVERIFY(!image["unseen_places"][0].contains("blended"));
     QCOMPARE(image["blended"]["delta_e"].get<double>(), 2.0);
     QCOMPARE(image["other_views"][0]["blended"]["psnr_all"].get<double>(), 29.0);
-    QCOMPARE(
-        document["seams"][0].dump(),
-        std::string(R"({"grey":0.25,"method":"refined","joint":{"mean":0.5,"p95":1.5,"elsewhere":0.375},)"
-                    R"("blended":{"mean":2.0,"p95":4.0,"elsewhere":1.0}})"));
+    QCOMPARE(document["seams"][0].dump(),
+             std::string(
+                 R"({"grey":0.25,"method":"refined","joint":{"mean":0.5,"p95":1.5,"elsewhere":0.375,)"
+                 R"("elsewhere_p95":0.75,"edge_p95":1.25},"blended":{"mean":2.0,"p95":4.0,"elsewhere":1.0,)"
+                 R"("elsewhere_p95":3.0,"edge_p95":5.0}})"));
   }
 
   void benchDocument() {

@@ -6993,7 +6993,7 @@ projector %2</source>
         <translation>تتراكب؛ وتراقبها كاميرتان</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>تمثال نصفي من ثلاث جهات</translation>
     </message>
     <message>

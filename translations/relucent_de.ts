@@ -6817,7 +6817,7 @@ Projektor %2</translation>
         <translation>Sie überlappen; zwei Kameras sehen zu</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>Büste, von drei Seiten</translation>
     </message>
     <message>

@@ -6817,7 +6817,7 @@ proyector %2</translation>
         <translation>Se solapan; miran dos cámaras</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>Busto visto de tres lados</translation>
     </message>
     <message>

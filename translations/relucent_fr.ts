@@ -6817,7 +6817,7 @@ projecteur %2</translation>
         <translation>Ils se recouvrent&#x202f;; deux caméras regardent</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>Buste vu de trois côtés</translation>
     </message>
     <message>

@@ -6817,7 +6817,7 @@ proiettore %2</translation>
         <translation>Si sovrappongono; due fotocamere guardano</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>Busto visto da tre lati</translation>
     </message>
     <message>

@@ -6773,7 +6773,7 @@ projector %2</source>
         <translation>重なり合い、カメラ 2 台が見ます</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>三方から見る胸像</translation>
     </message>
     <message>

@@ -6773,7 +6773,7 @@ projector %2</source>
         <translation>互相重叠，两台相机观看</translation>
     </message>
     <message>
-        <source>Bust seen from three sides</source>
+        <source>Bust from three sides</source>
         <translation>三面观看的胸像</translation>
     </message>
     <message>

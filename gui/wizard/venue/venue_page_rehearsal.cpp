@@ -28,7 +28,7 @@ std::vector<RehearsalVenue> VenuePage::rehearsalVenues() {
        ":/venues/relief.png", Difficulty::hard},
       {"dome4", QT_TR_NOOP("Dome, four projectors"), QT_TR_NOOP("They overlap; two cameras watch"),
        ":/venues/dome4.png", Difficulty::hard},
-      {"statue3", QT_TR_NOOP("Bust seen from three sides"),
+      {"statue3", QT_TR_NOOP("Bust from three sides"),
        QT_TR_NOOP("Two projectors, three cameras: for an audience that walks"), ":/venues/statue3.png",
        Difficulty::hard},
       {"plain", QT_TR_NOOP("Painted wall"), QT_TR_NOOP("Flat, with diamonds; the easiest"),

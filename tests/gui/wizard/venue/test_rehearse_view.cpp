@@ -25,7 +25,7 @@ class TestRehearseView : public QObject {
     QTest::newRow("half of Full HD") << 508 << 2;
     QTest::newRow("a laptop's") << 758 << 4;
     QTest::newRow("Full HD") << 1240 << 4;
-    QTest::newRow("hardly any") << 200 << 1;
+    QTest::newRow("hardly more than a name") << 240 << 1;
   }
   void nobodyScrollsAcross() {
     QFETCH(int, width);

@@ -73,11 +73,11 @@ class NodeLayout {
   /// Their parts, for loops that do something else with a line while it is in the cache. fillMeans() is
   /// fillMeansOfLine() for every line of level 1, then fillMeansFrom(2). gatherMeansAdjoint() is
   /// gatherAboveLines(), then addToLine() for every line of pixels. A level that a projector lacks is
-  /// skipped.
+  /// skipped. `floats`: 3 or 4 a node.
   void fillMeansFrom(int level, std::span<float> nodeValues) const;
   void fillMeansOfLine(std::size_t projector, int line, std::span<float> nodeValues) const;
-  void gatherAboveLines(std::span<float> nodeValues) const;
-  void addToLine(std::size_t projector, int line, std::span<float> nodeValues) const;
+  void gatherAboveLines(std::span<float> nodeValues, std::size_t floats = 3) const;
+  void addToLine(std::size_t projector, int line, std::span<float> nodeValues, std::size_t floats = 3) const;
 
  private:
   struct Grid {
@@ -85,6 +85,7 @@ class NodeLayout {
     std::size_t offset = 0;
   };
   void fillLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const;
+  template <std::size_t floats>
   void spreadToLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const;
 
   Rasters projectors_;

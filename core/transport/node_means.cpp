@@ -72,31 +72,41 @@ void meansOfRow(const Cuts& columns, const Cuts& rows, int y, const float* upper
 }
 
 /// The adjoint: a row of a level hands what it holds to one row of children, in proportion to their pixels.
+template <std::size_t floats>
 void spreadRow(const Cuts& columns, const Cuts& rows, int y, bool upper, const float* from, float* to) {
   const bool wholeRow = y < rows.whole();
   const int whole = wholeRow ? columns.whole() : 0;
   int x = 0;
-  // Two nodes at a time: twelve values are three times four.
-  for (; x + 2 <= whole; x += 2, from += 6, to += 12) {
-    const Floats first = 0.25f * load(from), second = 0.25f * load(from + 2);
-    store(to, load(to) + __builtin_shufflevector(first, first, 0, 1, 2, 0));
-    store(to + 4, load(to + 4) + __builtin_shufflevector(first, second, 1, 2, 5, 6));
-    store(to + 8, load(to + 8) + __builtin_shufflevector(second, second, 3, 1, 2, 3));
+  if constexpr (floats == 3) {
+    // Two nodes at a time: twelve values are three times four.
+    for (; x + 2 <= whole; x += 2, from += 6, to += 12) {
+      const Floats first = 0.25f * load(from), second = 0.25f * load(from + 2);
+      store(to, load(to) + __builtin_shufflevector(first, first, 0, 1, 2, 0));
+      store(to + 4, load(to + 4) + __builtin_shufflevector(first, second, 1, 2, 5, 6));
+      store(to + 8, load(to + 8) + __builtin_shufflevector(second, second, 3, 1, 2, 3));
+    }
+  } else {
+    static_assert(floats == 4);
+    for (; x < whole; ++x, from += 4, to += 8) {
+      const Floats share = 0.25f * load(from);
+      store(to, load(to) + share);
+      store(to + 4, load(to + 4) + share);
+    }
   }
-  for (; x < whole; ++x, from += 3, to += 6) {
-    for (int c = 0; c < 3; ++c) {
+  for (; x < whole; ++x, from += floats, to += 2 * floats) {
+    for (std::size_t c = 0; c < floats; ++c) {
       to[c] += 0.25f * from[c];
-      to[c + 3] += 0.25f * from[c];
+      to[c + floats] += 0.25f * from[c];
     }
   }
 
-  for (; x < columns.blocks(); ++x, from += 3, to += 6) {
+  for (; x < columns.blocks(); ++x, from += floats, to += 2 * floats) {
     ChildWeights weights(columns, rows, x, y);
     const float left = (upper ? weights.upperLeft : weights.lowerLeft) / weights.sum;
     const float right = (upper ? weights.upperRight : weights.lowerRight) / weights.sum;
-    for (int c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < floats; ++c) {
       to[c] += left * from[c];
-      if (columns.secondHalf(x) > 0) to[c + 3] += right * from[c];
+      if (columns.secondHalf(x) > 0) to[c + floats] += right * from[c];
     }
   }
 }
@@ -147,27 +157,34 @@ ProjectorStack NodeLayout::meansAdjoint(NodeStack nodeValues) const {
 }
 
 /// To one line of a level from the next coarser one.
+template <std::size_t floats>
 void NodeLayout::spreadToLine(std::size_t projector, int level, int line, std::span<float> nodeValues) const {
   const Size pixels = projectors_.size(projector);
   const Grid& fine = grids_[projector][static_cast<std::size_t>(level)];
   const Grid& coarse = grids_[projector][static_cast<std::size_t>(level + 1)];
   const Cuts columns(pixels.width, level + 1, coarse.size.width);
   const Cuts rows(pixels.height, level + 1, coarse.size.height);
-  spreadRow(columns, rows, line / 2, line % 2 == 0,
-            &nodeValues[3 * (coarse.offset + indexOf(coarse.size, {0, line / 2}))],
-            &nodeValues[3 * (fine.offset + indexOf(fine.size, {0, line}))]);
+  spreadRow<floats>(columns, rows, line / 2, line % 2 == 0,
+                    &nodeValues[floats * (coarse.offset + indexOf(coarse.size, {0, line / 2}))],
+                    &nodeValues[floats * (fine.offset + indexOf(fine.size, {0, line}))]);
 }
 
-void NodeLayout::gatherAboveLines(std::span<float> nodeValues) const {
+void NodeLayout::gatherAboveLines(std::span<float> nodeValues, std::size_t floats) const {
+  const auto spread = floats == 4 ? &NodeLayout::spreadToLine<4> : &NodeLayout::spreadToLine<3>;
   for (std::size_t projector = 0; projector < grids_.size(); ++projector)
     for (int level = levels(projector) - 2; level > 0; --level)
       parallelFor(
           0, static_cast<std::size_t>(gridSize(projector, level).height), 2 * rowsOfATask,
-          [&](std::size_t line) { spreadToLine(projector, level, static_cast<int>(line), nodeValues); });
+          [&](std::size_t line) { (this->*spread)(projector, level, static_cast<int>(line), nodeValues); });
 }
 
-void NodeLayout::addToLine(std::size_t projector, int line, std::span<float> nodeValues) const {
-  if (levels(projector) > 1) spreadToLine(projector, 0, line, nodeValues);
+void NodeLayout::addToLine(std::size_t projector, int line, std::span<float> nodeValues,
+                           std::size_t floats) const {
+  if (levels(projector) <= 1) return;
+  if (floats == 4)
+    spreadToLine<4>(projector, 0, line, nodeValues);
+  else
+    spreadToLine<3>(projector, 0, line, nodeValues);
 }
 
 void NodeLayout::gatherMeansAdjoint(std::span<float> nodeValues) const {

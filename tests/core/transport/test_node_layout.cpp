@@ -154,6 +154,26 @@ class TestNodeLayout : public QObject {
                        lines.begin()));
   }
 
+  void fourValuesANodeAreSpreadAsThree_data() { sizes_data(); }
+  /// The same bits, with a value more.
+  void fourValuesANodeAreSpreadAsThree() {
+    QFETCH(QString, sizes);
+    const NodeLayout layout{Rasters(sizesOf(sizes))};
+    std::vector<float> three = randomStack(layout.count(), 13), four(4 * layout.count());
+    for (std::size_t node = 0; node < layout.count(); ++node) {
+      std::copy_n(&three[3 * node], 3, &four[4 * node]);
+      four[4 * node + 3] = three[3 * node + 1];
+    }
+    layout.gatherMeansAdjoint(three);
+    layout.gatherAboveLines(four, 4);
+    for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector)
+      for (int y = 0; y < layout.projectors().size(projector).height; ++y)
+        layout.addToLine(projector, y, four, 4);
+    for (std::size_t pixel = 0; pixel < layout.projectors().count(); ++pixel)
+      for (std::size_t c = 0; c < 4; ++c)
+        QCOMPARE(four[4 * pixel + c], three[3 * pixel + (c < 3 ? c : 1)]);
+  }
+
   void breachesOfContractAreNamed() {
     NodeLayout layout((Rasters(Size{4, 4})));
     QVERIFY_EXCEPTION_THROWN(layout.node(layout.count()), std::logic_error);

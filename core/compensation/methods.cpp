@@ -59,7 +59,8 @@ Compensator::Compensator(const MeasuredVenue& venue, const inverse::WindowInvers
       inverse_(inverse),
       settings_(std::move(settings)),
       brightest_(brightestCorrespondence(venue.transport, seesProjection(venue), settings_.direct)),
-      mixing_(venue.transport.rowSums()) {
+      mixing_(venue.transport.rowSums()),
+      preconditioner_(venue.transport, venue.usable) {
   require(
       inverse.cameras() == venue.transport.cameras() && inverse.projectors() == venue.transport.projectors(),
       "the inverse belongs to another venue");
@@ -192,7 +193,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   }
 
   ConstrainedProblem problem{venue_.transport, target.asked, target.weight, free};
-  ProjectorStack c = diagonalPreconditioner(problem);
+  const ProjectorStack c = preconditioner_.of(problem);
   auto apply = [](const auto& inverse) { return [&](const CameraStack& r) { return inverse.apply(r); }; };
   result = method == Method::clusters ? byInverse(apply(clusters(progress)), target, free, c, progress)
                                       : byInverse(apply(inverse_), target, free, c, progress);

@@ -11,6 +11,7 @@
 #include "relucent/compensation/direct_light.h"
 #include "relucent/compensation/method.h"
 #include "relucent/compensation/solver.h"
+#include "relucent/compensation/step_preconditioner.h"
 #include "relucent/compensation/target.h"
 #include "relucent/inverse/cluster_inverse.h"
 #include "relucent/inverse/windows.h"
@@ -66,6 +67,7 @@ class Compensator {
   ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (a - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
+  /// C: of windows, clusters and refined StepPreconditioner's.
   /// `clusters` is prepared when it is first asked for.
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
@@ -97,6 +99,7 @@ class Compensator {
   CompensatorSettings settings_;
   std::vector<std::int32_t> brightest_;
   std::vector<transport::ColourBlock> mixing_;
+  StepPreconditioner preconditioner_;
   mutable std::once_flag clustersMade_;
   mutable inverse::ClusterInverse clusters_;
 };

@@ -114,6 +114,7 @@ float unreachableWeightOf(const TargetSettings& settings);
 ///   s = (1 + a) / (Y + a),   Y = 0.2126 r + 0.7152 g + 0.0722 b, at most 1,   a = 0.1
 /// the squared slope of the scale sqrt(Y + a), 1 at white.  Source: core/compensation/README.md.
 inline constexpr float sensitivityOffset = 0.1f;
+inline constexpr float largestSensitivity = (1.0f + sensitivityOffset) / sensitivityOffset;
 inline float sensitivity(float luminance) {
   return (1.0f + sensitivityOffset) / ((luminance < 1.0f ? luminance : 1.0f) + sensitivityOffset);
 }

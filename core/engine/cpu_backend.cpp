@@ -31,7 +31,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       windows_(engine.inverse.view()),
       patchSums_(engine.transport, engine.venue.transport.layout().count()),
       scratch_(std::thread::hardware_concurrency() + 1,
-               correctionFloats * (engine.transport.mostColumns() + 1)),
+               columnFloats * (engine.transport.mostColumns() + 1)),
       contentScratch_(std::thread::hardware_concurrency() + 1, 0) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
@@ -51,13 +51,10 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
   }
   std::size_t nodes = engine.venue.transport.layout().count();
   nodes_.resize(3 * nodes + 1);  // four values can be read at once wherever three are
-  adjoint_.resize(3 * nodes);
-  bound_.resize(3 * nodes);
-  for (std::vector<float>* values : {&waiting_, &waitingBound_})
-    values->resize(PatchSums::placeFloats * patchSums_.places());
-  std::size_t projectorValues = 3 * engine.brightest.size();
-  leastBound_.resize(projectorValues);
-  preconditioner_.resize(projectorValues);
+  adjoint_.resize(sumFloats * nodes);
+  waiting_.resize(sumFloats * patchSums_.places());
+  leastBound_.resize(engine.brightest.size());
+  preconditioner_.resize(3 * engine.brightest.size());
 }
 
 void CpuBackend::setContent(const EngineContent& content) {
@@ -80,7 +77,8 @@ void CpuBackend::takeWeights() {
   }
   // Where nothing is free C is 0, so that p stays 0.
   for (std::size_t j = 0; j < leastBound_.size(); ++j)
-    leastBound_[j] = content.free[j / 3] != 0 ? content.leastBound : std::numeric_limits<float>::infinity();
+    leastBound_[j] =
+        content.free[j] != 0 ? engine_.preconditioner.least() : std::numeric_limits<float>::infinity();
   findFreeTiles();
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
 }
@@ -261,16 +259,19 @@ void CpuBackend::refine(float length, OutputWords words) noexcept {
 
 void CpuBackend::makePreconditioner() noexcept {
   const transport::NodeLayout& layout = engine_.venue.transport.layout();
-  for (std::size_t device = 0; device < layout.projectors().devices(); ++device) {
-    const Size size = layout.projectors().size(device);
-    parallelFor(0, static_cast<std::size_t>(size.height), 8, [&](std::size_t y) {
-      layout.addToLine(device, static_cast<int>(y), bound_);
-      const std::size_t first =
-          3 * (layout.projectors().offset(device) + indexOf(size, {0, static_cast<int>(y)}));
-      kernels_.reciprocal(&preconditioner_[first], &bound_[first], &leastBound_[first],
-                          3 * static_cast<std::size_t>(size.width));
+  for (std::size_t device = 0; device < layout.projectors().devices(); ++device)
+    parallelFor(0, static_cast<std::size_t>(layout.projectors().size(device).height), 8, [&](std::size_t y) {
+      layout.addToLine(device, static_cast<int>(y), adjoint_, sumFloats);
+      preconditionLine(device, static_cast<int>(y));
     });
-  }
+}
+
+void CpuBackend::preconditionLine(std::size_t device, int y) noexcept {
+  const Rasters& projectors = engine_.venue.transport.projectors();
+  const std::size_t first = projectors.offset(device) + indexOf(projectors.size(device), {0, y});
+  kernels_.precondition(&preconditioner_[3 * first], &adjoint_[sumFloats * first],
+                        &engine_.preconditioner.share()[3 * first], &leastBound_[first],
+                        static_cast<std::size_t>(projectors.size(device).width));
 }
 
 void CpuBackend::fillMeans() noexcept {
@@ -296,15 +297,12 @@ void CpuBackend::finishPair(Pass pass, std::size_t device, int pair, float lengt
   const transport::NodeLayout& layout = engine_.venue.transport.layout();
   const Size size = layout.projectors().size(device);
   for (int y = 2 * pair; y < std::min(2 * pair + 2, size.height); ++y) {
-    layout.addToLine(device, y, adjoint_);
-    const std::size_t first = 3 * (layout.projectors().offset(device) + indexOf(size, {0, y}));
-    const std::size_t values = 3 * static_cast<std::size_t>(size.width);
-    if (pass == Pass::correct) {
-      layout.addToLine(device, y, bound_);
-      kernels_.reciprocal(&preconditioner_[first], &bound_[first], &leastBound_[first], values);
-    }
+    layout.addToLine(device, y, adjoint_, sumFloats);
+    if (pass == Pass::correct) preconditionLine(device, y);
+    const std::size_t first = layout.projectors().offset(device) + indexOf(size, {0, y});
     const std::size_t cut =
-        kernels_.update(&nodes_[first], &preconditioner_[first], &adjoint_[first], length, values);
+        kernels_.update(&nodes_[3 * first], &preconditioner_[3 * first], &adjoint_[sumFloats * first], length,
+                        static_cast<std::size_t>(size.width));
     clipped_.fetch_add(cut, std::memory_order_relaxed);
     if (!words.empty()) encodeLine(device, y, words);
   }

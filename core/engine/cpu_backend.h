@@ -53,7 +53,7 @@ class CpuBackend : public EngineBackend {
   /// p = clamp(p + length C adjoint).
   void refine(float length, OutputWords words) noexcept;
   /// p with its means; those of level 1 are kept up to date by whoever changes p for a pass through T.
-  std::span<float> nodeValues() noexcept { return {nodes_.data(), adjoint_.size()}; }
+  std::span<float> nodeValues() noexcept { return {nodes_.data(), nodes_.size() - 1}; }
   int pairsOfLines(std::size_t device) const noexcept;
   /// The update of a refine() or a correct() on two lines, and their words if requested, otherwise their
   /// means.
@@ -67,7 +67,9 @@ class CpuBackend : public EngineBackend {
 
   /// C, of the correction's pass.
   void makePreconditioner() noexcept;
-  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r and T^T W lit.
+  void preconditionLine(std::size_t device, int y) noexcept;
+  /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r and green of
+  /// T^T W lit.
   void passThrough(Pass pass) noexcept;
   PatchRows rowsOf(const TransportPatch& patch) const noexcept;
 
@@ -83,11 +85,11 @@ class CpuBackend : public EngineBackend {
   compensation::BrightnessField field_;  // whose gains are known
   std::vector<float> lit_;               // see CameraArrays
   std::vector<PackedMixings> unmix_;     // of every slice of T's rows
-  // Node values: p with its means, and the adjoint sums of the residual and of what is lit.
-  std::vector<float> nodes_, adjoint_, bound_;
+  // Node values: p with its means; and the adjoint sums, three of the residual and one of what is lit.
+  std::vector<float> nodes_, adjoint_;
   PatchSums patchSums_;
-  std::vector<float> waiting_, waitingBound_;
-  // Projector values: what C^-1 must exceed, and C of the frame.
+  std::vector<float> waiting_;
+  // Of projector pixels, what the latter must exceed; and C of the frame, of all values.
   std::vector<float> leastBound_, preconditioner_;
   ScratchPool scratch_, contentScratch_;
   WarpTiles warp_;

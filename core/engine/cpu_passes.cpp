@@ -22,7 +22,6 @@ void CpuBackend::passThrough(Pass pass) noexcept {
   const transport::NodeLayout& layout = engine_.venue.transport.layout();
   layout.fillMeansFrom(2, nodeValues());
   const bool correct = pass == Pass::correct;
-  const std::size_t stride = correct ? correctionFloats : stepFloats;
   const CameraArrays camera{correct ? held_.data() : wanted_.data(), lit_.data(), unmixed_.data(),
                             unmix_.data()};
   parallelFor(0, transport.patches().size(), 1, [&](std::size_t index) {
@@ -32,22 +31,17 @@ void CpuBackend::passThrough(Pass pass) noexcept {
     ScratchPool::BorrowedBuffer loan(scratch_);
     float* to = loan.data();
     constexpr std::size_t ahead = 32;
-    for (std::size_t column = 0; column < columns; ++column, to += stride) {
+    for (std::size_t column = 0; column < columns; ++column, to += columnFloats) {
       if (column + ahead < columns) __builtin_prefetch(&nodes_[3 * std::size_t{node[column + ahead]}]);
       std::memcpy(to, &nodes_[3 * std::size_t{node[column]}], 4 * sizeof(float));
-      std::fill(to + 4, to + stride, 0.0f);
+      std::fill(to + 4, to + columnFloats, 0.0f);
     }
-    std::fill_n(to, stride, 0.0f);  // what fills up rows
+    std::fill_n(to, columnFloats, 0.0f);  // what fills up rows
     (correct ? kernels_.correct : kernels_.step)(rowsOf(patch), camera, loan.data());
-    patchSums_.addPatch(index, loan.data() + 4, stride, adjoint_.data(), waiting_.data());
-    if (correct)
-      patchSums_.addPatch(index, loan.data() + stepFloats, stride, bound_.data(), waitingBound_.data());
+    patchSums_.addPatch(index, loan.data() + 4, columnFloats, adjoint_.data(), waiting_.data());
   });
   patchSums_.addStored(waiting_.data(), adjoint_.data());
-  layout.gatherAboveLines(adjoint_);
-  if (!correct) return;
-  patchSums_.addStored(waitingBound_.data(), bound_.data());
-  layout.gatherAboveLines(bound_);
+  layout.gatherAboveLines(adjoint_, sumFloats);
 }
 
 }  // namespace relucent::engine

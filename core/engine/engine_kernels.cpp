@@ -4,7 +4,9 @@
 #include "relucent/engine/engine_kernels.h"
 
 #include <cstring>
+#include <limits>
 
+#include "relucent/compensation/step_preconditioner.h"
 #include "relucent/compensation/target.h"
 
 namespace relucent::engine {

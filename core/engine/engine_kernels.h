@@ -44,8 +44,8 @@ struct PatchRows {
   const LeavesAbreast* leaves = nullptr;
 };
 
-/// Floats per column of a patch in a pass over T, and in the correction's.
-inline constexpr std::size_t stepFloats = 8, correctionFloats = 12;
+/// Floats per column of a patch in a pass over T, and per node of what comes back.
+inline constexpr std::size_t columnFloats = 8, sumFloats = 4;
 
 /// A value beyond the projector's range by less than this, half a code of 8 bits, is not visibly clipped.
 inline constexpr float visibleCut = 0.002f;
@@ -66,13 +66,15 @@ struct EngineKernels {
   /// `columns`: 8 floats a column, light and adjoint sums together, so that what is read of the one brings
   /// the other into the cache: projector value 3, unused; sum 3, 0.
   void (*step)(const PatchRows& patch, const CameraArrays& camera, float* columns);
-  /// The same; `unmixed` is written, and behind the adjoint sum of a column there is that of what C is made
-  /// of, T^T weight lit: 12 floats a column.
+  /// The same; `unmixed` is written, and the fourth float of the adjoint sum is what C is made of,
+  /// green of T^T weight lit.
   void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);
-  /// p <- clamp(p + length c back); returns the number of visibly clipped values.
-  std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t count);
-  /// c <- 1 / bound where that exceeds `least`, 0 elsewhere.
-  void (*reciprocal)(float* c, const float* bound, const float* least, std::size_t count);
+  /// p <- clamp(p + length c back); returns the number of visibly clipped values. `back`: 4 a pixel.
+  std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t pixels);
+  /// c of StepPreconditioner's share and the fourth of `back`. `least`: of every pixel, infinite where it is not
+  /// free.
+  void (*precondition)(float* c, const float* back, const float* share, const float* least,
+                       std::size_t pixels);
 };
 
 /// What this processor can run, the quickest last; the first runs on every processor of its kind.

@@ -82,6 +82,7 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
           compensation::brightestCorrespondence(transport, compensation::seesProjection(venue),
                                                 compensation::DirectLightSettings{}),
           compensation::meanColourMixing(venue),
+          compensation::StepPreconditioner(transport, venue.usable),
           std::move(encoders)};
 }
 
@@ -108,10 +109,6 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   auto lit = compensation::stackOf<ProjectorStack>(
       3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);
-  const ProjectorStack bound = venue.transport.applyTransposed(compensation::stackOf<CameraStack>(
-      result.lit.size(), [&](std::size_t i) { return result.weight[i / 3] * result.lit[i]; }));
-  for (std::size_t j = 0; j < bound.size(); ++j)
-    if (result.free[j / 3]) result.leastBound = std::max(result.leastBound, 1e-7f * bound[j]);
   return result;
 }
 

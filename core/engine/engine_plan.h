@@ -34,6 +34,7 @@ struct EngineVenue {
   PackedTransport transport;
   std::vector<std::int32_t> brightest;  // i*(j) of all views, see brightestCorrespondence()
   transport::ColourBlock mixing;        // K, see meanColourMixing()
+  compensation::StepPreconditioner preconditioner;
   std::vector<DriveEncoder> encoders;   // one a projector
 };
 
@@ -58,9 +59,6 @@ struct EngineContent {
   std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
   std::vector<std::optional<compensation::Placement>> placements;  // as Target's
   std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed
-  /// Projector pixels of which less comes back than this, T^T W lit, are seen by next to nothing: they would
-  /// take steps of any length on rounding errors.
-  float leastBound = 0.0f;
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

@@ -58,17 +58,18 @@ RELUCENT_KERNEL Wide codesAt(const std::int16_t* code) {
 #endif
 }
 
+constexpr int greenChannel = 1;
+
 /// Where the rows of a part find four floats: at `stride` times their place.
 template <std::size_t stride, typename Place>
 struct Places {
   const Place* place;
   RELUCENT_KERNEL std::size_t operator()(std::size_t row) const { return stride * std::size_t{place[row]}; }
 };
-template <std::size_t stride>
 struct Columns {
   const PackedLeaf* leaf;
   RELUCENT_KERNEL std::size_t operator()(std::size_t row) const {
-    return stride * std::size_t{leaf[row].column};
+    return columnFloats * std::size_t{leaf[row].column};
   }
 };
 
@@ -125,39 +126,28 @@ struct Rows {
 constexpr std::size_t leavesFetched = 2048;
 
 /// What some rows of leaves see of their columns' light, before mixing.
-template <std::size_t stride>
 RELUCENT_KERNEL void seenBy(const LeavesAbreast* leaves, std::size_t length, const float* light, Rows& seen) {
   for (std::size_t p = 0; p < parts; ++p) seen.part[p] = Wide{};
   for (std::size_t k = 0; k < length; ++k) {
     __builtin_prefetch(reinterpret_cast<const char*>(leaves + k) + leavesFetched);
     for (std::size_t p = 0; p < parts; ++p) {
       const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
-      seen.part[p] += codesAt(leaf->code.data()) * gathered(light, Columns<stride>{leaf});
+      seen.part[p] += codesAt(leaf->code.data()) * gathered(light, Columns{leaf});
     }
   }
 }
 
 /// Adds what they send back to their columns' sums, one row after the other: they may have columns in common.
-template <std::size_t stride>
+/// `four`: green of a second light beside the three channels; otherwise `down` is 0 there.
+template <bool four>
 RELUCENT_KERNEL void sendBack(const LeavesAbreast* leaves, std::size_t length, const Rows& down,
                               float* sums) {
   for (std::size_t k = 0; k < length; ++k)
     for (std::size_t p = 0; p < parts; ++p) {
       const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
-      addTo(sums, Columns<stride>{leaf}, codesAt(leaf->code.data()) * down.part[p]);
-    }
-}
-
-/// The same of two lights at once, which have their sums beside each other.
-template <std::size_t stride>
-RELUCENT_KERNEL void sendBothBack(const LeavesAbreast* leaves, std::size_t length, const Rows& down,
-                                  const Rows& downToo, float* sums) {
-  for (std::size_t k = 0; k < length; ++k)
-    for (std::size_t p = 0; p < parts; ++p) {
-      const PackedLeaf* leaf = &leaves[k].of[p * rowsOfAPart];
-      const Wide codes = codesAt(leaf->code.data());
-      addTo(sums, Columns<stride>{leaf}, codes * down.part[p]);
-      addTo(sums + 4, Columns<stride>{leaf}, codes * downToo.part[p]);
+      Wide codes = codesAt(leaf->code.data());
+      if constexpr (four) codes = RELUCENT_SHUFFLED(codes, codes, 0, 1, 2, greenChannel);
+      addTo(sums, Columns{leaf}, codes * down.part[p]);
     }
 }
 
@@ -197,13 +187,20 @@ RELUCENT_KERNEL Wide unmixedBack(const Mixings& m, const Wide& light) {
   return mixed(transposed<0>(m.column[0], m.column[1], m.column[2]), light);
 }
 
+/// Green of that alone, in the fourth lanes; the others are 0.
+RELUCENT_KERNEL Wide greenBack(const Mixings& m, const Wide& light) {
+  const Wide each = m.column[greenChannel] * light;
+  const Wide sum = RELUCENT_SHUFFLED(each, each, 0, 0, 0, 0) + RELUCENT_SHUFFLED(each, each, 1, 1, 1, 1) +
+                   RELUCENT_SHUFFLED(each, each, 2, 2, 2, 2);
+  return RELUCENT_SHUFFLED(Wide{}, sum, 0, 1, 2, 4);
+}
+
 /// What the groups of a square see with their parents, and the sums of what their rows send back. The first
 /// place is that of rows without a group.
 struct GroupLight {
   static constexpr std::size_t most = GroupSlice::nobody + 1;
   alignas(64) float seen[4 * most];
   alignas(64) float back[4 * most];
-  alignas(64) float backToo[4 * most];  // of the second light
 };
 using GroupPlaces = Places<4, std::uint8_t>;
 
@@ -211,14 +208,13 @@ RELUCENT_KERNEL GroupPlaces placesOf(const GroupSlice::Each<std::uint8_t>& place
   return {&places[part * rowsOfAPart]};
 }
 
-template <std::size_t stride>
 RELUCENT_KERNEL void lightGroups(const PatchRows& patch, const PackedSquare& square, const float* light,
                                  GroupLight& groups) {
   store(groups.seen, Four{});
   for (std::size_t i = square.groupSliceBegin; i < square.groupSliceEnd; ++i) {
     const GroupSlice& slice = patch.groupSlice[i];
     Rows seen;
-    seenBy<stride>(patch.leaves + slice.leafBegin, slice.length, light, seen);
+    seenBy(patch.leaves + slice.leafBegin, slice.length, light, seen);
     for (std::size_t p = 0; p < parts; ++p)
       storeAt(groups.seen, placesOf(slice.place, p),
               eachRow(&slice.scale[p * rowsOfAPart]) * seen.part[p] +
@@ -227,50 +223,38 @@ RELUCENT_KERNEL void lightGroups(const PatchRows& patch, const PackedSquare& squ
 }
 
 /// Passes on what groups have got from their rows, the narrow ones first.
-template <bool both>
+template <bool four>
 RELUCENT_KERNEL void sendGroupsBack(const PatchRows& patch, const PackedSquare& square, GroupLight& groups,
                                     float* sums) {
   for (std::size_t i = square.groupSliceEnd; i-- > square.groupSliceBegin;) {
     const GroupSlice& slice = patch.groupSlice[i];
-    Rows down, downToo;
+    Rows down;
     for (std::size_t p = 0; p < parts; ++p) {
-      const GroupPlaces place = placesOf(slice.place, p), parent = placesOf(slice.parent, p);
-      const Wide scale = eachRow(&slice.scale[p * rowsOfAPart]), back = gathered(groups.back, place);
-      addTo(groups.back, parent, back);
-      down.part[p] = scale * back;
-      if constexpr (both) {
-        const Wide backToo = gathered(groups.backToo, place);
-        addTo(groups.backToo, parent, backToo);
-        downToo.part[p] = scale * backToo;
-      }
+      const Wide back = gathered(groups.back, placesOf(slice.place, p));
+      addTo(groups.back, placesOf(slice.parent, p), back);
+      down.part[p] = eachRow(&slice.scale[p * rowsOfAPart]) * back;
     }
-    if constexpr (both)
-      sendBothBack<correctionFloats>(patch.leaves + slice.leafBegin, slice.length, down, downToo, sums);
-    else
-      sendBack<stepFloats>(patch.leaves + slice.leafBegin, slice.length, down, sums);
+    sendBack<four>(patch.leaves + slice.leafBegin, slice.length, down, sums);
   }
 }
 
-/// Through the leaves of rows and to their groups. `lightToo`: a second light that goes the same way.
-template <bool both>
+/// Through the leaves of rows and to their groups. `four`: with green of a second light, `lit`.
+template <bool four>
 RELUCENT_KERNEL void sendRowsBack(const PatchRows& patch, const RowSlice& slice, const Rows& light,
-                                  const Rows& lightToo, GroupLight& groups, float* sums) {
-  Rows down, downToo;
+                                  const Rows& lit, GroupLight& groups, float* sums) {
+  Rows down;
   for (std::size_t p = 0; p < parts; ++p) {
     const Mixings shared = mixingsAt(slice.shared, p), own = mixingsAt(slice.own, p);
     const Wide sharedScale = scalesAt(slice.shared, p), ownScale = scalesAt(slice.own, p);
-    const GroupPlaces group = placesOf(slice.group, p);
-    addTo(groups.back, group, unmixedBack(shared, sharedScale * light.part[p]));
+    Wide toGroup = unmixedBack(shared, sharedScale * light.part[p]);
     down.part[p] = unmixedBack(own, ownScale * light.part[p]);
-    if constexpr (both) {
-      addTo(groups.backToo, group, unmixedBack(shared, sharedScale * lightToo.part[p]));
-      downToo.part[p] = unmixedBack(own, ownScale * lightToo.part[p]);
+    if constexpr (four) {
+      toGroup += greenBack(shared, sharedScale * lit.part[p]);
+      down.part[p] += greenBack(own, ownScale * lit.part[p]);
     }
+    addTo(groups.back, placesOf(slice.group, p), toGroup);
   }
-  if constexpr (both)
-    sendBothBack<correctionFloats>(patch.leaves + slice.leafBegin, slice.length, down, downToo, sums);
-  else
-    sendBack<stepFloats>(patch.leaves + slice.leafBegin, slice.length, down, sums);
+  sendBack<four>(patch.leaves + slice.leafBegin, slice.length, down, sums);
 }
 
 // Slices ahead of which values of camera pixels are fetched: they lie in squares, which no processor
@@ -295,11 +279,10 @@ RELUCENT_KERNEL void fetch(const PatchRows& patch, const CameraArrays& camera, s
 }
 
 /// Of wanted light and weights, the weighted residuals.
-template <std::size_t stride>
 RELUCENT_KERNEL void residualsOf(const PatchRows& patch, const RowSlice& slice, const GroupLight& groups,
                                  const float* light, Rows& rows) {
   Rows seen;
-  seenBy<stride>(patch.leaves + slice.leafBegin, slice.length, light, seen);
+  seenBy(patch.leaves + slice.leafBegin, slice.length, light, seen);
   for (std::size_t p = 0; p < parts; ++p) {
     const Wide own = mixed(mixingsAt(slice.own, p), seen.part[p]);
     const Wide shared = mixed(mixingsAt(slice.shared, p), gathered(groups.seen, placesOf(slice.group, p)));
@@ -348,14 +331,12 @@ RELUCENT_KERNEL void weigh(const RowSlice& slice, const CameraArrays& camera, Ro
 
 template <bool correct>
 RELUCENT_KERNEL void passOver(const PatchRows& patch, const CameraArrays& camera, float* columns) {
-  constexpr std::size_t stride = correct ? correctionFloats : stepFloats;
   const float* light = columns;
   float* sums = columns + 4;
   for (const PackedSquare& square : patch.squares) {
     GroupLight groups;
-    lightGroups<stride>(patch, square, light, groups);
+    lightGroups(patch, square, light, groups);
     std::memset(groups.back, 0, sizeof groups.back);
-    if constexpr (correct) std::memset(groups.backToo, 0, sizeof groups.backToo);
     // One slice behind: while one waits for its product, the former one's adjoint keeps the processor busy.
     const RowSlice* waiting = nullptr;
     Rows residual, lit;
@@ -367,7 +348,7 @@ RELUCENT_KERNEL void passOver(const PatchRows& patch, const CameraArrays& camera
         if constexpr (correct) unmix(slice, camera.unmix[i], Rows{}, camera.unmixed);
         continue;
       }
-      residualsOf<stride>(patch, slice, groups, light, rows);
+      residualsOf(patch, slice, groups, light, rows);
       if constexpr (correct) {
         const Rows unweighted = rows;
         weigh(slice, camera, rows, rowsLit);
@@ -526,41 +507,87 @@ RELUCENT_KERNEL void windowOf(const inverse::WindowArrays& windows, std::size_t 
   }
 }
 
+/// Twelve values of four pixels, three a pixel.
+struct Pixels {
+  Four part[3];
+};
+
+/// Of four floats a pixel, the first three.
+RELUCENT_KERNEL Pixels channelsOf(const float* values) {
+  const Four a = loaded<Four>(values), b = loaded<Four>(values + 4), c = loaded<Four>(values + 8),
+             d = loaded<Four>(values + 12);
+  return {{__builtin_shufflevector(a, b, 0, 1, 2, 4), __builtin_shufflevector(b, c, 1, 2, 4, 5),
+           __builtin_shufflevector(c, d, 2, 4, 5, 6)}};
+}
+
+/// One value a pixel, for all of its channels.
+RELUCENT_KERNEL Pixels forChannels(const Four& value) {
+  return {{__builtin_shufflevector(value, value, 0, 0, 0, 1), __builtin_shufflevector(value, value, 1, 1, 2, 2),
+           __builtin_shufflevector(value, value, 2, 3, 3, 3)}};
+}
+
+using FourIntegers [[gnu::vector_size(16)]] = std::int32_t;
+
+constexpr std::size_t pixelsTogether = 4;
+
 /// Values of an update in place; `cut` counts down where a value is visibly cut off.
-RELUCENT_KERNEL void updateSome(float* p, const float* c, const float* back, float length,
-                                WideIntegers& cut) {
-  Wide value = loaded<Wide>(p);
-  value += length * loaded<Wide>(c) * loaded<Wide>(back);
-  cut += (value < allLanes(-visibleCut)) | (value > allLanes(1.0f + visibleCut));
-  store(p, clamped(value));
+RELUCENT_KERNEL void updateSome(float* p, const float* c, const float* back, float length, FourIntegers& cut) {
+  const Pixels step = channelsOf(back);
+  const Four zero{}, one = 1.0f - zero, below = -visibleCut - zero, above = (1.0f + visibleCut) - zero;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Four value = loaded<Four>(p + 4 * i);
+    value += length * loaded<Four>(c + 4 * i) * step.part[i];
+    cut += (value < below) | (value > above);
+    value = value > zero ? value : zero;
+    store(p + 4 * i, value < one ? value : one);
+  }
 }
 
 RELUCENT_KERNEL std::size_t updateAll(float* p, const float* c, const float* back, float length,
-                                      std::size_t count) {
-  WideIntegers cut{};
+                                      std::size_t pixels) {
+  FourIntegers cut{};
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) updateSome(p + i, c + i, back + i, length, cut);
-  if (i < count) {
-    float rest[3][lanes] = {};
-    const std::size_t bytes = (count - i) * sizeof(float);
-    std::memcpy(rest[0], p + i, bytes);
-    std::memcpy(rest[1], c + i, bytes);
-    std::memcpy(rest[2], back + i, bytes);
-    updateSome(rest[0], rest[1], rest[2], length, cut);
-    std::memcpy(p + i, rest[0], bytes);
+  for (; i + pixelsTogether <= pixels; i += pixelsTogether)
+    updateSome(p + 3 * i, c + 3 * i, back + sumFloats * i, length, cut);
+  if (i < pixels) {
+    float values[3 * pixelsTogether] = {}, steps[3 * pixelsTogether] = {}, sums[sumFloats * pixelsTogether] = {};
+    std::copy_n(p + 3 * i, 3 * (pixels - i), values);
+    std::copy_n(c + 3 * i, 3 * (pixels - i), steps);
+    std::copy_n(back + sumFloats * i, sumFloats * (pixels - i), sums);
+    updateSome(values, steps, sums, length, cut);
+    std::copy_n(values, 3 * (pixels - i), p + 3 * i);
   }
   std::int32_t all = 0;
-  for (std::size_t lane = 0; lane < lanes; ++lane) all -= cut[lane];
+  for (std::size_t lane = 0; lane < 4; ++lane) all -= cut[lane];
   return static_cast<std::size_t>(all);
 }
 
-RELUCENT_KERNEL void reciprocalOf(float* c, const float* bound, const float* least, std::size_t count) {
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    const Wide value = loaded<Wide>(bound + i);
-    store(c + i, value > loaded<Wide>(least + i) ? 1.0f / value : Wide{});
+/// Of four pixels; see StepPreconditioner::from().
+RELUCENT_KERNEL void preconditionSome(float* c, const float* back, const float* share, const float* least) {
+  const Four low = __builtin_shufflevector(loaded<Four>(back), loaded<Four>(back + 4), 3, 7, 3, 7);
+  const Four high = __builtin_shufflevector(loaded<Four>(back + 8), loaded<Four>(back + 12), 3, 7, 3, 7);
+  const Four bound = __builtin_shufflevector(low, high, 0, 1, 4, 5), limit = loaded<Four>(least), zero{};
+  const Four unseen = compensation::StepPreconditioner::nextToNothing - zero;
+  const Four unless = limit <= std::numeric_limits<float>::max() - zero ? unseen : zero;
+  const Pixels inverse = forChannels(bound > limit ? 1.0f / bound : unless);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Four of = loaded<Four>(share + 4 * i);
+    store(c + 4 * i, of >= zero ? of * inverse.part[i] : inverse.part[i] > zero ? -of : zero);
   }
-  for (; i < count; ++i) c[i] = bound[i] > least[i] ? 1.0f / bound[i] : 0.0f;
+}
+
+RELUCENT_KERNEL void preconditionAll(float* c, const float* back, const float* share, const float* least,
+                                     std::size_t pixels) {
+  std::size_t i = 0;
+  for (; i + pixelsTogether <= pixels; i += pixelsTogether)
+    preconditionSome(c + 3 * i, back + sumFloats * i, share + 3 * i, least + i);
+  for (; i < pixels; ++i) {
+    const float inverse = least[i] <= std::numeric_limits<float>::max()
+                              ? compensation::StepPreconditioner::inverse(back[sumFloats * i + 3], least[i])
+                              : 0.0f;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k)
+      c[k] = compensation::StepPreconditioner::from(share[k], inverse);
+  }
 }
 
 #undef RELUCENT_IN_ROW
@@ -585,14 +612,15 @@ RELUCENT_FUNCTION void correct(const PatchRows& patch, const CameraArrays& camer
 }
 
 RELUCENT_FUNCTION std::size_t update(float* p, const float* c, const float* back, float length,
-                                     std::size_t count) {
-  return updateAll(p, c, back, length, count);
+                                     std::size_t pixels) {
+  return updateAll(p, c, back, length, pixels);
 }
 
-RELUCENT_FUNCTION void reciprocal(float* c, const float* bound, const float* least, std::size_t count) {
-  reciprocalOf(c, bound, least, count);
+RELUCENT_FUNCTION void precondition(float* c, const float* back, const float* share, const float* least,
+                                    std::size_t pixels) {
+  preconditionAll(c, back, share, least, pixels);
 }
 
 constexpr EngineKernels kernelsFor(const char* instructions) {
-  return {instructions, place, window, step, correct, update, reciprocal};
+  return {instructions, place, window, step, correct, update, precondition};
 }

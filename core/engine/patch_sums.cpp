@@ -77,11 +77,11 @@ void PatchSums::addPatch(std::size_t patch, const float* columns, std::size_t st
     const float* from = columns + stride * (run.begin - first);
     if (run.place == none) {
       for (std::uint32_t column = run.begin; column < run.end; ++column, from += stride)
-        std::memcpy(sums + 3 * std::size_t{node_[column]}, from, 3 * sizeof(float));
+        std::memcpy(sums + sumFloats * std::size_t{node_[column]}, from, sumFloats * sizeof(float));
     } else {
-      float* to = waiting + placeFloats * run.place;
-      for (std::uint32_t column = run.begin; column < run.end; ++column, from += stride, to += placeFloats)
-        std::memcpy(to, from, placeFloats * sizeof(float));
+      float* to = waiting + sumFloats * run.place;
+      for (std::uint32_t column = run.begin; column < run.end; ++column, from += stride, to += sumFloats)
+        std::memcpy(to, from, sumFloats * sizeof(float));
     }
   }
 }
@@ -89,11 +89,12 @@ void PatchSums::addPatch(std::size_t patch, const float* columns, std::size_t st
 void PatchSums::addStored(const float* waiting, float* sums) const noexcept {
   parallelFor(0, clearStart_.size() - 1, 4, [&](std::size_t range) {
     for (std::uint32_t i = clearStart_[range]; i < clearStart_[range + 1]; ++i)
-      std::fill(sums + 3 * std::size_t{clear_[i].begin}, sums + 3 * std::size_t{clear_[i].end}, 0.0f);
+      std::fill(sums + sumFloats * std::size_t{clear_[i].begin}, sums + sumFloats * std::size_t{clear_[i].end},
+                0.0f);
     for (std::uint32_t i = pieceStart_[range]; i < pieceStart_[range + 1]; ++i) {
       for (std::uint32_t place = piece_[i].begin; place < piece_[i].end; ++place) {
-        float* out = sums + 3 * std::size_t{placeNode_[place]};
-        for (std::size_t c = 0; c < 3; ++c) out[c] += waiting[placeFloats * place + c];
+        float* out = sums + sumFloats * std::size_t{placeNode_[place]};
+        for (std::size_t c = 0; c < sumFloats; ++c) out[c] += waiting[sumFloats * place + c];
       }
     }
   });

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "relucent/engine/engine_kernels.h"
 #include "relucent/engine/packed_transport.h"
 
 namespace relucent::engine {
@@ -15,13 +16,12 @@ class PatchSums {
  public:
   explicit PatchSums(const PackedTransport& transport, std::size_t nodes);
 
-  /// Number of stored sums, `placeFloats` floats each.
+  /// Number of stored sums.
   std::size_t places() const { return placeNode_.size(); }
-  static constexpr std::size_t placeFloats = 4;
 
-  /// Adds one patch's sums: three floats for each of its columns, `stride` floats apart.
+  /// Adds one patch's sums: sumFloats floats for each of its columns, `stride` floats apart.
   /// Different patches may be added concurrently.
-  /// Shapes: 3 * nodes `sums`; placeFloats * places() `waiting`.
+  /// Shapes: sumFloats * nodes `sums`; sumFloats * places() `waiting`.
   void addPatch(std::size_t patch, const float* columns, std::size_t stride, float* sums,
                 float* waiting) const noexcept;
   /// After all patches: adds the stored sums to `sums`; nodes in no patch get 0.

@@ -69,9 +69,7 @@ struct OpenGlBackend::Objects {
       groupBackwardCorrected{shaders::group_backward, {"CORRECTION"}};
   GlProgram forwardStep{shaders::forward}, forwardCorrected{shaders::forward, {"CORRECTION"}};
   GlProgram backwardStep{shaders::backward}, backwardCorrected{shaders::backward, {"CORRECTION"}};
-  GlProgram sumStep{shaders::sum_nodes}, sumCorrected{shaders::sum_nodes, {"CORRECTION"}};
-  GlProgram sumLongStep{shaders::sum_nodes, {"LONG"}},
-      sumLongCorrected{shaders::sum_nodes, {"LONG", "CORRECTION"}};
+  GlProgram sum{shaders::sum_nodes}, sumLong{shaders::sum_nodes, {"LONG"}};
   GlProgram spreadStep{shaders::spread}, spreadCorrected{shaders::spread, {"CORRECTION"}};
   GlProgram brightness{shaders::brightness, {"WEIGHTS"}}, brightnessLast{shaders::brightness, {"LAST"}};
   GlProgram showing{shaders::show_placed}, encoding{shaders::encode};

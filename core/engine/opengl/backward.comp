@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The adjoint: one segment an invocation, some of the leaves that a node has in one patch. Nobody else writes
-// its sum, so the order of additions is always the same.
+// its sum, so the order of additions is always the same. With CORRECTION green of what is lit is the fourth.
 layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first place
 layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
 #ifdef CORRECTION
@@ -21,18 +21,16 @@ void main() {
   uvec2 here = slice[firstSlice + index];
   uint end = slice[firstSlice + index + 1u].x - leavesBefore;
   uint segment = 32u * (firstSlice + index) + lane;
-  vec3 sum = vec3(0.0);
 #ifdef CORRECTION
-  vec3 bound = vec3(0.0);
+  vec4 sum = vec4(0.0);
   for (uint k = here.x - leavesBefore; k < end; ++k) {
     uvec2 one = leaf[32u * k + lane];
     uvec4 both = back[here.y + placeOf(one)];
-    sum += codesOf(one) * unpackFloats(both.xy);
-    bound += codesOf(one) * unpackFloats(both.zw);
+    sum += vec4(codesOf(one), codesOf(one).y) * vec4(unpackFloats(both.xy), uintBitsToFloat(both.z));
   }
-  segmentSum[2u * segment] = vec4(sum, 0.0);
-  segmentSum[2u * segment + 1u] = vec4(bound, 0.0);
+  segmentSum[segment] = sum;
 #else
+  vec3 sum = vec3(0.0);
   for (uint k = here.x - leavesBefore; k < end; ++k) {
     uvec2 one = leaf[32u * k + lane];
     sum += codesOf(one) * unpackFloats(back[here.y + placeOf(one)]);

@@ -53,6 +53,11 @@ vec3 unpackFloats(uvec2 code) {
 /// place in the content, and nothing.
 const uint cameraBlack = 0u, cameraFlood = 1u, cameraLit = 2u, cameraUnmix = 3u, cameraStride = 6u;
 
+/// C of a projector pixel, from its share (see StepPreconditioner) and the inverse of what comes back of green.
+vec3 preconditioner(vec4 known) {
+  return mix(known.xyz * known.w, known.w > 0.0 ? -known.xyz : vec3(0.0), lessThan(known.xyz, vec3(0.0)));
+}
+
 /// The weight of its view, 0 where it is not usable.
 const uint mostViews = 64u;
 #ifdef WEIGHTS

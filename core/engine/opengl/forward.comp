@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One camera pixel an invocation: its residual W (wanted - T p), and what of that goes back to its own leaves and
-// to its group, mixings included. With CORRECTION the light wanted is held to what there is, W T 1 goes back beside it, and
-// the residual is unmixed for the windows, which know of no sensitivity.
+// to its group, mixings included. With CORRECTION the light wanted is held to what there is, green of W T 1 goes back
+// beside it, and the residual is unmixed for the windows, which know of no sensitivity.
 layout(std430, binding = 0) readonly buffer Slices { uvec2 slice[]; };  // first leaf / 32, first column
 layout(std430, binding = 1) readonly buffer Leaves { uvec2 leaf[]; };
 layout(std430, binding = 2) readonly buffer ColumnLight { uvec2 columnLight[]; };
@@ -62,8 +62,8 @@ void main() {
   vec3 held = clamp(want.xyz, vec3(0.0), max(camera[c + cameraFlood].xyz, vec3(0.0)));
   vec3 residual = want.w * (held - seen);
   vec3 lit = want.w * camera[c + cameraLit].xyz;
-  back[to] = uvec4(packFloats(ownMixing * residual), packFloats(ownMixing * lit));
-  back[to + 1u] = uvec4(packFloats(sharedMixing * residual), packFloats(sharedMixing * lit));
+  back[to] = uvec4(packFloats(ownMixing * residual), floatBitsToUint((ownMixing * lit).y), 0u);
+  back[to + 1u] = uvec4(packFloats(sharedMixing * residual), floatBitsToUint((sharedMixing * lit).y), 0u);
   mat3 unmix = rowsOf(camera[c + cameraUnmix], camera[c + cameraUnmix + 1u], camera[c + cameraUnmix + 2u].x);
   unmixed[pixel] = vec4(unmix * residual / unmixed[pixel].w, 0.0);
 #else

@@ -19,19 +19,19 @@ void main() {
   float scale = uintBitsToFloat(group[g + groupScale]);
   vec3 sum = vec3(0.0);
 #ifdef CORRECTION
-  vec3 bound = vec3(0.0);
+  float lit = 0.0;
 #endif
   for (uint row = group[g + groupRows]; row < group[g + groupRows + 1u]; ++row) {
 #ifdef CORRECTION
     uvec4 both = back[groupBack[row]];
     sum += unpackFloats(both.xy);
-    bound += unpackFloats(both.zw);
+    lit += uintBitsToFloat(both.z);
 #else
     sum += unpackFloats(back[groupBack[row]]);
 #endif
   }
 #ifdef CORRECTION
-  back[to] = uvec4(packFloats(scale * sum), packFloats(scale * bound));
+  back[to] = uvec4(packFloats(scale * sum), floatBitsToUint(scale * lit), 0u);
 #else
   back[to] = packFloats(scale * sum);
 #endif

@@ -129,8 +129,12 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
   columnLight = GlBuffer(2 * sizeof(std::uint32_t) * (columns + groupSlots));
   groupLight = GlBuffer(vector * groupSlots);
   back = GlBuffer(vector * sliced.backPlaces);
-  segmentSums = GlBuffer(2 * vector * LeafSlices::lanes * sliced.backward.count());
-  sums = GlBuffer(2 * vector * nodeCount);
+  segmentSums = GlBuffer(vector * LeafSlices::lanes * sliced.backward.count());
+  sums = GlBuffer(vector * (nodeCount + projectorPixels));
+  std::vector<float> steps(4 * projectorPixels);
+  for (std::size_t j = 0; j < projectorPixels; ++j)
+    std::copy_n(&engine.preconditioner.share()[3 * j], 3, &steps[4 * j]);
+  sums.write(vector * nodeCount, steps.data(), steps.size() * sizeof(float));
   counters = GlBuffer(vector);
   brightnessParts = GlBuffer(65 * 2 * sizeof(float));
   brightest = GlBuffer(engine.brightest);

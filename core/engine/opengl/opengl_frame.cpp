@@ -99,7 +99,12 @@ void OpenGlBackend::Objects::invert(Inversion which) noexcept {
   const GlProgram& program = which == Inversion::first  ? windows
                              : which == Inversion::last ? windowsOfLast
                                                         : windowsCorrected;
-  if (which != Inversion::first) counters.clear(0, sizeof(std::uint32_t));
+  if (which != Inversion::first) {
+    counters.clear();
+    program.set(10, nodeCount);
+    program.set(11, engine.preconditioner.least());
+    program.set(12, compensation::StepPreconditioner::nextToNothing);
+  }
   if (which == Inversion::correction) {
     program.set(8, static_cast<float>(settings.correctionByInverse));
     program.set(9, static_cast<float>(settings.correctionByAdjoint));
@@ -171,11 +176,9 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
   overSlices(correction ? backwardCorrected : backwardStep, backward);
 
   bindAll({&nodeStart, &segments, &segmentSums, &sums, &longNodes});
-  const GlProgram& sum = correction ? sumCorrected : sumStep;
   sum.set(0, nodeCount);
   sum.set(1, SlicedTransport::longNode);
   sum.run(nodeCount);
-  const GlProgram& sumLong = correction ? sumLongCorrected : sumLongStep;
   sumLong.set(0, longCount);
   sumLong.run(group * longCount);
 }
@@ -183,9 +186,12 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
 void OpenGlBackend::Objects::spread(bool correction, float length) noexcept {
   const transport::NodeLayout& layout = engine.venue.transport.layout();
   const GlProgram& program = correction ? spreadCorrected : spreadStep;
-  counters.clear();
   bindAll({&sums, &light, &counters, &nodeLight});
-  if (!correction) program.set(0, length);
+  if (!correction) {
+    counters.clear();
+    program.set(0, length);
+    program.set(36, nodeCount);
+  }
   for (std::size_t projector = 0; projector < layout.projectors().devices(); ++projector) {
     const Size size = layout.projectors().size(projector);
     std::array<std::uint32_t, 64> levels{};

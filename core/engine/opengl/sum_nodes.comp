@@ -9,15 +9,9 @@ layout(std430, binding = 3) writeonly buffer Sums { vec4 sums[]; };  // see wind
 layout(location = 0) uniform uint nodes;
 layout(location = 1) uniform uint longNode;  // from so many segments on
 
-#ifdef CORRECTION
-const uint kinds = 2u;
-#else
-const uint kinds = 1u;
-#endif
-
-vec4 sumOf(uint begin, uint end, uint stride, uint kind) {
+vec4 sumOf(uint begin, uint end, uint stride) {
   vec4 sum = vec4(0.0);
-  for (uint i = begin; i < end; i += stride) sum += segmentSum[kinds * segment[i] + kind];
+  for (uint i = begin; i < end; i += stride) sum += segmentSum[segment[i]];
   return sum;
 }
 
@@ -29,16 +23,13 @@ void main() {
   uint index = invocation() / 64u;
   uint lane = gl_LocalInvocationID.x;
   uint node = index < nodes ? longNodes[index] : 0u;
-  for (uint kind = 0u; kind < kinds; ++kind) {
-    part[lane] = index < nodes ? sumOf(start[node] + lane, start[node + 1u], 64u, kind) : vec4(0.0);
-    for (uint width = 32u; width > 0u; width /= 2u) {
-      barrier();
-      if (lane < width) part[lane] += part[lane + width];
-    }
+  part[lane] = index < nodes ? sumOf(start[node] + lane, start[node + 1u], 64u) : vec4(0.0);
+  for (uint width = 32u; width > 0u; width /= 2u) {
     barrier();
-    if (lane == 0u && index < nodes) sums[2u * node + kind] = part[0];
-    barrier();
+    if (lane < width) part[lane] += part[lane + width];
   }
+  barrier();
+  if (lane == 0u && index < nodes) sums[node] = part[0];
 }
 #else
 void main() {
@@ -46,6 +37,6 @@ void main() {
   if (node >= nodes) return;
   uint begin = start[node], end = start[node + 1u];
   if (end - begin >= longNode) return;
-  for (uint kind = 0u; kind < kinds; ++kind) sums[2u * node + kind] = sumOf(begin, end, 1u, kind);
+  sums[node] = sumOf(begin, end, 1u);
 }
 #endif

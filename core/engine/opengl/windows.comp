@@ -9,12 +9,16 @@ layout(std430, binding = 3) readonly buffer Unmixed { vec4 unmixed[]; };
 layout(std430, binding = 4) buffer Light { vec4 light[]; };  // and 1 where a pixel is free
 layout(std430, binding = 5) writeonly buffer NodeLight { uvec2 nodeLight[]; };
 #ifdef CORRECTION
-// Two for every node: what comes back of the residual, and C^-1 on its way to C.
+// Of every node what comes back of the residual, and of green of what is lit; then, from `firstStep` on, what C of every
+// pixel is made of, see common.glsl.
 layout(std430, binding = 6) buffer Sums { vec4 sums[]; };
-layout(std430, binding = 7) buffer Counters { uint cutAll; uint largestBound; };
+layout(std430, binding = 7) buffer Counters { uint cutAll; };
 shared uint cutHere;
 layout(location = 8) uniform float byInverse;
 layout(location = 9) uniform float byAdjoint;
+layout(location = 10) uniform uint firstStep;
+layout(location = 11) uniform float least;
+layout(location = 12) uniform float nextToNothing;
 #endif
 
 layout(location = 0) uniform uint firstTile;
@@ -33,15 +37,13 @@ uint store(uint tile, uint inTile, vec3 value) {
   uint j = firstPixel + y * size.x + x;
   vec4 before = light[j];
 #ifdef CORRECTION
-  vec3 bound = sums[2u * j + 1u].xyz;
+  vec4 back = sums[j];
   // What hardly any weighted pixel sees would take steps of any length on rounding errors.
-  float least = 1e-7 * uintBitsToFloat(largestBound);
-  vec3 c = mix(vec3(0.0), before.w / bound, greaterThan(bound, vec3(least)));
-  sums[2u * j + 1u] = vec4(c, 0.0);
+  sums[firstStep + j].w = before.w * (back.w > least ? 1.0 / back.w : nextToNothing);
 #ifdef LAST
   value = before.w * before.xyz;
 #else
-  value = before.xyz + byInverse * before.w * value + byAdjoint * c * sums[2u * j].xyz;
+  value = before.xyz + byInverse * before.w * value + byAdjoint * preconditioner(sums[firstStep + j]) * back.xyz;
 #endif
   uint cut = visiblyCut(value);
 #else

@@ -39,13 +39,13 @@ class TestPatchSums : public QObject {
     Random random{7};
     std::vector<float> columns(stride * packed.nodes().size());
     for (float& value : columns) value = random.uniformFloat() - 0.5f;
-    std::vector<float> expected(3 * nodes, 0.0f);
+    std::vector<float> expected(sumFloats * nodes, 0.0f);
     for (std::size_t column = 0; column < packed.nodes().size(); ++column)
-      for (std::size_t c = 0; c < 3; ++c)
-        expected[3 * packed.nodes()[column] + c] += columns[stride * column + c];
+      for (std::size_t c = 0; c < sumFloats; ++c)
+        expected[sumFloats * packed.nodes()[column] + c] += columns[stride * column + c];
 
     const float left = std::numeric_limits<float>::quiet_NaN();
-    std::vector<float> sums(3 * nodes, left), waiting(PatchSums::placeFloats * patchSums.places(), left);
+    std::vector<float> sums(sumFloats * nodes, left), waiting(sumFloats * patchSums.places(), left);
     for (std::size_t patch = packed.patches().size(); patch-- > 0;)
       patchSums.addPatch(patch, columns.data() + stride * packed.patches()[patch].columnBegin, stride,
                          sums.data(), waiting.data());
@@ -66,7 +66,7 @@ class TestPatchSums : public QObject {
                               BlockSparseBuilder(layout.count(), std::vector<float>(6, 0.0f)).build());
     const PackedTransport packed(transport, {8});
     const PatchSums patchSums(packed, layout.count());
-    std::vector<float> sums(3 * layout.count(), 3.0f);
+    std::vector<float> sums(sumFloats * layout.count(), 3.0f);
     patchSums.addPatch(0, nullptr, 4, sums.data(), nullptr);
     patchSums.addStored(nullptr, sums.data());
     QVERIFY(std::all_of(sums.begin(), sums.end(), [](float sum) { return sum == 0.0f; }));

@@ -113,7 +113,7 @@ class TestViewFollower : public QObject {
       CameraStack wanted = target.wanted;
       for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] -= made.venue.black[i];
       const ConstrainedProblem problem{made.venue.transport, wanted, target.weight, free};
-      const ProjectorStack c = diagonalPreconditioner(problem);
+      const ProjectorStack c = engine.preconditioner.of(problem);
       for (int step = 0; step < 2; ++step) {
         takeStep(problem, c, lengths[static_cast<std::size_t>(step)], expected);
         for (std::size_t i = 0; i < expected.size(); ++i)

@@ -324,6 +324,15 @@ class TestBackends : public QObject {
     QVERIFY(mostApart(halved, rendered(*device, engine, frameOf(dim), {true, 1, 1.0f, 0.0f})) <= 1);
     auto raised = rendered(*device, engine, frameOf(grey), {true, 1, 1.0f, 0.2f});
     QVERIFY(mostApart(raised, rendered(*device, engine, frameOf(lifted), {true, 1, 1.0f, 0.0f})) <= 1);
+
+    EngineSettings settings = plain();
+    settings.target.blackLift = 0.2;
+    const EngineVenue lifting = prepareVenue(made.venue, made.inverse, made.responses, settings);
+    const std::unique_ptr<EngineBackend> lifts = backendOf(backend, lifting);
+    for (const float asked : {0.0f, 0.1f, 0.2f})
+      QVERIFY(rendered(*lifts, lifting, frameOf(grey), {true, 1, 1.0f, asked}) == raised);
+    QVERIFY(rendered(*lifts, lifting, frameOf(grey), {true, 1, 1.0f, 0.3f}) ==
+            rendered(*device, engine, frameOf(grey), {true, 1, 1.0f, 0.3f}));
   }
 
   void sameBitsForEveryNumberOfThreads_data() { everyBackend(); }

@@ -62,12 +62,12 @@ constexpr double rounding = 1e-5;
 class TestStepPreconditioner : public QObject {
   Q_OBJECT
 
- private slots:
   void seeds() {
     QTest::addColumn<int>("seed");
     for (int seed = 1; seed <= 4; ++seed) QTest::addRow("%d", seed) << seed;
   }
 
+ private slots:
   void isExactWhereWeightsAreAlike_data() { seeds(); }
   /// Whatever their value, with all projector pixels free.
   void isExactWhereWeightsAreAlike() {

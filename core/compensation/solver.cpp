@@ -58,13 +58,17 @@ SolverSettings defaultsOf(SolverSettings::Algorithm algorithm) {
   return settings;
 }
 
+ProjectorStack hessianRowSums(const transport::TransportMatrix& transport, const std::vector<float>& weight,
+                              const ProjectorMask& free) {
+  const CameraStack lit = transport.apply(stackOf<ProjectorStack>(
+      3 * free.size(), [&](std::size_t j) { return free[j / 3] ? 1.0f : 0.0f; }));
+  return transport.applyTransposed(
+      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return weight[i / 3] * lit[i]; }));
+}
+
 ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem) {
   checkShapes(problem);
-  CameraStack lit = problem.transport.apply(stackOf<ProjectorStack>(
-      3 * problem.free.size(), [&](std::size_t j) { return problem.free[j / 3] ? 1.0f : 0.0f; }));
-  CameraStack row =
-      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; });
-  ProjectorStack bound = problem.transport.applyTransposed(row);
+  const ProjectorStack bound = hessianRowSums(problem.transport, problem.weight, problem.free);
   float largest = bound.empty() ? 0.0f : *std::max_element(bound.begin(), bound.end());
   // What sees next to nothing would take steps of any length on rounding errors.
   return stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {

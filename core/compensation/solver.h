@@ -54,6 +54,11 @@ struct SolveResult {
   double objective = 0.0;          // f
 };
 
+/// T^T W T 1, with 1 on the free pixels only: the row sums of the Hessian. Shape: projector stack.
+/// `weight`: W, one value a camera pixel.
+ProjectorStack hessianRowSums(const transport::TransportMatrix& transport, const std::vector<float>& weight,
+                              const ProjectorMask& free);
+
 /// C_j = 1 / (T^T W (T 1))_j, with 1 on the free pixels only: the diagonal that bounds T^T W T from above for
 /// non-negative transport, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a
 /// diagonal keeps the fixed point of the projected iteration where the constrained optimum is.

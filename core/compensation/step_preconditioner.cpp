@@ -13,23 +13,15 @@ constexpr std::size_t green = 1;
 /// Of a channel's own light, below which green says nothing of it.
 constexpr float leastShown = 1e-5f;
 
-/// Tᵀ W T 1, with 1 on the free pixels.
-template <typename Free, typename Weight>
-ProjectorStack boundOf(const transport::TransportMatrix& transport, const Free& isFree, const Weight& weightOf) {
-  const CameraStack lit = transport.apply(stackOf<ProjectorStack>(
-      3 * transport.projectors().count(), [&](std::size_t j) { return isFree(j / 3) ? 1.0f : 0.0f; }));
-  return transport.applyTransposed(
-      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return weightOf(i / 3) * lit[i]; }));
-}
-
 }  // namespace
 
 StepPreconditioner::StepPreconditioner(const transport::TransportMatrix& transport, const CameraMask& usable) {
   require(usable.size() == transport.cameras().count(), "{} flags for {} camera pixels", usable.size(),
           transport.cameras().count());
-  const ProjectorStack bound = boundOf(
-      transport, [](std::size_t) { return true; },
-      [&](std::size_t i) { return usable[i] != 0 ? 1.0f : 0.0f; });
+  std::vector<float> weight(usable.size());
+  std::ranges::transform(usable, weight.begin(), [](std::uint8_t flag) { return flag != 0 ? 1.0f : 0.0f; });
+  const ProjectorStack bound =
+      hessianRowSums(transport, weight, ProjectorMask(transport.projectors().count(), 1));
   least_ = bound.empty() ? 0.0f : 1e-7f * std::ranges::max(bound);
   share_ = stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {
     const float own = bound[j], shown = bound[j - j % 3 + green];
@@ -41,9 +33,7 @@ StepPreconditioner::StepPreconditioner(const transport::TransportMatrix& transpo
 ProjectorStack StepPreconditioner::of(const ConstrainedProblem& problem) const {
   require(share_.size() == 3 * problem.free.size(), "C of {} projector values for {} pixels", share_.size(),
           problem.free.size());
-  const ProjectorStack bound = boundOf(
-      problem.transport, [&](std::size_t j) { return problem.free[j] != 0; },
-      [&](std::size_t i) { return problem.weight[i]; });
+  const ProjectorStack bound = hessianRowSums(problem.transport, problem.weight, problem.free);
   return stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {
     return problem.free[j / 3] ? from(share_[j], inverse(bound[j - j % 3 + green], least_)) : 0.0f;
   });

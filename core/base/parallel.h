@@ -34,6 +34,9 @@ void parallelChunks(std::size_t begin, std::size_t end, std::size_t chunks, cons
       tbb::simple_partitioner());
 }
 
+/// Chunks for sums where nothing asks for another number: enough for the cores of any machine.
+inline constexpr std::size_t fixedParts = 64;
+
 /// foreground() on this thread, then wait() for what goes on beside it. If the first throws, abandon() waits
 /// in its place; what that throws is lost, since the first exception says more.
 template <typename Foreground, typename Abandon, typename Wait>

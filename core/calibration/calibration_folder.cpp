@@ -20,7 +20,7 @@ namespace relucent::calibration {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* formatName = "relucent calibration";
+constexpr const char* calibrationFormat = "relucent calibration";
 
 std::string now() {
   auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -100,7 +100,7 @@ Json readManifest(const fs::path& file) {
   if (manifest.is_discarded() || !manifest.is_object())
     throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
                                          "the file that describes the venue is damaged"));
-  if (manifest.value("format", Json()) != formatName)
+  if (manifest.value("format", Json()) != calibrationFormat)
     throw damaged(file,
                   RELUCENT_MESSAGE("calibration.not-a-calibration", "this is not a calibration of Relucent"));
   Json written = manifest.value("version", Json());
@@ -183,10 +183,13 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
                                  "choose a new or an empty folder for the calibration"),
         path.string());
 
-  Json manifest = {
-      {"format", formatName},     {"version", version},    {"software", "Relucent " RELUCENT_VERSION},
-      {"created", now()},         {"rig", std::move(rig)}, {"settings", std::move(settings)},
-      {"results", Json::object()}};
+  Json manifest = {{"format", calibrationFormat},
+                   {"version", version},
+                   {"software", "Relucent " RELUCENT_VERSION},
+                   {"created", now()},
+                   {"rig", std::move(rig)},
+                   {"settings", std::move(settings)},
+                   {"results", Json::object()}};
   CalibrationFolder folder(path, std::move(lock), Access::write, std::move(manifest));
   folder.writeManifest(*folder.manifest_);
   return folder;

@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "shot files hold little endian samples");
 
-constexpr const char* formatName = "relucent shot";
+constexpr const char* shotFormat = "relucent shot";
 constexpr int formatVersion = 2;
 constexpr int plainVersion = 1;  // samples as they are, of earlier programs: read, not written
 
@@ -175,7 +175,7 @@ std::string shotFileOf(const rig::Shot& shot) {
     }
     frames.push_back(std::move(cameras));
   }
-  Json header = {{"format", formatName},
+  Json header = {{"format", shotFormat},
                  {"version", formatVersion},
                  {"stage", shot.id.stage},
                  {"number", shot.id.number},
@@ -242,7 +242,7 @@ Json headerOf(std::string_view content) {
   if (line == std::string_view::npos) return {};
   const std::string_view text = content.substr(0, line);
   Json header = Json::parse(text.begin(), text.end(), nullptr, false);
-  const bool isOurs = header.is_object() && header.value("format", Json()) == formatName &&
+  const bool isOurs = header.is_object() && header.value("format", Json()) == shotFormat &&
                       isKnownVersion(header.value("version", Json())) && header.contains("checksum");
   return isOurs ? std::move(header) : Json();
 }

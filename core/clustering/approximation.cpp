@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/clustering/patches.h"
 #include "relucent/image/colour.h"
 
@@ -12,7 +13,6 @@ namespace relucent::clustering {
 namespace {
 
 constexpr std::size_t chunks = 64;
-constexpr float largestCode = 32767.0f;
 /// A channel that kept less than this share of the row's brightest is noise: scaling it to the flood image
 /// on its own could blow it up without bound, so it goes along with the others.
 constexpr float leastChannelShare = 1e-3f;

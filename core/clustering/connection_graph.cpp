@@ -16,8 +16,6 @@ namespace {
 /// Wide leaves of a venue full of scattered light could be expanded to billions of connections; beyond this
 /// many (720 MB) the coarsest level goes first.
 constexpr std::size_t mostConnections = 60'000'000;
-constexpr std::size_t parts = 64;
-
 /// What of T becomes connections.
 class NearLeaves {
  public:
@@ -96,7 +94,7 @@ class NearLeaves {
 std::vector<std::size_t> countedStarts(const NearLeaves& near, const CameraMask& usable, double share,
                                        int coarsest, CameraStack& flood) {
   std::vector<std::size_t> start(usable.size() + 1, 0);
-  parallelChunks(0, usable.size(), parts, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallelChunks(0, usable.size(), fixedParts, [&](std::size_t, std::size_t begin, std::size_t end) {
     NearLeaves::Row seen;
     for (std::size_t row = begin; row < end; ++row) {
       near.look(row, seen);
@@ -162,8 +160,8 @@ ConnectionGraph::ConnectionGraph(const transport::TransportMatrix& transport, co
     double carried = 0.0, all = 0.0;
     std::size_t connections = 0;
   };
-  std::vector<Light> light(parts);
-  parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Light> light(fixedParts);
+  parallelChunks(0, rows, fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     std::vector<Connection> edges;
     NearLeaves::Row seen;
     for (std::size_t row = begin; row < end; ++row) {

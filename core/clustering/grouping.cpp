@@ -20,8 +20,6 @@ constexpr double percolatedShare = 0.25;
 /// Clusters up to this size are inverted quickly however much of a small picture they are.
 constexpr std::uint32_t harmlessUnknowns = 256;
 
-constexpr std::size_t parts = 64;
-
 Message percolationFinding(const ClusteringStatistics& statistics, const ClusteringSettings& settings) {
   const Argument joined = as::share(
       statistics.largestBeforeCap / static_cast<double>(statistics.litProjectorPixels), as::decimals(0));
@@ -123,8 +121,8 @@ class Grouper::Work {
   double cutBetweenClusters() {
     result_.kept = patches_.kept();
     keptOfRow_ = patches_.keptOfRow();
-    std::vector<double> light(parts, 0.0);
-    parallelChunks(0, graph_.rows(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<double> light(fixedParts, 0.0);
+    parallelChunks(0, graph_.rows(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         std::span<const Connection> row = graph_.row(i);
         std::uint8_t* kept = result_.kept.data() + graph_.placeOf(i);

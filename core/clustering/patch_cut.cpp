@@ -7,15 +7,8 @@
 #include "relucent/base/parallel.h"
 
 namespace relucent::clustering {
-namespace {
-
-/// As many as the graph has: what is all kept then adds up to the same bits.
-constexpr std::size_t parts = 64;
-
-}  // namespace
-
 PatchCut::PatchCut(const ConnectionGraph& graph)
-    : graph_(graph), places_(graph.transport().projectors()), finders_(parts, PatchFinder(places_)) {}
+    : graph_(graph), places_(graph.transport().projectors()), finders_(fixedParts, PatchFinder(places_)) {}
 
 void PatchCut::cut(const ClusteringSettings& settings, Progress& progress) {
   std::tuple wanted(settings.leastLuminance, settings.leastShare, settings.patchRadius, settings.patchCut);
@@ -37,8 +30,8 @@ void PatchCut::cut(const ClusteringSettings& settings, Progress& progress) {
   keptOfRow_.assign(rows, 0);
   brightest_.assign(pixels, {});
   sets_.reset(pixels);
-  lightOfPart_.assign(parts, 0.0);
-  parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  lightOfPart_.assign(fixedParts, 0.0);
+  parallelChunks(0, rows, fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     progress.checkpoint();
     for (std::size_t i = begin; i < end; ++i) cutRow(i, settings, part);
   });
@@ -85,9 +78,9 @@ void PatchCut::cutRow(std::size_t i, const ClusteringSettings& settings, std::si
 
 /// Line 20.
 void PatchCut::reinsert(const ClusteringSettings& settings) {
-  std::vector<std::size_t> reinserted(parts, 0);
-  lightOfPart_.assign(parts, 0.0);
-  parallelChunks(0, brightest_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> reinserted(fixedParts, 0);
+  lightOfPart_.assign(fixedParts, 0.0);
+  parallelChunks(0, brightest_.size(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t pixel = begin; pixel < end; ++pixel) {
       if (brightest_[pixel] || !offered_[pixel]) continue;
       brightest_[pixel] = offered_[pixel];

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "relucent/base/error.h"
+#include "relucent/base/lowered.h"
 
 namespace relucent::devices {
 namespace {
@@ -17,13 +18,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-std::string lowered(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return lower;
 }
 
 /// A plain decimal number, with a comma or a point. Signs, exponents and words are none.

@@ -19,16 +19,12 @@ float quantile(std::vector<float>& values, double share) {
   return values[static_cast<std::size_t>(rank)];
 }
 
-float positive(float value) {
-  return value > 0.0f ? value : 0.0f;
-}
-
 /// The brightness at which a pixel's content is as bright as it can be shown.
 float brightnessFor(const Reach& reach, const std::array<float, 3>& mixed, float brightest) {
   float result = brightest;
   for (std::size_t c = 0; c < 3; ++c)
-    if (float wanted = positive(mixed[c]); wanted * result > reach.most[c])
-      result = positive(reach.most[c]) / wanted;
+    if (float wanted = std::max(0.0f, mixed[c]); wanted * result > reach.most[c])
+      result = std::max(0.0f, reach.most[c]) / wanted;
   return result;
 }
 
@@ -36,7 +32,7 @@ float brightnessFor(const Reach& reach, const std::array<float, 3>& mixed, float
 float liftFor(const Reach& reach, const std::array<float, 3>& mixed, float most) {
   float result = 0.0f;
   for (std::size_t c = 0; c < 3; ++c) {
-    float wanted = positive(mixed[c]);
+    float wanted = std::max(0.0f, mixed[c]);
     if (wanted < reach.least[c] && wanted < 1.0f)
       result = std::max(result, std::min(most, (reach.least[c] - wanted) / (1.0f - wanted)));
   }

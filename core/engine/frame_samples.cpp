@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t mostSamples = 4096;
 
-float positive(float value) {
-  return value > 0.0f ? value : 0.0f;
-}
-
 }  // namespace
 
 FrameSamples::FrameSamples(const EngineVenue& engine, const EngineContent& content)
@@ -47,7 +43,7 @@ void FrameSamples::look(const ContentFrame& frame) {
     std::array<float, 3> colour;
     for (std::size_t c = 0; c < 3; ++c)
       colour[c] = encoded ? linearOfSrgb_[pixel[blueFirst ? 2 - c : c]]
-                          : std::min(1.0f, positive(reinterpret_cast<const float*>(pixel)[c]));
+                          : std::min(1.0f, std::max(0.0f, reinterpret_cast<const float*>(pixel)[c]));
     for (std::size_t c = 0; c < 3; ++c) {
       auto row = static_cast<Eigen::Index>(c);
       mixed_[i][c] = mixing_(row, 0) * colour[0] + mixing_(row, 1) * colour[1] + mixing_(row, 2) * colour[2];

@@ -10,6 +10,8 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
+#include "relucent/engine/camera_rectangle.h"
 #include "relucent/transport/row_light.h"
 
 namespace relucent::engine {
@@ -17,7 +19,6 @@ namespace {
 
 // Of the columns that 16 bits number one is for what fills up rows.
 constexpr std::size_t mostColumnsOfAPatch = 65535;
-constexpr float largestCode = 32767.0f;
 using transport::Channels;
 using transport::ColourBlock;
 using transport::LightGroup;
@@ -154,12 +155,6 @@ Row packedRow(const RowLight& light, const std::vector<NodeShare>& far, const Ch
   return row;
 }
 
-/// A rectangle of camera pixels of at most 8x8.
-struct Place {
-  std::size_t camera;
-  Pixel from, to;
-};
-
 class SquarePacker {
  public:
   SquarePacker(const TransportMatrix& transport, float tolerance)
@@ -171,7 +166,7 @@ class SquarePacker {
 
   /// The place's camera pixels with leaves that they share; or, where so many nodes fit in no patch, each
   /// alone.
-  std::vector<Square> squares(const Place& place) const {
+  std::vector<Square> squares(const CameraRectangle& place) const {
     std::array<std::size_t, SharedLight::pixels> pixel;
     pixel.fill(nobody);
     std::array<RowLight, SharedLight::pixels> light;
@@ -259,8 +254,8 @@ class SquarePacker {
   bool asMeasured_;
 };
 
-std::vector<Place> placesOf(const Rasters& cameras, int side) {
-  std::vector<Place> places;
+std::vector<CameraRectangle> placesOf(const Rasters& cameras, int side) {
+  std::vector<CameraRectangle> places;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const Size size = cameras.size(camera);
     for (int y = 0; y < size.height; y += side)
@@ -498,13 +493,13 @@ PackedTransport::PackedTransport(const TransportMatrix& transport, const Packing
   require(transport.storedLeaves() <= std::numeric_limits<std::uint32_t>::max(),
           "{} leaves are more than 32-bit indices hold", transport.storedLeaves());
   const SquarePacker packer(transport, settings.tolerance);
-  const std::vector<Place> places = placesOf(transport.cameras(), settings.patchSide);
+  const std::vector<CameraRectangle> places = placesOf(transport.cameras(), settings.patchSide);
   // A few patches at a time: rows on their way take several times the memory of packed ones.
   constexpr std::size_t batch = 16;
   for (std::size_t begin = 0; begin < places.size(); begin += batch) {
     std::vector<std::vector<Patch>> patches(std::min(batch, places.size() - begin));
     parallelFor(0, patches.size(), 1, [&](std::size_t i) {
-      const Place& place = places[begin + i];
+      const CameraRectangle& place = places[begin + i];
       std::vector<Square> squares;
       for (int y = place.from.y; y < place.to.y; y += squareSide)
         for (int x = place.from.x; x < place.to.x; x += squareSide)

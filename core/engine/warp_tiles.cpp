@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <tuple>
 
+#include "relucent/engine/camera_rectangle.h"
+
 namespace relucent::engine {
 namespace {
 
 constexpr int largestSide = 32;
 constexpr std::size_t enoughPixels = 12 * 1024;  // of content in a tile: 16 bytes each, in the cache
-
-/// Camera pixels of one device: [from, to).
-struct Place {
-  std::size_t camera;
-  Pixel from, to;
-};
 
 class Tiler {
  public:
@@ -22,7 +18,7 @@ class Tiler {
       : warp_(warp), cameras_(cameras), to_(to) {}
 
   /// Where footprints lie far apart, as at borders between views, a tile becomes four.
-  void add(const Place& place) {
+  void add(const CameraRectangle& place) {
     std::vector<std::uint32_t> pixels;
     const Size size = cameras_.size(place.camera);
     for (int y = place.from.y; y < place.to.y; ++y)

@@ -19,6 +19,9 @@ struct ExposureTime {
   bool operator==(const ExposureTime&) const = default;
 };
 
+/// Signals are good to this share of where they clip.
+inline constexpr double saturationMargin = 0.97;
+
 /// How a camera's signal depends on light, and how noisy it is.
 ///   linear = response(signal), radiance = linear / trueSeconds
 ///   variance of the linear signal = readNoise^2 + gain * linear + (response'(signal)^2 - 1) q^2,
@@ -28,7 +31,7 @@ struct CameraModel {
   std::array<ResponseCurve, 3> response;  // identity for linear sensors
   double readNoise = 2e-3;                // standard deviation at black, rounding included
   double gain = 1e-4;                     // photon noise: variance per linear signal
-  double saturation = 0.97;               // signals at or above this are only a lower bound
+  double saturation = saturationMargin;   // signals at or above this are only a lower bound
   std::vector<ExposureTime> times;  // measured, reported times ascending; empty: reported times are used
 };
 

@@ -42,7 +42,7 @@ double chromaWeight(double chroma) {
 }
 
 template <typename Function>
-Image mapped(const Image& image, const Function& function) {
+Image eachMapped(const Image& image, const Function& function) {
   Image result(image.size(), image.channels());
   std::transform(image.data().begin(), image.data().end(), result.data().begin(),
                  [&](float value) { return static_cast<float>(function(static_cast<double>(value))); });
@@ -85,10 +85,10 @@ double srgbDecode(double encoded) {
 }
 
 Image srgbEncoded(const Image& linear) {
-  return mapped(linear, srgbEncode);
+  return eachMapped(linear, srgbEncode);
 }
 Image srgbDecoded(const Image& encoded) {
-  return mapped(encoded, srgbDecode);
+  return eachMapped(encoded, srgbDecode);
 }
 
 double luminance(const Colour& linearRgb) {

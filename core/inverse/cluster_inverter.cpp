@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t mostEquations = 4096;
 constexpr std::size_t mostWeights = std::size_t{1} << 28;
 
-constexpr std::size_t parts = 64;
 constexpr std::size_t clustersBetweenReports = 1024;
 
 /// Members of every group in ascending order, as ranges of one array.
@@ -114,18 +113,19 @@ class ClusterInverter {
 
   /// Mean diagonal of A^T A over all unknowns of all clusters.
   double meanDiagonal() const {
-    std::vector<double> sums(parts, 0.0);
-    parallelChunks(0, inverse_.row_.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        std::size_t row = inverse_.row_[k];
-        const transport::LeafRow leaves = transport_.row(row);
-        for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
-          transport::ColourBlock value = connection(row, leaves, entry);
-          float mean = value.trace() / 3.0f;
-          sums[part] += static_cast<double>(inverse_.full_ ? value.squaredNorm() : mean * mean);
-        }
-      }
-    });
+    std::vector<double> sums(fixedParts, 0.0);
+    parallelChunks(
+        0, inverse_.row_.size(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+          for (std::size_t k = begin; k < end; ++k) {
+            std::size_t row = inverse_.row_[k];
+            const transport::LeafRow leaves = transport_.row(row);
+            for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+              transport::ColourBlock value = connection(row, leaves, entry);
+              float mean = value.trace() / 3.0f;
+              sums[part] += static_cast<double>(inverse_.full_ ? value.squaredNorm() : mean * mean);
+            }
+          }
+        });
     double sum = 0.0;
     for (double part : sums) sum += part;
     return inverse_.pixel_.empty() ? 0.0 : sum / static_cast<double>(inverse_.pixel_.size() * channels());

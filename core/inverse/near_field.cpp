@@ -6,6 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/inverse/unmixing.h"
 #include "relucent/transport/statistics.h"
 
@@ -15,7 +16,6 @@ namespace {
 /// Below this share of the row's brightest projector pixel a leaf cannot matter beside the ridge: pairs of
 /// such leaves contribute at most its square to G, the ridge is tenths of G's diagonal.
 constexpr float nearShare = 0.01f;
-constexpr float largestCode = 32767.0f;
 
 float mean(const NearField::Value& value) {
   return (value[0] + value[1] + value[2]) / 3.0f;

@@ -7,13 +7,12 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/inverse/window_rows.h"
 #include "relucent/inverse/window_system.h"
 
 namespace relucent::inverse {
 namespace {
-
-constexpr float largestCode = 32767.0f;
 
 Rasters tilesOf(const Rasters& projectors, int side) {
   std::vector<Size> tiles;

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "relucent/base/error.h"
+#include "relucent/hdr/hdr.h"
 #include "relucent/linearization/test_light.h"
 
 namespace relucent::linearization {
@@ -14,11 +15,10 @@ namespace {
 constexpr double wantedShare = 0.8;   // of saturation, at the 99.5th percentile of the flood image
 constexpr double longerBy = 12.0;     // for what is dim
 constexpr double largestStep = 16.0;  // between neighbouring exposures
-constexpr double saturationMargin = 0.97;
-constexpr double clipping = 0.98;   // share of saturation that counts as clipped
-constexpr double blindStep = 16.0;  // from an exposure that is all saturated or all dark
-constexpr double wideStep = 9.0;    // between neighbouring exposures: another one between tells the response
-constexpr double leastStep = 1.4;   // between exposures, for clipping to be told from light
+constexpr double clipping = 0.98;     // share of saturation that counts as clipped
+constexpr double blindStep = 16.0;    // from an exposure that is all saturated or all dark
+constexpr double wideStep = 9.0;   // between neighbouring exposures: another one between tells the response
+constexpr double leastStep = 1.4;  // between exposures, for clipping to be told from light
 constexpr int mostPhotographs = 24;
 
 /// The brightest channel of every pixel.
@@ -64,9 +64,9 @@ double saturationOf(const std::vector<Photograph>& whites, std::size_t camera) {
     bool much = whites[exposure].asked > leastStep * whites[exposure + 1].asked;
     bool reachedEarlier = *std::max_element(shorter.begin(), shorter.end()) > most - 0.002f;
     if (much && reachedEarlier && static_cast<double>(clipped) >= 0.005 * static_cast<double>(longer.size()))
-      return saturationMargin * std::min(static_cast<double>(most), 1.0);
+      return hdr::saturationMargin * std::min(static_cast<double>(most), 1.0);
   }
-  return saturationMargin;
+  return hdr::saturationMargin;
 }
 
 /// Times that may be asked for: any of a range, or only the whole multiples of a lamp's period in it.
@@ -95,7 +95,7 @@ class Times {
 /// The search for one camera's exposure.
 struct Search {
   std::string name;
-  double saturation = saturationMargin;
+  double saturation = hdr::saturationMargin;
   double seconds = 0.0;
   double level = 0.0;  // 99.5th percentile at `seconds`
   std::vector<std::size_t> lit;

@@ -33,7 +33,7 @@ constexpr Trial trials[] = {{acquisition::AcquisitionMode::adaptive, 0.006},
                             {acquisition::AcquisitionMode::multiplexed, 0.012},
                             {acquisition::AcquisitionMode::multiplexed, 0.006}};
 
-CalibrateSettings settingsOf(const venue::VenueSettings& venue, const Trial& trial) {
+CalibrateSettings trialSettings(const venue::VenueSettings& venue, const Trial& trial) {
   CalibrateSettings settings;
   settings.rig = venue;
   settings.acquisition = acquisition::settingsOf(trial.mode);
@@ -48,7 +48,7 @@ AcquisitionBenchRun measured(const venue::VenueSettings& venue, const Trial& tri
   devices::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / venue.name;
   Progress calibrating = progress.part(0.9, progress.stage());
-  CalibrateResult spent = calibrate(path, settingsOf(venue, trial), cache, calibrating);
+  CalibrateResult spent = calibrate(path, trialSettings(venue, trial), cache, calibrating);
 
   Progress judging = progress.part(0.1, progress.stage());
   EvaluateSettings judged;
@@ -122,7 +122,7 @@ std::vector<AcquisitionBenchStop> stops(const venue::VenueSettings& venue, const
                                         const std::filesystem::path& cache, Progress& progress) {
   devices::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path() / venue.name;
-  beginCalibration(path, settingsOf(venue, trial));
+  beginCalibration(path, trialSettings(venue, trial));
   std::vector<AcquisitionBenchStop> found;
   const int most = transport::NodeLayout(venue.projector).levels() + 1;
   for (int levels = 1; levels <= most && (found.empty() || found.back().blocks != 0); ++levels) {

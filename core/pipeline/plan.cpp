@@ -11,7 +11,7 @@ namespace relucent::pipeline {
 namespace fs = std::filesystem;
 namespace {
 
-std::string nameOf(std::size_t number, const importing::PlannedPattern& pattern) {
+std::string patternNameOf(std::size_t number, const importing::PlannedPattern& pattern) {
   return fmt::format("{:03}-{}.png", number, importing::toString(pattern.kind));
 }
 
@@ -75,7 +75,7 @@ WrittenFiles exportPlan(const importing::PatternPlanSettings& settings, const fs
   WrittenFiles written;
   calibration::Json list = calibration::Json::array();
   for (std::size_t k = 0; k < plan.size(); ++k) {
-    std::string name = nameOf(k, plan[k]);
+    std::string name = patternNameOf(k, plan[k]);
     image::writePng(out / name, render(plan[k], settings.projector), 8);
     list.push_back(describe(name, plan[k]));
     written.files.push_back(out / name);

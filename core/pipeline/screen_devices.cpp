@@ -13,13 +13,6 @@ bool isChosen(const ScreenRigSettings& rig) {
   return !(rig.display == ScreenRigSettings::Display{}) || !rig.projector.empty();
 }
 
-void checkAddress(std::vector<Message>& problems, const std::string& address) {
-  if (!devices::cameraRegistry().addressFrom(address))
-    problems.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
-            .with(address, devices::cameraRegistry().addressForms()));
-}
-
 }  // namespace
 
 std::vector<ScreenRigSettings::Screen> screensOf(const ScreenRigSettings& rig) {
@@ -59,6 +52,13 @@ ScreenRigSettings withScreenAlone(ScreenRigSettings rig, std::size_t screen) {
   const std::vector<ScreenRigSettings::Screen> screens = screensOf(rig);
   require(screen < screens.size(), "screen {} of {}", screen, screens.size());
   return withScreens(std::move(rig), {screens[screen]});
+}
+
+void checkAddress(std::vector<Message>& problems, const std::string& address) {
+  if (!devices::cameraRegistry().addressFrom(address))
+    problems.push_back(
+        RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
+            .with(address, devices::cameraRegistry().addressForms()));
 }
 
 std::vector<Message> problemsOfDevices(const ScreenRigSettings& rig) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "relucent/base/message.h"
-#include "relucent/devices/camera_registry.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/compensate.h"
 #include "relucent/pipeline/evaluate.h"
@@ -62,13 +61,6 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
                     .with(placeholder)
               : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not contain {}")
                     .with(placeholder));
-}
-
-void checkAddress(Problems& problems, const std::string& camera) {
-  if (!devices::cameraRegistry().addressFrom(camera))
-    problems.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
-            .with(camera, devices::cameraRegistry().addressForms()));
 }
 
 template <typename Settings>

@@ -3,7 +3,15 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <system_error>
+
 namespace relucent::platform {
+
+/// What the last call of the system failed with.
+inline std::error_code lastError() {
+  return {errno, std::generic_category()};
+}
 
 /// An open file descriptor of POSIX that closes itself. Negative: there is none, and errno of who tried to
 /// open it says why. For this folder alone.

@@ -12,10 +12,6 @@ namespace relucent::platform {
 namespace fs = std::filesystem;
 namespace {
 
-std::error_code lastError() {
-  return {errno, std::generic_category()};
-}
-
 FileOutcome write(const fs::path& path, int flags, std::string_view content) {
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666));
   if (!file.ok()) return {lastError(), false};

@@ -9,12 +9,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "relucent/platform/descriptor.h"
+
 namespace relucent::platform {
 namespace {
-
-std::error_code lastError() {
-  return {errno, std::generic_category()};
-}
 
 /// For file systems that know only files with names.
 int openAndUnlink(const std::filesystem::path& folder) {

@@ -18,10 +18,9 @@
 namespace relucent::reduction {
 namespace {
 
-constexpr double asMany = 0.75;            // as the projectors' pixels: about as many
-constexpr double worthwhile = 0.75;        // of the camera's pixels may remain
-constexpr double saturationMargin = 0.97;  // of what a camera clips at, in ExposureChoice::saturation
-constexpr double mostClipped = 0.005;      // of the samples: hardly any
+constexpr double asMany = 0.75;        // as the projectors' pixels: about as many
+constexpr double worthwhile = 0.75;    // of the camera's pixels may remain
+constexpr double mostClipped = 0.005;  // of the samples: hardly any
 constexpr double hotDeviations = 8.0;
 constexpr double hotLeast = 0.02;
 constexpr double mostHot = 0.01;
@@ -219,7 +218,7 @@ std::vector<Reduction> chooseReductions(rig::Rig& rig, const PixelUse& use, std:
     if (reductions[camera].bin == 1) continue;
     bins = true;
     reductions[camera].response = responses[camera];
-    reductions[camera].clip = look.saturation(camera) / saturationMargin;
+    reductions[camera].clip = look.saturation(camera) / hdr::saturationMargin;
   }
 
   if (bins) {

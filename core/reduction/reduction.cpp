@@ -11,8 +11,7 @@
 namespace relucent::reduction {
 namespace {
 
-constexpr double saturationMargin = 0.97;  // of clip, as for every camera (hdr::CameraModel)
-constexpr int mostBits = 16;               // that a journal holds as codes
+constexpr int mostBits = 16;  // that a journal holds as codes
 
 /// The linear signal of one channel's samples: whole codes through a table.
 class Response {
@@ -91,7 +90,7 @@ hdr::CameraModel wholeModel(const Reduction& reduction, const hdr::CameraModel& 
   if (reduction.bin == 1) return reduced;
   hdr::CameraModel model = reduced;
   model.response = reduction.response;
-  model.saturation = saturationMargin * reduction.clip;
+  model.saturation = hdr::saturationMargin * reduction.clip;
   // Of all channels there is one noise; their scales hardly differ.
   const double full = static_cast<double>(wholeFromReduced(reduction)[1]);
   model.readNoise *= reduction.bin * full;
@@ -140,7 +139,7 @@ rig::RawFrame Reducer::operator()(const rig::RawFrame& frame) const {
   const std::array<Response, 3> responses{Response(reduction_.response[0], frame.bits),
                                           Response(reduction_.response[1], frame.bits),
                                           Response(reduction_.response[2], frame.bits)};
-  const float saturation = static_cast<float>(saturationMargin * reduction_.clip);
+  const float saturation = static_cast<float>(hdr::saturationMargin * reduction_.clip);
   const double codes = result.bits > 0 ? std::ldexp(1.0, result.bits) - 1.0 : 0.0;
   parallelFor(0, static_cast<std::size_t>(size.height), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);

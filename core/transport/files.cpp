@@ -10,13 +10,13 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/transport/npz.h"
 #include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
 namespace {
 
-constexpr float largestCode = 32767.0f;
 constexpr const char* codeType = "<i2";
 constexpr const char* ownColours = "bsr";  // as SciPy calls it
 constexpr const char* sharedColours = "relucent-shared-colours";

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/transport/row_light.h"
 #include "relucent/transport/shared_colours.h"
 #include "relucent/transport/shared_light.h"
@@ -15,7 +16,6 @@
 namespace relucent::transport {
 namespace {
 
-constexpr float largestCode = 32767.0f;
 constexpr int side = SharedLight::side;
 // Of shares, which sum to one where they are not noise: less than this says nothing of their scale.
 constexpr float enough = 0.2f;

@@ -5,13 +5,13 @@
 #include <array>
 #include <span>
 
+#include "relucent/transport/shared_colours.h"
+
 namespace relucent::transport {
 namespace {
 
 // As measurements share colours: see nearAndFar().
 constexpr int nearLevels = 2;
-// A part whose blocks, being noise, cancel to less than this of their magnitudes has the row's mixing.
-constexpr float cancelled = 0.2f;
 
 struct Leaf {
   std::uint32_t node = 0;
@@ -90,7 +90,7 @@ LightPart partOf(std::vector<Leaf> leaves, const ColourBlock& all) {
     magnitude += leaf.light.colwise().norm().transpose().array();
   }
   for (Eigen::Index k = 0; k < 3; ++k)
-    if (part.mixing.col(k).norm() < cancelled * magnitude[k]) part.mixing.col(k) = all.col(k);
+    if (part.mixing.col(k).norm() < cancelledShare * magnitude[k]) part.mixing.col(k) = all.col(k);
   const Eigen::RowVector3f square = part.mixing.colwise().squaredNorm();
   for (const Leaf& leaf : leaves) {
     NodeShare share{leaf.node, {}};

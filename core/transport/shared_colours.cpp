@@ -5,16 +5,9 @@
 #include <utility>
 
 #include "relucent/base/error.h"
+#include "relucent/base/signed_codes.h"
 
 namespace relucent::transport {
-namespace {
-
-constexpr float largestCode = 32767.0f;
-// Blocks whose sum is less than this share of their magnitudes have no colours in common.
-constexpr float cancelled = 0.2f;
-
-}  // namespace
-
 void SharedColourEncoder::encode(std::span<const std::uint32_t> columns, std::span<const ColourBlock> blocks,
                                  SharedColourRow& row) {
   row.column.clear();
@@ -33,7 +26,7 @@ void SharedColourEncoder::encode(std::span<const std::uint32_t> columns, std::sp
   }
   for (std::size_t kind = 0; kind < kinds_.count; ++kind)
     for (Eigen::Index k = 0; k < 3; ++k)
-      if (row.mixing[kind].col(k).norm() < cancelled * magnitude[kind][k])
+      if (row.mixing[kind].col(k).norm() < cancelledShare * magnitude[kind][k])
         row.mixing[kind].col(k) = all.col(k);
 
   factor_.resize(blocks.size());

@@ -8,10 +8,14 @@
 
 namespace relucent::transport {
 
+/// Blocks, being noise, whose sum is less than this share of their magnitudes have no colours in common: they
+/// have those of a larger part.
+inline constexpr float cancelledShare = 0.2f;
+
 /// Finds the colours that the blocks T_j of a row share. For each kind B = sum_j T_j, and for each column k
 ///   t_jk = <B_k, T_jk> / |B_k|^2,      T_j ~ B diag(t_j),
 /// the least-squares fit whose blocks have the same sum: T 1 is preserved. Where the T_jk of a kind, being
-/// noise, cancel to less than a fifth, B_k is that of all kinds. What rounding leaves over is handed on to
+/// noise, cancel (cancelledShare), B_k is that of all kinds. What rounding leaves over is handed on to
 /// the next block. Not thread-safe; cheap to make.  Source: core/transport/README.md.
 class SharedColourEncoder {
  public:

@@ -12,9 +12,6 @@
 namespace relucent::transport {
 namespace {
 
-// Sums are taken in this many fixed parts, so that they are the same bits for every number of threads.
-constexpr std::size_t parts = 64;
-
 std::size_t binOf(float strength) {
   double place = (std::log10(static_cast<double>(strength)) - StrengthHistogram::lowestDecade) *
                  StrengthHistogram::binsPerDecade;
@@ -64,8 +61,8 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     TransportStatistics kept;
     double all = 0.0;
   };
-  std::vector<Part> sums(parts);
-  parallelChunks(0, limit.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Part> sums(fixedParts);
+  parallelChunks(0, limit.size(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     Part& sum = sums[part];
     for (std::size_t row = begin; row < end; ++row) {
       const LeafRow leaves = transport.row(row);
@@ -112,7 +109,7 @@ std::vector<double> squaredRowNorms(const TransportMatrix& transport, const Node
   std::size_t pixels = transport.projectors().count();
   std::vector<double> norms(transport.cameras().count());
   if (nested) nested->assign(norms.size(), 0);
-  parallelChunks(0, norms.size(), parts, [&](std::size_t, std::size_t firstRow, std::size_t lastRow) {
+  parallelChunks(0, norms.size(), fixedParts, [&](std::size_t, std::size_t firstRow, std::size_t lastRow) {
     std::vector<std::uint8_t> holds(nodes.pixels.size(), 0);
     for (std::size_t row = firstRow; row < lastRow; ++row) {
       const LeafRow leaves = transport.row(row);

@@ -10,8 +10,6 @@
 namespace relucent::transport {
 namespace {
 
-constexpr std::size_t parts = 64;
-
 float strengthOf(const LeafRow& leaves, const NodeTable& nodes, std::size_t entry) {
   return leaves.sizeOf(entry).largest / nodes.pixels[leaves.column(entry)];
 }
@@ -21,9 +19,9 @@ float strengthOf(const LeafRow& leaves, const NodeTable& nodes, std::size_t entr
 float limitOfEnergy(const TransportMatrix& transport, const NodeTable& nodes, double share) {
   if (share >= 1.0) return 0.0f;
   constexpr std::size_t bins = 1 << 15;  // positive floats by their leading bits, in order
-  std::vector<std::vector<double>> partial(parts);
+  std::vector<std::vector<double>> partial(fixedParts);
   const std::size_t rows = transport.cameras().count();
-  parallelChunks(0, rows, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  parallelChunks(0, rows, fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     partial[part].assign(bins, 0.0);
     for (std::size_t row = begin; row < end; ++row) {
       const LeafRow leaves = transport.row(row);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "relucent/venue/pi.h"
 #include "relucent/venue/sample_pattern.h"
 #include "relucent/venue/scene_rays.h"
 
@@ -49,7 +50,6 @@ class Caustics {
 template <typename Visit>
 void Caustics::gather(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
                       const Visit& visit) const {
-  constexpr float pi = 3.14159265f;
   Eigen::Vector3i centre = cellOf(position);
   for (int dz = -1; dz <= 1; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {

@@ -3,15 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
+
+#include "relucent/venue/pi.h"
 
 namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 /// Vertex normals as the mean of their triangles', weighted by area.
 void smoothNormals(Mesh& mesh) {

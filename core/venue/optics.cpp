@@ -3,7 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
+
+#include "relucent/venue/pi.h"
 
 namespace relucent::venue {
 
@@ -20,7 +21,6 @@ Pose Pose::lookingAt(const Vector3f& position, const Vector3f& target) {
 }
 
 Vector2f discFromSquare(const Vector2f& square) {
-  constexpr float pi = std::numbers::pi_v<float>;
   Vector2f centred = 2.0f * square - Vector2f::Ones();
   if (centred.x() == 0.0f && centred.y() == 0.0f) return Vector2f::Zero();
   bool wide = std::abs(centred.x()) > std::abs(centred.y());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "relucent/venue/pi.h"
 
 #include "relucent/venue/scenes.h"
 
@@ -10,8 +11,6 @@ namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 /// Half an ellipsoid on the slab: how far it stands out, `offset` from its middle in units of its radii.
 float halfEllipsoid(float depth, const Vector2f& offset) {

@@ -4,17 +4,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "relucent/venue/optics.h"
+#include "relucent/venue/pi.h"
 
 namespace relucent::venue {
 namespace {
 
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 Vector3f mirrored(const Vector3f& direction, const Vector3f& normal) {
   return 2.0f * normal.dot(direction) * normal - direction;

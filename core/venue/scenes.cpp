@@ -2,17 +2,15 @@
 #include "relucent/venue/scenes.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "relucent/base/error.h"
+#include "relucent/venue/pi.h"
 
 namespace relucent::venue {
 namespace {
 
 using Eigen::Array3f;
 using Eigen::Vector3f;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 Surface wall(float z, Texture texture) {
   return {rectangle({-2.5f, -1.5f, z}, {5.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}), {std::move(texture)}};

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
+
+#include "relucent/venue/pi.h"
 
 namespace relucent::venue {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 using Eigen::Array3f;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 float hash(int x, int y, int z) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^

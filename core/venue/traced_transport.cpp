@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "relucent/base/parallel.h"
+#include "relucent/base/signed_codes.h"
 
 namespace relucent::venue {
 namespace {
 
-constexpr float largestCode = 32767.0f;
 /// Siblings that are together less than this of a row are not told apart: on average they hold less than
 /// half of what the camera's noise hides.
 constexpr float weakShare = 1.0f / 400.0f;

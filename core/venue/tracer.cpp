@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "relucent/base/random.h"
 #include "relucent/venue/caustics.h"
+#include "relucent/venue/pi.h"
 #include "relucent/venue/scene_rays.h"
 
 namespace relucent::venue {
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float cameraBlur = 0.4f;     // pixels, beside the pixel's own width
 constexpr int longestGlassChain = 16;  // boundaries that one path may cross
 /// Bounced light varies slowly over the picture; so may its sampling error, which hardly moves from pixel to

@@ -16,7 +16,7 @@
 namespace relucent::gui {
 namespace {
 
-constexpr int patience = 15'000;  // milliseconds for a first picture
+constexpr int cameraPatience = 15'000;  // milliseconds for a first picture
 
 /// A device that is open. Lives on a thread with an event loop.
 class Capture {
@@ -64,7 +64,7 @@ struct LiveCamera::Session {
 LiveCamera::LiveCamera(const QString& which, const Canvas& canvas) : canvas_(canvas) {
   chooseMediaBackend();
   session_ = std::make_unique<Session>(which);
-  if (!session_->frames.waitForFirst(patience)) {
+  if (!session_->frames.waitForFirst(cameraPatience)) {
     QString reason = session_->frames.failure();
     throw Error(ErrorKind::device,
                 reason.isEmpty()

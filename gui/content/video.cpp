@@ -12,7 +12,7 @@
 namespace relucent::gui {
 namespace {
 
-constexpr int patience = 15'000;  // milliseconds for a first picture, of a disk that wakes up
+constexpr int diskPatience = 15'000;  // milliseconds for a first picture, of a disk that wakes up
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Video::Video(const QString& file, const Canvas& canvas) : canvas_(canvas) {
         RELUCENT_MESSAGE("disk.check-path-and-disk", "check the path and the disk"), file.toStdString());
   chooseMediaBackend();
   playback_ = std::make_unique<Playback>(file);
-  if (!playback_->frames.waitForFirst(patience))
+  if (!playback_->frames.waitForFirst(diskPatience))
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("content.film-not-playable", "no film that can be played ({})")
                     .with(playback_->frames.failure().toStdString()),

@@ -23,8 +23,8 @@ std::chrono::milliseconds refreshOf(const QScreen* screen) {
 constexpr int swapsUntilBelieved = 3;
 /// And may take so long to get there, milliseconds.
 constexpr qint64 longestWay = 1000;
-/// Elsewhere, it tries again after so many seconds, then twice as many, up to the longest pause.
-constexpr int shortestPause = 2, longestPause = 60;
+/// Elsewhere, it tries again after so many seconds, then twice as many, up to the last of these.
+constexpr int firstRetry = 2, lastRetry = 60;
 
 /// Windows that are operated stand on that screen.
 bool hidesWindows(const QScreen* screen) {
@@ -172,7 +172,7 @@ void ProjectorWindow::leave() {
   elsewhere_ = screen() != nullptr && screen() != on_ ? screen()->name() : QString("?");
   lost_ = true;
   vanish();
-  returning_.start(std::chrono::seconds(std::min(longestPause, shortestPause << std::min(returns_++, 10))));
+  returning_.start(std::chrono::seconds(std::min(lastRetry, firstRetry << std::min(returns_++, 10))));
   Q_EMIT displayLost();
 }
 

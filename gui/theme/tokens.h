@@ -22,6 +22,10 @@ struct Colours {
   QColor red, green, blue;  // of curves
 };
 const Colours& colours(Look look);
+/// Of what is drawn over pictures, whatever the theme.
+inline const Colours& darkColours() {
+  return colours(Look::dark);
+}
 
 /// Distinguishes clusters, without further meaning.
 inline const std::array<QColor, 8> clusterPalette{

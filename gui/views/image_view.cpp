@@ -15,12 +15,8 @@
 namespace relucent::gui {
 namespace {
 
-constexpr double barWidth = 76.0;
+constexpr double scaleWidth = 76.0;
 constexpr double besideDivider = 10.0, dividerGrip = 60.0;  // the latter at the lower end
-
-const Colours& dark() {
-  return colours(Look::dark);
-}
 
 }  // namespace
 
@@ -55,7 +51,7 @@ void ImageView::setDivider(double share) {
 
 QRectF ImageView::frame() const {
   const bool hasBar = (scale_ || keepsRoom_) && !picture_.isNull();
-  return QRectF(rect()).adjusted(0, 0, hasBar ? -barWidth : 0.0, 0);
+  return QRectF(rect()).adjusted(0, 0, hasBar ? -scaleWidth : 0.0, 0);
 }
 
 void ImageView::keepRoomForBar() {
@@ -64,7 +60,7 @@ void ImageView::keepRoomForBar() {
 }
 
 QRectF ImageView::barArea() const {
-  return QRectF(frame().right(), 0, barWidth, height());
+  return QRectF(frame().right(), 0, scaleWidth, height());
 }
 
 void ImageView::mousePressEvent(QMouseEvent* event) {
@@ -107,14 +103,14 @@ void ImageView::paintOver(QPainter& painter) {
 
 void ImageView::paintDivider(QPainter& painter) {
   double x = frame().left() + divider_ * frame().width();
-  painter.setPen(QPen(dark().text, 2.0));
+  painter.setPen(QPen(darkColours().text, 2.0));
   painter.drawLine(QPointF(x, frame().top()), QPointF(x, frame().bottom()));
-  painter.setBrush(dark().raised);
+  painter.setBrush(darkColours().raised);
   painter.drawEllipse(QPointF(x, frame().bottom() - 40.0), 13.0, 13.0);
-  drawIcon(painter, Icon::back, QRectF(x - 13.0, frame().bottom() - 47.0, 14.0, 14.0), dark().text);
-  drawIcon(painter, Icon::next, QRectF(x - 1.0, frame().bottom() - 47.0, 14.0, 14.0), dark().text);
-  drawTag(painter, dividerTag(false).topLeft(), leftText_, dark().secondary);
-  drawTag(painter, dividerTag(true).topLeft(), rightText_, dark().text);
+  drawIcon(painter, Icon::back, QRectF(x - 13.0, frame().bottom() - 47.0, 14.0, 14.0), darkColours().text);
+  drawIcon(painter, Icon::next, QRectF(x - 1.0, frame().bottom() - 47.0, 14.0, 14.0), darkColours().text);
+  drawTag(painter, dividerTag(false).topLeft(), leftText_, darkColours().secondary);
+  drawTag(painter, dividerTag(true).topLeft(), rightText_, darkColours().text);
 }
 
 QRectF ImageView::dividerTag(bool right) const {

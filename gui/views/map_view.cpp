@@ -13,7 +13,7 @@
 namespace relucent::gui {
 namespace {
 
-enum Layer { picture, overlay };
+enum MapLayer { picture, overlay };
 
 }  // namespace
 
@@ -51,15 +51,15 @@ void MapView::setRelief(bool relief) {
 
 void MapView::arrange() {
   plane_->fill(size());
-  plane_->setPicture(Layer::picture, ImageView::picture());
-  plane_->setPicture(Layer::overlay, ImageView::overlay());
+  plane_->setPicture(MapLayer::picture, ImageView::picture());
+  plane_->setPicture(MapLayer::overlay, ImageView::overlay());
   plane_->setShown(!relief_);
   if (relief_ && !std::exchange(risen_, true)) landscape_->set(values_, *scale(), ImageView::picture());
   landscape_->setShown(relief_, width() > 0 ? barArea().width() / width() : 0.0);
   if (!relief_) {
     double brightness = scale() ? 1.0 : Theme::instance().pictureBrightness();
-    plane_->place(Layer::picture, target(), frame(), brightness, !isEnlarged());
-    plane_->place(Layer::overlay, target(), frame(), 1.0, false);
+    plane_->place(MapLayer::picture, target(), frame(), brightness, !isEnlarged());
+    plane_->place(MapLayer::overlay, target(), frame(), 1.0, false);
   }
   bool bar = scale() && !ImageView::picture().isNull();
   plane_->placeBar(bar ? colourBarIn(barArea()) : QRectF(), scale().value_or(ColourScale()));

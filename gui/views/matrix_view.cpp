@@ -25,7 +25,7 @@ constexpr double entryPixels = 48.0;  // of a single entry at the highest magnif
 constexpr int stillAfter = 150;         // milliseconds without a move
 constexpr std::size_t sampledRows = 8;  // of a cell, for an estimate
 
-enum Layer { wholeLayer, detailLayer, lensLayer };
+enum MatrixLayer { wholeLayer, detailLayer, lensLayer };
 
 /// From the brightest cell some decades down. In half decades, so that the colours stay while one pans.
 ColourScale scaleOf(const std::vector<float>& means) {
@@ -44,7 +44,7 @@ MatrixView::MatrixView(QWidget* parent)
               [this](const Failure& failure) { setEmptyText(failure.what); }) {
   useVtk();
   plane_ = std::make_unique<PlaneScene>(*vtk());
-  for (Layer layer : {wholeLayer, detailLayer, lensLayer}) require(plane_->addLayer() == layer, "layers");
+  for (MatrixLayer layer : {wholeLayer, detailLayer, lensLayer}) require(plane_->addLayer() == layer, "layers");
   still_.setSingleShot(true);
   still_.setInterval(stillAfter);
   connect(&still_, &QTimer::timeout, this, [this] { want(); });

@@ -9,14 +9,6 @@
 #include "views/raster_axis.h"
 
 namespace relucent::gui {
-namespace {
-
-const Colours& dark() {
-  return colours(Look::dark);
-}
-
-}  // namespace
-
 void MatrixView::paintOver(QPainter& painter) {
   paintAxes(painter);
   paintCross(painter);
@@ -27,11 +19,11 @@ void MatrixView::paintOver(QPainter& painter) {
 void MatrixView::paintAxes(QPainter& painter) const {
   QRectF area = frame(), part = looked();
   painter.setFont(typeOf(type::axis));
-  painter.setPen(dark().line);
+  painter.setPen(darkColours().line);
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(area);
   const Rasters &cameras = matrix_->transport().cameras(), &projectors = matrix_->transport().projectors();
-  painter.setPen(dark().text);
+  painter.setPen(darkColours().text);
   double ascent = painter.fontMetrics().height();
   for (const RasterTick& tick :
        rasterTicks(cameras, part.top(), part.bottom(), std::max(2, static_cast<int>(area.height()) / 48))) {
@@ -51,7 +43,7 @@ void MatrixView::paintAxes(QPainter& painter) const {
     painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 4.0));
     painter.drawText(QRectF(x - half, area.bottom() + 4.0, 2.0 * half, ascent), Qt::AlignCenter, tick.text);
   }
-  painter.setPen(dark().secondary);
+  painter.setPen(darkColours().secondary);
   QString across =
       part.width() < 2.0 * projectors.size(0).width ? tr("projector x, y") : tr("projector line");
   QString down = part.height() < 2.0 * cameras.size(0).width ? tr("camera x, y") : tr("camera line");
@@ -65,7 +57,7 @@ void MatrixView::paintAxes(QPainter& painter) const {
 void MatrixView::paintLens(QPainter& painter) const {
   if (!hasLens()) return;
   QRectF lens = lensFrame(), box = targetOf(shown_.lens.density->part);
-  painter.setPen(QPen(dark().text, 1.2));
+  painter.setPen(QPen(darkColours().text, 1.2));
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(box);
   painter.drawRect(lens);
@@ -79,10 +71,10 @@ void MatrixView::paintCross(QPainter& painter) const {
   if (!pick) return;
   QPointF place = widgetFromPicture(QPointF(*pick) + QPointF(0.5, 0.5));
   QRectF area = frame();
-  QColor faint = dark().accent;
+  QColor faint = darkColours().accent;
   faint.setAlphaF(0.55f);
   if (place.y() > area.top() && place.y() < area.bottom()) {
-    painter.setPen(QPen(dark().accent, 1.4));
+    painter.setPen(QPen(darkColours().accent, 1.4));
     painter.drawLine(QPointF(area.left(), place.y()), QPointF(area.right(), place.y()));
   }
   if (place.x() > area.left() && place.x() < area.right()) {

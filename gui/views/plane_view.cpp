@@ -14,14 +14,6 @@
 #include "views/whole_screen.h"
 
 namespace relucent::gui {
-namespace {
-
-const Colours& dark() {
-  return colours(Look::dark);
-}
-
-}  // namespace
-
 /// Lies over the scene that VTK draws and bears what is painted.
 class PlaneView::Glass : public QWidget {
  public:
@@ -205,7 +197,7 @@ void PlaneView::paintEvent(QPaintEvent*) {
   QPainterPath shape;
   shape.addRoundedRect(QRectF(rect()), cornerRadius, cornerRadius);
   if (!saving_) painter.setClipPath(shape);
-  painter.fillRect(rect(), dark().picture);
+  painter.fillRect(rect(), darkColours().picture);
   if (vtk_ != nullptr) return;
   if (!planeSize().isEmpty()) {
     painter.save();

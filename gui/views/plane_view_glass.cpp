@@ -11,20 +11,12 @@
 #include "views/view_tag.h"
 
 namespace relucent::gui {
-namespace {
-
-const Colours& dark() {
-  return colours(Look::dark);
-}
-
-}  // namespace
-
 void PlaneView::paintPick(QPainter& painter) {
   std::optional<QPoint> pick = link_->pick();
   if (!pick || !QRect(QPoint(), planeSize()).contains(*pick)) return;
   QPointF place = widgetFromPicture(QPointF(*pick) + QPointF(0.5, 0.5));
   if (!frame().contains(place)) return;
-  for (auto [colour, width] : {std::pair(dark().picture, 4.0), std::pair(dark().accent, 2.0)}) {
+  for (auto [colour, width] : {std::pair(darkColours().picture, 4.0), std::pair(darkColours().accent, 2.0)}) {
     painter.setPen(QPen(colour, width));
     painter.setBrush(Qt::NoBrush);
     painter.drawEllipse(place, 7.0, 7.0);
@@ -46,7 +38,7 @@ void PlaneView::paintPick(QPainter& painter) {
         std::clamp(corner.x(), frame().left(), std::max(frame().left(), frame().right() - size.width())));
     if (places.empty() || frame().contains(QRectF(corner, size))) places.push_back(corner);
   }
-  drawTag(painter, tagBox(size, places, keptFree()).topLeft(), text, dark().text);
+  drawTag(painter, tagBox(size, places, keptFree()).topLeft(), text, darkColours().text);
 }
 
 void PlaneView::paintScaleBar(QPainter& painter) {
@@ -56,13 +48,13 @@ void PlaneView::paintScaleBar(QPainter& painter) {
   double length = wanted >= 5.0 * power ? 5.0 * power : wanted >= 2.0 * power ? 2.0 * power : power;
   QRectF box(frame().left() + 12.0, frame().bottom() - 46.0, length * pixel + 24.0, 34.0);
   if (box.right() > frame().right()) return;
-  QColor ground = dark().input;
+  QColor ground = darkColours().input;
   ground.setAlphaF(0.85f);
   painter.setPen(Qt::NoPen);
   painter.setBrush(ground);
   painter.drawRoundedRect(box, 6.0, 6.0);
   painter.setFont(typeOf(type::axis, QFont::DemiBold));
-  painter.setPen(dark().text);
+  painter.setPen(darkColours().text);
   painter.drawText(box.adjusted(0, 3, 0, -12), Qt::AlignCenter, tr("%1 px").arg(length));
   painter.drawLine(QPointF(box.left() + 12.0, box.bottom() - 8.0),
                    QPointF(box.right() - 12.0, box.bottom() - 8.0));
@@ -71,7 +63,7 @@ void PlaneView::paintScaleBar(QPainter& painter) {
 /// Everything but the plane itself.
 void PlaneView::paintWords(QPainter& painter) {
   if (planeSize().isEmpty()) {
-    painter.setPen(dark().secondary);
+    painter.setPen(darkColours().secondary);
     painter.setFont(typeOf(type::body));
     painter.drawText(QRectF(rect()).adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap,
                      emptyText_);
@@ -82,9 +74,9 @@ void PlaneView::paintWords(QPainter& painter) {
   if (saving_) return;
   if (isWholeScreen())
     drawTag(painter, {rect().center().x() - tagSize(tr("Esc goes back")).width() / 2.0, 12.0},
-            tr("Esc goes back"), dark().secondary);
+            tr("Esc goes back"), darkColours().secondary);
   if (!hasFocus()) return;
-  painter.setPen(QPen(dark().text, 2.0));
+  painter.setPen(QPen(darkColours().text, 2.0));
   painter.setBrush(Qt::NoBrush);
   painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), cornerRadius, cornerRadius);
 }
@@ -94,14 +86,15 @@ void PlaneView::paintMarks(QPainter& painter) {
   painter.setClipRect(frame(), Qt::IntersectClip);
   if (scaleBar_) paintScaleBar(painter);
   paintPick(painter);
-  if (!badge_.isEmpty()) drawTag(painter, frame().topLeft() + QPointF(12.0, 12.0), badge_, dark().amber);
+  if (!badge_.isEmpty())
+    drawTag(painter, frame().topLeft() + QPointF(12.0, 12.0), badge_, darkColours().amber);
   if (!caption_.isEmpty())
     drawTag(painter, frame().bottomLeft() + QPointF(12.0, -12.0 - tagSize(caption_).height()), caption_,
-            dark().text);
+            darkColours().text);
   if (hovered_ && readout_ && hovered_ != link_->pick())
     if (QString text = readout_(*hovered_); !text.isEmpty())
       drawTag(painter, frame().bottomRight() - QPointF(12.0, 12.0 + tagSize(text).height()), text,
-              dark().text, true);
+              darkColours().text, true);
   painter.restore();
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int mostBands = 8;
 constexpr double briefShare = 1.0 / 8.0;  // of a frame
 constexpr double litShare = 0.25;         // of the brightest step: pixels that count
-constexpr double leastStep = 0.004;       // signal that a brief exposure must gain by white
+constexpr double leastGain = 0.004;       // signal that a brief exposure must gain by white
 constexpr double leastLit = 0.25;         // of a colour's usual signal
 constexpr double golden = 0.381966;       // phases that never repeat
 
@@ -194,7 +194,7 @@ class LightMeasurement {
  private:
   void lookBriefly(LightCheck& check) {
     look(check.brief, 1.0f);
-    if (!(step_ > leastStep)) {
+    if (!(step_ > leastGain)) {
       check.brief = 0.0;  // too dark to tell anything
       return;
     }

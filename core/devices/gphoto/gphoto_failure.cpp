@@ -7,17 +7,11 @@
 #include <charconv>
 #include <initializer_list>
 
+#include "relucent/base/lowered.h"
 #include "relucent/base/message.h"
 
 namespace relucent::devices {
 namespace {
-
-std::string lowered(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return lower;
-}
 
 bool speaksOf(const GphotoFailure& failure, std::initializer_list<std::string_view> words) {
   const std::string said = lowered(failure.what());

@@ -25,7 +25,7 @@ struct Releaser {
   }
 };
 using Context = std::unique_ptr<GPContext, Releaser<gp_context_unref>>;
-using Names = std::unique_ptr<CameraList, Releaser<gp_list_free>>;
+using Names = std::unique_ptr<::CameraList, Releaser<gp_list_free>>;
 using Abilities = std::unique_ptr<CameraAbilitiesList, Releaser<gp_abilities_list_free>>;
 using Ports = std::unique_ptr<GPPortInfoList, Releaser<gp_port_info_list_free>>;
 using Widget = std::unique_ptr<CameraWidget, Releaser<gp_widget_free>>;
@@ -87,7 +87,7 @@ class LibraryPort : public GphotoPort {
 
   std::vector<GphotoCamera> list() override {
     const PlainLocale plain;
-    CameraList* made = nullptr;
+    ::CameraList* made = nullptr;
     if (gp_list_new(&made) < GP_OK) return {};
     const Names names(made);
     if (gp_camera_autodetect(names.get(), context_.get()) < GP_OK) return {};

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "relucent/base/error.h"
+#include "relucent/base/lowered.h"
 #include "relucent/devices/gphoto/gphoto_failure.h"
 
 namespace relucent::devices {
@@ -16,13 +17,6 @@ constexpr double longestBulb = 120.0;
 /// Below it photographs are darkened by calculation on many cameras, which costs highlights.
 constexpr int leastIso = 100;
 constexpr int weakBattery = 30;
-
-std::string lowered(std::string_view text) {
-  std::string lower(text);
-  for (char& letter : lower)
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  return lower;
-}
 
 bool holds(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;

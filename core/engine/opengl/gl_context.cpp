@@ -13,8 +13,8 @@ namespace relucent::engine {
 namespace {
 
 constexpr int leastVersion = 43;
-constexpr auto advice = RELUCENT_MESSAGE("engine.install-driver",
-                                         "install the graphics card's driver, or compute on the processor");
+constexpr auto installDriver = RELUCENT_MESSAGE(
+    "engine.install-driver", "install the graphics card's driver, or compute on the processor");
 
 }  // namespace
 
@@ -33,7 +33,7 @@ GlContext::GlContext(Device wanted) {
         ErrorKind::device,
         RELUCENT_MESSAGE("engine.no-libegl-or-libopengl",
                          "there is no libEGL or no libOpenGL, which open graphics cards without a display"),
-        advice);
+        installDriver);
   std::string found;
   context_ = platform::HeadlessGl::open({leastVersion, wanted == Device::any},
                                         [&] { return accepts(wanted, found); });
@@ -43,7 +43,7 @@ GlContext::GlContext(Device wanted) {
                     ? RELUCENT_MESSAGE("engine.no-graphics-card",
                                        "there is no graphics card with OpenGL 4.3 and compute shaders")
                     : RELUCENT_MESSAGE("engine.no-opengl", "there is no OpenGL 4.3 with compute shaders"),
-                advice, found.empty() ? "" : "found only" + found);
+                installDriver, found.empty() ? "" : "found only" + found);
 }
 
 GlContext::GlContext(std::unique_ptr<GlHost> host, Device wanted) : host_(std::move(host)) {
@@ -54,7 +54,7 @@ GlContext::GlContext(std::unique_ptr<GlHost> host, Device wanted) : host_(std::m
     throw Error(ErrorKind::device,
                 RELUCENT_MESSAGE("engine.no-graphics-card",
                                  "there is no graphics card with OpenGL 4.3 and compute shaders"),
-                advice, found.empty() ? "" : "found only" + found);
+                installDriver, found.empty() ? "" : "found only" + found);
 }
 
 /// Whether the context that is current may become this one. `found`: names of those that did not.

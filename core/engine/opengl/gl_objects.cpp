@@ -10,7 +10,8 @@
 namespace relucent::engine {
 namespace {
 
-constexpr auto advice = RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead");
+constexpr auto onTheProcessor =
+    RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead");
 
 GLint limitOf(GLenum name) {
   GLint value = 0;
@@ -34,7 +35,7 @@ std::string logOf(GLuint shader, bool program) {
   throw Error(ErrorKind::device,
               RELUCENT_ENGLISH_MESSAGE("engine.shaders-not-compiled",
                                        "the graphics driver cannot compile the engine's programs"),
-              advice, log);
+              onTheProcessor, log);
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
                 RELUCENT_MESSAGE("engine.graphics-buffer-too-large",
                                  "the graphics card can hold {} MB in one piece, but {} MB are needed")
                     .with(as::megabytes(largest()), as::megabytes(bytes_)),
-                advice);
+                onTheProcessor);
   while (glGetError() != GL_NO_ERROR) {
   }
   glGenBuffers(1, &name_);
@@ -66,7 +67,7 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
         ErrorKind::device,
         RELUCENT_MESSAGE("engine.graphics-memory-exhausted", "the graphics card has no {} MB of memory left")
             .with(as::megabytes(bytes_)),
-        advice);
+        onTheProcessor);
   }
   if (data == nullptr || bytes < bytes_) clear();
   if (data != nullptr) write(0, data, bytes);

@@ -16,7 +16,7 @@ namespace relucent::gui {
 namespace {
 
 constexpr int planHeight = 170;
-constexpr double radius = 9.0, grip = 14.0, surfaceAt = 12.0;
+constexpr double radius = 9.0, handleReach = 14.0, surfaceAt = 12.0;
 constexpr double leastRoom = 4.0, mostRoom = 1000.0;  // metres
 constexpr double margin = 1.2;
 constexpr double step = 0.1, longStep = 1.0;
@@ -110,7 +110,7 @@ void ViewerPlan::mousePressEvent(QMouseEvent* event) {
   held_ = -1;
   // The viewer is drawn last, over the cameras.
   for (int point = points() - 1; point >= 0 && held_ < 0; --point)
-    if (QLineF(placeOf(point), event->position()).length() < grip) held_ = point;
+    if (QLineF(placeOf(point), event->position()).length() < handleReach) held_ = point;
   activate(held_);
 }
 

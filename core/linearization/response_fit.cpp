@@ -24,7 +24,7 @@ constexpr int flickerRounds = 6;
 constexpr int mostSteps = 40;
 // Of a step, to take another: of white, and of chi^2 with the a priori terms, where a standard deviation
 // is 1.
-constexpr double leastMove = 1e-7, leastGain = 1e-5;
+constexpr double leastMove = 1e-7, leastImprovement = 1e-5;
 
 Index toIndex(std::size_t value) {
   return static_cast<Index>(value);
@@ -423,7 +423,7 @@ class Fit {
       }
       damping = std::max(1e-12, damping / 100.0);
       // Where two channels are equally dark, steps may go back and forth between them.
-      if (moved < leastMove || gain < leastGain) return;
+      if (moved < leastMove || gain < leastImprovement) return;
     }
   }
 

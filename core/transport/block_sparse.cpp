@@ -17,7 +17,7 @@ constexpr float largestCode = 32767.0f;
 // A fixed number of private sums makes the transposed product the same for every number of threads. Each
 // costs the memory of the columns that it adds to; eight threads use up the bandwidth of most machines.
 constexpr std::size_t scatterParts = 8;
-constexpr std::size_t rowsOfATask = 256;
+constexpr std::size_t rowsOfGather = 256;
 
 using Code = std::array<std::int16_t, 9>;
 
@@ -119,7 +119,7 @@ BlockRows BlockSparse::view() const {
 Stack BlockSparse::multiply(const Stack& x) const {
   require(x.size() == 3 * columns_, "a vector of {} values for {} block columns", x.size(), columns_);
   Stack y(3 * rows());
-  parallelChunks(0, rows(), (rows() + rowsOfATask - 1) / rowsOfATask,
+  parallelChunks(0, rows(), (rows() + rowsOfGather - 1) / rowsOfGather,
                  [&](std::size_t, std::size_t begin, std::size_t end) {
                    blockKernels().back().gather(view(), begin, end, x.data(), y.data());
                  });

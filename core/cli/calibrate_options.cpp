@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
+#include "relucent/cli/device_choices.h"
 #include "relucent/cli/options.h"
+#include "relucent/pipeline/command_devices.h"
 
 namespace relucent::cli {
 namespace {
@@ -16,8 +18,9 @@ struct DeviceOptions {
   venue::VenueSettings venue;
   pipeline::CommandRigSettings commands;
   pipeline::ReplayRigSettings replay;
-  Size projector{256, 192};
-  Size camera{160, 120};
+  std::vector<std::string> projectorCommands;
+  std::vector<Size> projectors;  // sizes as they were given
+  CameraChoices cameras;
   std::uint64_t seed = 1;
 
   CLI::Option *venueName, *projectorSize, *cameraAddress, *cameraSize;
@@ -30,13 +33,17 @@ void addDevices(CLI::App* sub, DeviceOptions& devices) {
                           ->type_name("NAME")
                           ->capture_default_str();
   devices.projectorSize =
-      addSize(sub, "--projector", devices.projector, "Size of the projector")->default_str("256x192");
-  devices.cameraAddress = sub->add_option_function<std::string>(
-      "--camera", [&devices](const std::string& text) { readCamera(text, devices.commands, devices.camera); },
-      "A real camera by its address, see `devices`; or the size of the camera");
-  devices.cameraAddress->type_name("KIND:PLACE|WxH")->default_str("160x120");
-  devices.cameraSize =
-      addSize(sub, "--camera-size", devices.camera, "Size of the photographs, if --camera is an address");
+      addSizes(sub, "--projector", devices.projectors,
+               "Size of the projector; of several by commands: once for each, in the commands' order, or once")
+          ->default_str("256x192");
+  devices.cameraAddress =
+      addRepeated(
+          sub, "--camera", [&devices](const std::string& text) { devices.cameras.read(text); },
+          "A real camera by its address, see `devices`, several times for several; or the size of the camera")
+          ->type_name("KIND:PLACE|WxH")
+          ->default_str("160x120");
+  devices.cameraSize = addSizes(sub, "--camera-size", devices.cameras.sizesOfAddressed,
+                                "Size of the photographs, if --camera is an address; likewise");
   sub->add_option("--seed", devices.seed, "Seed of all random numbers: the same seed gives the same bits")
       ->type_name("N")
       ->capture_default_str();
@@ -76,12 +83,13 @@ CLI::Option* addFolderOption(CLI::App* group, const char* name, std::string& fol
 
 void addExternalPrograms(CLI::App* sub, DeviceOptions& devices) {
   CLI::Option_group* real = sub->add_option_group("External programs", "Any projector and camera by script");
-  devices.projectorCommand =
-      real->add_option("--projector-command", devices.commands.projectorCommand,
-                       "Command that shows the file {image} and returns when the picture is lit");
-  devices.cameraCommand =
-      real->add_option("--camera-command", devices.commands.cameraCommand,
-                       "Command that photographs {exposure} seconds into the file {output}");
+  devices.projectorCommand = addRepeated(
+      real, "--projector-command",
+      [&devices](const std::string& text) { devices.projectorCommands.push_back(text); },
+      "Command that shows the file {image} and returns when the picture is lit; several times for several");
+  devices.cameraCommand = addRepeated(
+      real, "--camera-command", [&devices](const std::string& text) { devices.cameras.commands.push_back(text); },
+      "Command that photographs {exposure} seconds into the file {output}; several times for several");
   for (CLI::Option* command : {devices.projectorCommand, devices.cameraCommand}) command->type_name("CMD");
   real->add_option("--shortest", devices.commands.shortestExposure, "Shortest exposure of the camera")
       ->type_name("SECONDS")
@@ -138,12 +146,15 @@ void refuseBesideReplay(const DeviceOptions& devices) {
 
 /// Whether real devices are named. Throws: WrongUsage if they are named by halves.
 bool areExternal(const DeviceOptions& devices) {
-  const bool addressed = !devices.commands.cameraAddress.empty();
+  const bool addressed = !devices.cameras.addresses.empty();
   const bool shows = devices.projectorCommand->count() > 0, photographs = devices.cameraCommand->count() > 0;
   const bool isSized = devices.projectorSize->count() > 0;
   if (devices.cameraSize->count() > 0 && !addressed)
     throw WrongUsage("--camera-size is for cameras with an address; write --camera WxH");
-  if (addressed && photographs) throw WrongUsage("give a camera's address or --camera-command, not both");
+  if (addressed && photographs)
+    throw WrongUsage(
+        "give a camera's address or --camera-command, not both; a command among addresses is --camera "
+        "command:CMD");
   if (addressed && (!shows || !isSized))
     throw WrongUsage("a real camera also needs --projector-command and --projector");
   if (!shows && !photographs) {
@@ -157,22 +168,29 @@ bool areExternal(const DeviceOptions& devices) {
   return true;
 }
 
+/// The size of a venue's devices. Throws: WrongUsage if several are given.
+Size onlySize(const std::vector<Size>& sizes, const char* option, Size otherwise) {
+  if (sizes.size() > 1)
+    throw WrongUsage(fmt::format("give {} once: a simulated venue's are all alike", option));
+  return sizes.empty() ? otherwise : sizes.front();
+}
+
 pipeline::RigSettings rigOf(const DeviceOptions& devices) {
   if (devices.replayFolder->count() > 0) {
     refuseBesideReplay(devices);
     return devices.replay;
   }
   if (areExternal(devices)) {
-    pipeline::CommandRigSettings commands = devices.commands;
-    commands.projector = devices.projector;
-    const bool addressed = !commands.cameraAddress.empty();
-    if ((addressed ? devices.cameraSize : devices.cameraAddress)->count() > 0)
-      commands.camera = devices.camera;
-    return commands;
+    std::vector<pipeline::CommandRigSettings::Projector> projectors;
+    const std::vector<Size> sizes =
+        onePerDevice(devices.projectors, devices.projectorCommands.size(), "--projector");
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+      projectors.push_back({devices.projectorCommands[i], sizes[i]});
+    return withProjectors(withCameras(devices.commands, devices.cameras.chosen()), projectors);
   }
   venue::VenueSettings venue = devices.venue;
-  venue.projector = devices.projector;
-  venue.camera = devices.camera;
+  venue.projector = onlySize(devices.projectors, "--projector", {256, 192});
+  venue.camera = onlySize(devices.cameras.sizes, "--camera", {160, 120});
   venue.seed = devices.seed;
   return venue;
 }

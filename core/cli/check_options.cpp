@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
+#include "relucent/cli/device_choices.h"
 #include "relucent/cli/options.h"
+#include "relucent/devices/camera_registry.h"
 
 namespace relucent::cli {
 
@@ -15,7 +17,7 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
   struct Places {
     pipeline::CommandRigSettings commands;
     venue::VenueSettings venue;
-    Size size;
+    CameraChoices cameras;
     double frameRate = 60.0;
   };
   auto command = std::make_shared<CheckRig>();
@@ -32,7 +34,7 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
   CLI::Option* camera =
       sub->add_option_function<std::string>(
              "--camera",
-             [places](const std::string& text) { readCamera(text, places->commands, places->size); },
+             [places](const std::string& text) { places->cameras.read(text); },
              "A camera by its address, see `devices`")
           ->type_name("KIND:PLACE");
   sub->add_option("--frame-rate", places->frameRate, "Frame rate of the projector")
@@ -53,6 +55,7 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
       command->settings.rig = places->venue;
       return Command(*command);
     }
+    if (!places->cameras.addresses.empty()) places->commands.cameraAddress = places->cameras.addresses.front();
     const bool seen = photograph->count() > 0 || !places->commands.cameraAddress.empty();
     if (show->count() == 0 || projector->count() == 0 || !seen)
       throw WrongUsage(

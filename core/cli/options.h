@@ -9,7 +9,6 @@
 
 #include "relucent/base/enum_names.h"
 #include "relucent/cli/arguments.h"
-#include "relucent/devices/camera_registry.h"
 #include "relucent/reduction/pixel_use.h"
 
 /// Options that several subcommands share; met inside the parser only.
@@ -30,6 +29,25 @@ inline CLI::Option* addSize(CLI::App* sub, const char* name, Size& size, const c
   return sub
       ->add_option_function<std::string>(
           name, [&size](const std::string& text) { size = parseSize(text); }, what)
+      ->type_name("WxH");
+}
+
+/// An option that may be given several times, one value each; `use` is called for each, in their order.
+inline CLI::Option* addRepeated(CLI::App* sub, const char* name, std::function<void(const std::string&)> use,
+                                const char* what) {
+  return sub
+      ->add_option_function<std::vector<std::string>>(
+          name,
+          [use = std::move(use)](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) use(text);
+          },
+          what)
+      ->allow_extra_args(false);
+}
+
+inline CLI::Option* addSizes(CLI::App* sub, const char* name, std::vector<Size>& sizes, const char* what) {
+  return addRepeated(
+             sub, name, [&sizes](const std::string& text) { sizes.push_back(parseSize(text)); }, what)
       ->type_name("WxH");
 }
 
@@ -76,17 +94,6 @@ CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what
 inline void addFullDisk(CLI::App* sub, FullDiskAction& action) {
   addNamed(sub, "--full-disk", "Where the disk is full: " + listOfNames<FullDiskAction>(), action)
       ->type_name("ACTION");
-}
-
-/// What --camera says: a camera's address or a size. Throws: WrongUsage.
-inline void readCamera(const std::string& text, pipeline::CommandRigSettings& commands, Size& size) {
-  if (devices::cameraRegistry().addressFrom(text))
-    commands.cameraAddress = text;
-  else if (text.find(':') != std::string::npos)
-    throw WrongUsage(
-        fmt::format("'{}' is not a camera: write {}", text, devices::cameraRegistry().addressForms()));
-  else
-    size = parseSize(text);
 }
 
 inline CLI::Option* addPixelUse(CLI::App* sub, reduction::PixelUse& use) {

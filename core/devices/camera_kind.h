@@ -17,6 +17,7 @@ namespace relucent::devices {
 struct CameraWishes {
   std::optional<Size> size;                 // of photographs; none: all that the camera has
   rig::ExposureRange exposures{1e-3, 4.0};  // of cameras that cannot be asked for theirs
+  int ofSeveral = 0;                        // 1, 2, ...: tells apart cameras that have no name of their own
 };
 
 /// One kind of camera: all that the rest of the program knows about it.

@@ -10,6 +10,7 @@
 #include "relucent/devices/command/command_projector.h"
 #include "relucent/devices/recording/recording.h"
 #include "relucent/devices/whole_frames.h"
+#include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/screen_devices.h"
 
@@ -26,15 +27,9 @@ devices::CameraAddress addressFrom(const std::string& text) {
   return *address;
 }
 
-devices::CameraAddress cameraOf(const CommandRigSettings& settings) {
-  if (settings.cameraAddress.empty()) return {devices::CommandCamera::kind, settings.cameraCommand};
-  return addressFrom(settings.cameraAddress);
-}
-
-template <typename Settings>
-std::unique_ptr<rig::Camera> cameraFor(const Settings& settings, const devices::CameraAddress& address) {
-  return devices::cameraRegistry().open(
-      address, {settings.camera, {settings.shortestExposure, settings.longestExposure}});
+devices::CameraAddress addressOf(const CommandRigSettings::Camera& camera) {
+  if (camera.address.empty()) return {devices::CommandCamera::kind, camera.command};
+  return addressFrom(camera.address);
 }
 
 /// One overload a kind of rig.
@@ -51,19 +46,27 @@ struct Opener {
   }
 
   OpenedRig operator()(const CommandRigSettings& settings) const {
-    devices::CommandProjectorSettings projector;
-    projector.command = settings.projectorCommand;
-    projector.size = settings.projector;
-
     OpenedRig result;
-    result.rig.projectors.push_back(std::make_unique<devices::CommandProjector>(std::move(projector)));
-    result.rig.cameras.push_back(cameraFor(settings, cameraOf(settings)));
-    if (settings.frameRate > 0.0)
-      result.rig.cameras.front() =
-          devices::inWholeFrames(std::move(result.rig.cameras.front()), 1.0 / settings.frameRate);
-    if (settings.latency > 0.0)
-      result.rig.projectors.front() =
-          devices::delayed(std::move(result.rig.projectors.front()), settings.latency, devices::sleepFor);
+    const std::vector<CommandRigSettings::Projector> projectors = projectorsOf(settings);
+    for (std::size_t i = 0; i < projectors.size(); ++i) {
+      devices::CommandProjectorSettings command;
+      command.command = projectors[i].command;
+      command.size = projectors[i].size;
+      if (projectors.size() > 1) command.name += " " + std::to_string(i + 1);
+      auto& opened =
+          result.rig.projectors.emplace_back(std::make_unique<devices::CommandProjector>(std::move(command)));
+      if (settings.latency > 0.0)
+        opened = devices::delayed(std::move(opened), settings.latency, devices::sleepFor);
+    }
+    const std::vector<CommandRigSettings::Camera> cameras = camerasOf(settings);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      devices::CameraWishes wishes{cameras[i].size, {settings.shortestExposure, settings.longestExposure}};
+      if (cameras.size() > 1) wishes.ofSeveral = static_cast<int>(i) + 1;
+      auto& opened =
+          result.rig.cameras.emplace_back(devices::cameraRegistry().open(addressOf(cameras[i]), wishes));
+      if (settings.frameRate > 0.0)
+        opened = devices::inWholeFrames(std::move(opened), 1.0 / settings.frameRate);
+    }
     if (!settings.record.empty()) result.rig = devices::recorded(std::move(result.rig), settings.record);
     return result;
   }

@@ -11,7 +11,8 @@
 
 namespace relucent::pipeline {
 
-/// External programs as devices: anybody's camera by script.
+/// External programs as devices: anybody's camera by script. Several of them: command_devices.h has both as
+/// lists.
 /// {image} in the projector's command is the file to show; {exposure} in the camera's command is the time
 /// in seconds, {output} the file to write (float EXR, 16-bit PNG or TIFF, or 8-bit).
 struct CommandRigSettings {
@@ -30,6 +31,23 @@ struct CommandRigSettings {
   /// Pictures a second of the projector: exposures become whole pictures (devices/whole_frames.h). 0: as they
   /// are asked for.
   double frameRate = 0.0;
+
+  /// A projector beside the first one, which the fields above are of.
+  struct Projector {
+    std::string command;
+    Size size;
+    bool operator==(const Projector&) const = default;
+  };
+  /// A camera beside the first one: by its command, or by its address. Exposures are those that all cameras can
+  /// take.
+  struct Camera {
+    std::string command;
+    std::string address{};
+    std::optional<Size> size{};  // none: of a command's first photograph; all that a camera has
+    bool operator==(const Camera&) const = default;
+  };
+  std::vector<Projector> moreProjectors{};
+  std::vector<Camera> moreCameras{};
 };
 
 /// Screens of the desktop as projectors, and any cameras by their addresses; screen_devices.h has both as

@@ -3,6 +3,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/compensate.h"
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/export.h"
@@ -63,6 +64,18 @@ void checkCommand(Problems& problems, DeviceKind device, const std::string& comm
                     .with(placeholder));
 }
 
+/// Which of several it is.
+Problems numbered(const Problems& problems, DeviceKind device, std::size_t index, std::size_t count) {
+  if (count == 1) return problems;
+  Problems found;
+  for (const Message& problem : problems)
+    found.push_back((device == DeviceKind::projector
+                         ? RELUCENT_ENGLISH_MESSAGE("device.of-projector", "projector {}: {}")
+                         : RELUCENT_ENGLISH_MESSAGE("device.of-camera", "camera {}: {}"))
+                        .with(as::label(index + 1), problem));
+  return found;
+}
+
 template <typename Settings>
 void checkTimes(Problems& problems, const Settings& settings) {
   if (!(settings.latency >= 0.0 && settings.latency <= 10.0))
@@ -80,13 +93,24 @@ void checkTimes(Problems& problems, const Settings& settings) {
 
 Problems problemsOf(const CommandRigSettings& settings) {
   Problems found;
-  checkSize(found, DeviceKind::projector, settings.projector);
-  if (settings.camera) checkSize(found, DeviceKind::camera, *settings.camera);
-  checkCommand(found, DeviceKind::projector, settings.projectorCommand, {"{image}"});
-  if (settings.cameraAddress.empty())
-    checkCommand(found, DeviceKind::camera, settings.cameraCommand, {"{exposure}", "{output}"});
-  else
-    checkAddress(found, settings.cameraAddress);
+  const auto projectors = projectorsOf(settings);
+  for (std::size_t i = 0; i < projectors.size(); ++i) {
+    Problems of;
+    checkSize(of, DeviceKind::projector, projectors[i].size);
+    checkCommand(of, DeviceKind::projector, projectors[i].command, {"{image}"});
+    append(found, numbered(of, DeviceKind::projector, i, projectors.size()));
+  }
+  const auto cameras = camerasOf(settings);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    Problems of;
+    if (cameras[i].size) checkSize(of, DeviceKind::camera, *cameras[i].size);
+    if (cameras[i].address.empty())
+      checkCommand(of, DeviceKind::camera, cameras[i].command, {"{exposure}", "{output}"});
+    else
+      checkAddress(of, cameras[i].address);
+    append(found, numbered(of, DeviceKind::camera, i, cameras.size()));
+  }
+  if (found.empty()) append(found, problemsOfDevices(settings));
   checkTimes(found, settings);
   return found;
 }

@@ -55,10 +55,12 @@ namespace relucent::pipeline {
 namespace {
 
 /// What a manifest's rig is made of.
-enum class RigKind { simulated, commands, devices, screen, replay, imported };
+enum class RigKind { simulated, commands, devices, severalDevices, screen, replay, imported };
 constexpr EnumName<RigKind> rigKindNames[]{
-    {RigKind::simulated, "simulated"}, {RigKind::commands, "commands"}, {RigKind::devices, "devices"},
-    {RigKind::screen, "screen"},       {RigKind::replay, "replay"},     {RigKind::imported, "imported"}};
+    {RigKind::simulated, "simulated"}, {RigKind::commands, "commands"},
+    {RigKind::devices, "devices"},     {RigKind::severalDevices, "several-devices"},
+    {RigKind::screen, "screen"},       {RigKind::replay, "replay"},
+    {RigKind::imported, "imported"}};
 constexpr EnumNames<RigKind> namesOf(RigKind) {
   return {"kind of devices", rigKindNames};
 }
@@ -173,7 +175,20 @@ Sorted commandRigToJson(const CommandRigSettings& settings) {
   if (settings.latency > 0.0) json["latency"] = settings.latency;
   if (!settings.record.empty()) json["record"] = settings.record;
   if (settings.frameRate > 0.0) json["frame_rate"] = settings.frameRate;
+  for (const CommandRigSettings::Projector& projector : settings.moreProjectors)
+    json["more_projectors"].push_back({{"command", projector.command}, {"size", projector.size}});
+  for (const CommandRigSettings::Camera& camera : settings.moreCameras) {
+    Sorted& more = json["more_cameras"].emplace_back(
+        Sorted{{"command", camera.command}, {"address", camera.address}});
+    if (camera.size) more["size"] = *camera.size;
+  }
   return json;
+}
+
+/// Versions that know fewer devices, or commands only, say so instead of opening some of them.
+RigKind kindOf(const CommandRigSettings& settings) {
+  if (!settings.moreProjectors.empty() || !settings.moreCameras.empty()) return RigKind::severalDevices;
+  return settings.cameraAddress.empty() ? RigKind::commands : RigKind::devices;
 }
 
 CommandRigSettings commandRigFromJson(const Sorted& json) {
@@ -188,6 +203,14 @@ CommandRigSettings commandRigFromJson(const Sorted& json) {
   settings.latency = json.value("latency", settings.latency);
   settings.record = json.value("record", settings.record);
   settings.frameRate = json.value("frame_rate", settings.frameRate);
+  for (const Sorted& projector : json.value("more_projectors", Sorted::array()))
+    settings.moreProjectors.push_back({projector.at("command"), projector.at("size").get<Size>()});
+  for (const Sorted& camera : json.value("more_cameras", Sorted::array())) {
+    CommandRigSettings::Camera& more = settings.moreCameras.emplace_back();
+    more.command = camera.at("command");
+    more.address = camera.at("address");
+    if (camera.contains("size")) more.size = camera.at("size").get<Size>();
+  }
   return settings;
 }
 
@@ -291,9 +314,7 @@ calibration::Json rigToJson(const RigSettings& settings) {
       return {{"kind", RigKind::screen}, {"screen", screenRigToJson(screen)}};
     }
     Sorted operator()(const CommandRigSettings& commands) const {
-      // Versions that know commands only say so instead of running an empty one.
-      const RigKind kind = commands.cameraAddress.empty() ? RigKind::commands : RigKind::devices;
-      return {{"kind", kind}, {"commands", commandRigToJson(commands)}};
+      return {{"kind", kindOf(commands)}, {"commands", commandRigToJson(commands)}};
     }
   };
   return calibration::Json(std::visit(Writer{}, settings));
@@ -313,6 +334,7 @@ RigSettings rigFromJson(const calibration::Json& json) {
         return importedRigFromJson(sorted.at("imported"));
       case RigKind::commands:
       case RigKind::devices:
+      case RigKind::severalDevices:
         break;
     }
     const Sorted& commands = sorted.at("commands");

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "relucent/pipeline/command_devices.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/report/number_text.h"
 
 namespace relucent::report {
@@ -30,13 +32,17 @@ void addDevices(std::vector<NamedText>& list, const pipeline::RigSettings& rig) 
       [&](const auto& devices) {
         using Devices = std::decay_t<decltype(devices)>;
         if constexpr (std::is_same_v<Devices, pipeline::ScreenRigSettings>) {
-          const auto& [connector, manufacturer, model, serialNumber] = devices.display;
-          list.push_back({"Projector", joined({manufacturer, model, serialNumber, connector})});
-          list.push_back({"Pictures a second", fmt::format("{:.4g}", devices.frameRate)});
-          camera(devices.cameraAddress);
+          for (const pipeline::ScreenRigSettings::Screen& screen : screensOf(devices)) {
+            const auto& [connector, manufacturer, model, serialNumber] = screen.display;
+            list.push_back({"Projector", joined({manufacturer, model, serialNumber, connector})});
+            list.push_back({"Pictures a second", fmt::format("{:.4g}", screen.frameRate)});
+          }
+          for (const pipeline::ScreenRigSettings::Camera& each : camerasOf(devices)) camera(each.address);
         } else if constexpr (std::is_same_v<Devices, pipeline::CommandRigSettings>) {
-          list.push_back({"Projector", "an external program"});
-          camera(devices.cameraAddress.empty() ? "an external program" : devices.cameraAddress);
+          for (std::size_t i = 0; i < projectorsOf(devices).size(); ++i)
+            list.push_back({"Projector", "an external program"});
+          for (const pipeline::CommandRigSettings::Camera& each : camerasOf(devices))
+            camera(each.address.empty() ? "an external program" : each.address);
         }
       },
       rig);

@@ -3,12 +3,15 @@
 // and every photograph, nothing shared but files.
 //   command-venue show FOLDER IMAGE.png
 //   command-venue photograph FOLDER SECONDS OUTPUT SHOT
+//   command-venue photograph-several FOLDER SECONDS OUTPUT SHOT CAMERA
+// What is shown is FOLDER/shown.png; of several projectors shown-0.png, shown-1.png.
 // OUTPUT is OpenEXR, or plain 32-bit floats if its name ends in .f32.
 #include <png.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "relucent/base/error.h"
 #include "relucent/base/fingerprint.h"
@@ -47,14 +50,17 @@ int show(const fs::path& folder, const fs::path& image) {
   return 0;
 }
 
-int photograph(const fs::path& folder, double seconds, const fs::path& output, const std::string& shot) {
-  Rig rig = test::commandVenue().rig();
-  // Nothing has been shown yet when the camera is asked for its size.
-  fs::path shown = folder / "shown.png";
-  rig.projectors[0]->show(fs::exists(shown) ? shownPicture(shown) : Image(test::commandProjector, 3));
+int photograph(const fs::path& folder, double seconds, const fs::path& output, const std::string& shot,
+               std::optional<std::size_t> ofSeveral = std::nullopt) {
+  Rig rig = test::commandVenue(ofSeveral.has_value()).rig();
+  for (std::size_t i = 0; i < rig.projectors.size(); ++i) {
+    const fs::path shown = folder / (ofSeveral ? "shown-" + std::to_string(i) + ".png" : "shown.png");
+    // Nothing has been shown yet when the camera is asked for its size.
+    rig.projectors[i]->show(fs::exists(shown) ? shownPicture(shown) : Image(rig.projectors[i]->size(), 3));
+  }
   // The name of the shot keys the noise: photographs of different shots differ, the same one repeats.
   CaptureRequest request{{shot, 0}, 0, seconds};
-  Image signal = rig.cameras[0]->capture(request).signal;
+  Image signal = rig.cameras.at(ofSeveral.value_or(0))->capture(request).signal;
   if (output.extension() != ".f32") {
     writeExr(output, signal, ExrType::floatType);
     return 0;
@@ -73,10 +79,14 @@ int main(int argc, char** argv) {
     if (arguments.size() == 3 && arguments[0] == "show") return show(arguments[1], arguments[2]);
     if (arguments.size() == 5 && arguments[0] == "photograph")
       return photograph(arguments[1], std::stod(arguments[2]), arguments[3], arguments[4]);
+    if (arguments.size() == 6 && arguments[0] == "photograph-several")
+      return photograph(arguments[1], std::stod(arguments[2]), arguments[3], arguments[4],
+                        std::stoul(arguments[5]));
   } catch (const std::exception& failure) {
     std::cerr << failure.what() << '\n';
     return 1;
   }
-  std::cerr << "usage: command-venue show FOLDER IMAGE | photograph FOLDER SECONDS OUTPUT SHOT\n";
+  std::cerr << "usage: command-venue show FOLDER IMAGE | photograph FOLDER SECONDS OUTPUT SHOT | "
+               "photograph-several FOLDER SECONDS OUTPUT SHOT CAMERA\n";
   return 2;
 }

@@ -6,6 +6,7 @@
 #include <QTest>
 #include <cstdlib>
 
+#include "relucent/image/picture_files.h"
 #include "relucent/transport/difference.h"
 #include "relucent/transport/files.h"
 #include "system/command_venue.h"
@@ -89,6 +90,38 @@ class TestCommands : public QObject {
              QString::number(test::commandProjector.width), QString::number(test::commandProjector.height)});
     qInfo("%s", predicted.output.constData());
     QVERIFY2(predicted.status == 0, predicted.errors.constData());
+  }
+
+  /// Two projectors and two cameras, each by a script and of another size; what is measured of them is
+  /// compensated and proved by the same scripts.
+  void severalProjectorsAndCameras() {
+    QTemporaryDir folder;
+    const QString calibration = folder.filePath("calibration");
+    QStringList arguments{"calibrate", calibration, "--levels", "9"};
+    for (const char* number : {"0", "1"})
+      arguments << "--projector-command" << "cp {image} " + folder.path() + "/shown-" + number + ".png"
+                << "--camera-command"
+                << tool("command-venue") + " photograph-several " + folder.path() +
+                       " {exposure} {output} {shot} " + number;
+    arguments << "--projector" << "16x12" << "--projector" << "12x16";
+    const Run calibrated = runCli(arguments);
+    QVERIFY2(calibrated.status == 0, calibrated.errors.constData());
+
+    const QString leaves = folder.filePath("leaves.npz");
+    const Run exported = runCli({"export", calibration, "--leaves", leaves});
+    QVERIFY2(exported.status == 0, exported.errors.constData());
+    const TransportMatrix measured = loadTransport(leaves.toStdString());
+    QVERIFY((measured.projectors().sizes() == std::vector{test::commandProjector, test::secondProjector}));
+    QVERIFY((measured.cameras().sizes() == std::vector{test::commandCamera, test::secondCamera}));
+    // As above; every pixel has the light of two projectors, and the threshold is a share of both.
+    const double error = difference(measured, test::commandVenue(true).transport()).frobenius;
+    QVERIFY2(error < 0.12, qPrintable(QString::number(error)));
+
+    image::writePng(folder.filePath("grey.png").toStdString(), image::Image(Size{16, 12}, 3, 0.5f), 8);
+    const Run proved = runCli({"prove", calibration, "--image", folder.filePath("grey.png"), "--out",
+                               folder.filePath("proof"), "--json"});
+    QVERIFY2(proved.status == 0, proved.errors.constData());
+    QVERIFY2(QFileInfo(folder.filePath("proof/target-2.png")).size() > 0, proved.output.constData());
   }
 
   void failingCommandIsOneSentence() {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <string>
+
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_kind.h"
 #include "relucent/devices/command/command_camera.h"
@@ -11,6 +13,7 @@ std::unique_ptr<rig::Camera> openCommand(const std::string& command, const Camer
   settings.command = command;
   settings.size = wishes.size;
   settings.exposures = wishes.exposures;
+  if (wishes.ofSeveral > 0) settings.name += " " + std::to_string(wishes.ofSeveral);
   const std::vector<Message> found = problems(settings);
   if (!found.empty())
     throw Error(ErrorKind::usage, found.front(),

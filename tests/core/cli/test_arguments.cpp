@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <QTest>
 #include <cstdlib>
 
 #include "relucent/cli/arguments.h"
+#include "relucent/pipeline/command_devices.h"
 
 using namespace relucent;
 using namespace relucent::acquisition;
@@ -143,6 +146,52 @@ class TestArguments : public QObject {
     QVERIFY((part.camera == Size{640, 480}));
     QVERIFY(std::filesystem::path(part.record).is_absolute());
     QVERIFY(part.record.ends_with("/tape"));
+  }
+
+  /// Devices are in the order in which they are named; one size stands for all.
+  void severalDevicesAreARig_data() {
+    QTest::addColumn<QByteArray>("line");
+    QTest::addColumn<QList<Size>>("projectors");
+    QTest::addColumn<QByteArray>("cameras");  // command or address, size
+    const QByteArray show = "calibrate d --projector-command a,{image} --projector-command b,{image} ";
+    const QByteArray photograph =
+        "--camera-command c,{exposure},{output} --camera-command d,{exposure},{output} ";
+    QTest::newRow("mixed sizes") << show + photograph +
+                                        "--projector 64x48 --projector 80x60 --camera 32x24 --camera 40x30"
+                                 << QList<Size>{{64, 48}, {80, 60}}
+                                 << QByteArray("c,{exposure},{output} 32x24; d,{exposure},{output} 40x30; ");
+    QTest::newRow("one size") << show + photograph + "--projector 64x48 --camera 32x24"
+                              << QList<Size>{{64, 48}, {64, 48}}
+                              << QByteArray("c,{exposure},{output} 32x24; d,{exposure},{output} 32x24; ");
+    QTest::newRow("addresses") << show +
+                                      "--projector 64x48 --camera genicam:7 --camera v4l2:/dev/video0 "
+                                      "--camera genicam:8 --camera-size 32x24 --camera-size 40x30 "
+                                      "--camera-size 48x36"
+                               << QList<Size>{{64, 48}, {64, 48}}
+                               << QByteArray("genicam:7 32x24; v4l2:/dev/video0 40x30; genicam:8 48x36; ");
+    QTest::newRow("a command among addresses")
+        << show + "--projector 64x48 --camera genicam:7 --camera command:c,{exposure},{output}"
+        << QList<Size>{{64, 48}, {64, 48}} << QByteArray("genicam:7 ; command:c,{exposure},{output} ; ");
+  }
+  void severalDevicesAreARig() {
+    QFETCH(QByteArray, line);
+    QFETCH(QList<Size>, projectors);
+    QFETCH(QByteArray, cameras);
+    const auto rig = std::get<CommandRigSettings>(parsed<Calibrate>(line).settings.rig);
+    const std::vector<CommandRigSettings::Projector> given = projectorsOf(rig);
+    QCOMPARE(std::ssize(given), projectors.size());
+    for (qsizetype i = 0; i < projectors.size(); ++i) {
+      const CommandRigSettings::Projector& projector = given[static_cast<std::size_t>(i)];
+      QCOMPARE(projector.command, i == 0 ? "a,{image}" : "b,{image}");
+      QVERIFY(projector.size == projectors[i]);
+    }
+    QByteArray said;
+    for (const CommandRigSettings::Camera& camera : camerasOf(rig)) {
+      said += camera.command + camera.address + ' ';
+      if (camera.size) said += fmt::format("{}x{}", camera.size->width, camera.size->height);
+      said += "; ";
+    }
+    QCOMPARE(said, cameras);
   }
 
   void whatIsCheckedIsARig() {
@@ -312,7 +361,8 @@ class TestArguments : public QObject {
     QTest::newRow("seven numbers") << QByteArray("compensate d --image a --out b --corners 1 2 3 4 5 6 7")
                                    << QByteArray("--corners");
     QTest::newRow("nothing to export")
-        << QByteArray("export d") << QByteArray("--transport, --leaves, --inverse, --maps, --mpcdi or --player-maps");
+        << QByteArray("export d")
+        << QByteArray("--transport, --leaves, --inverse, --maps, --mpcdi or --player-maps");
     QTest::newRow("half a rig") << QByteArray("calibrate d --projector-command a")
                                 << QByteArray("external programs need");
     QTest::newRow("rig without a size")
@@ -332,6 +382,15 @@ class TestArguments : public QObject {
         << QByteArray(
                "calibrate d --projector-command a --camera-command b --projector 8x8 --camera genicam:7")
         << QByteArray("not both");
+    const QByteArray two = "calibrate d --projector-command a --projector-command b --camera-command c ";
+    QTest::newRow("three sizes of two projectors")
+        << two + "--projector 8x8 --projector 8x9 --projector 9x9"
+        << QByteArray("--projector is given 3 times for 2 devices");
+    QTest::newRow("two sizes of one camera") << two + "--projector 8x8 --camera 8x8 --camera 9x9"
+                                             << QByteArray("--camera is given 2 times for one device");
+    QTest::newRow("two projectors of a venue")
+        << QByteArray("calibrate d --venue dome4 --projector 8x8 --projector 9x9")
+        << QByteArray("give --projector once");
     QTest::newRow("size without an address")
         << QByteArray("calibrate d --camera-size 8x8") << QByteArray("write --camera WxH");
     QTest::newRow("recording and devices") << QByteArray("calibrate d --replay t --projector-command a")

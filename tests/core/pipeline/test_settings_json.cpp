@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 
 #include <QTest>
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
+#include "relucent/pipeline/command_devices.h"
+#include "relucent/pipeline/screen_devices.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -110,6 +111,62 @@ class TestSettingsJson : public QObject {
     QVERIFY(screensOf(ScreenRigSettings{}).empty() && camerasOf(ScreenRigSettings{}).empty());
     QCOMPARE(screensOf(withScreenAlone(rig, 1)).size(), std::size_t{1});
     QCOMPARE(withScreenAlone(rig, 1).display.connector, std::string("DP-1"));
+  }
+
+  /// The same for external programs; versions that knew one of each must not take several for that.
+  void severalProgramsComeBack() {
+    CommandRigSettings rig{"show {image}", "shoot {exposure} {output}", {64, 48}, Size{32, 24}, 0.1, 2.0};
+    CalibrateSettings one, several;
+    one.rig = rig;
+    for (const char* later : {"more_projectors", "more_cameras"})
+      QVERIFY(!rigToJson(one.rig).at("commands").contains(later));
+    rig.moreProjectors = {{"show2 {image}", {80, 60}}};
+    rig.moreCameras = {{"", "genicam:8", std::nullopt}, {"shoot2 {exposure} {output}", "", Size{40, 30}}};
+    several.rig = rig;
+    QCOMPARE(rigToJson(several.rig).at("kind").get<std::string>(), std::string("several-devices"));
+    const auto read = std::get<CommandRigSettings>(comeBack(several).rig);
+    QVERIFY(projectorsOf(read) == projectorsOf(rig) && camerasOf(read) == camerasOf(rig));
+    QVERIFY(problems(several).empty());
+    QCOMPARE(rigToJson(withProjectors(rig, projectorsOf(rig))).dump(), rigToJson(several.rig).dump());
+    QCOMPARE(rigToJson(withCameras(rig, camerasOf(rig))).dump(), rigToJson(several.rig).dump());
+  }
+
+  void wrongProgramsAreNamed_data() {
+    QTest::addColumn<QString>("projector");
+    QTest::addColumn<Size>("size");
+    QTest::addColumn<QString>("camera");
+    QTest::addColumn<QString>("address");
+    QTest::addColumn<QByteArray>("sentence");
+    const QString show = "show2 {image}", shoot = "shoot2 {exposure} {output}", none;
+    const Size size{64, 48};
+    QTest::newRow("projector twice") << "show {image}" << size << shoot << none
+                                     << QByteArray("projector 1 and projector 2 are shown by the same command");
+    QTest::newRow("camera twice") << show << size << "shoot {exposure} {output}" << none
+                                  << QByteArray("camera 1 and camera 2 photograph by the same command");
+    QTest::newRow("no image") << "show2" << size << shoot << none
+                              << QByteArray("projector 2: the projector's command does not contain {image}");
+    QTest::newRow("no output") << show << size << "shoot2 {exposure}" << none
+                               << QByteArray("camera 2: the camera's command does not contain {output}");
+    QTest::newRow("no address") << show << size << none << "usb:7"
+                                << QByteArray("camera 2: 'usb:7' is not a camera: write genicam");
+    QTest::newRow("too small") << show << Size{4, 4} << shoot << none
+                               << QByteArray("projector 2: a projector of 4x4 pixels is impossible");
+  }
+  void wrongProgramsAreNamed() {
+    QFETCH(QString, projector);
+    QFETCH(Size, size);
+    QFETCH(QString, camera);
+    QFETCH(QString, address);
+    QFETCH(QByteArray, sentence);
+    CommandRigSettings rig{"show {image}", "shoot {exposure} {output}", {64, 48}};
+    rig.moreProjectors = {{projector.toStdString(), size}};
+    rig.moreCameras = {{camera.toStdString(), address.toStdString()}};
+    CalibrateSettings settings;
+    settings.rig = rig;
+    const std::vector<Message> found = problems(settings);
+    QCOMPARE(found.size(), std::size_t{1});
+    QVERIFY2(QByteArray::fromStdString(english(found.front())).startsWith(sentence),
+             english(found.front()).c_str());
   }
 
   void whatIsNamedTwiceIsAProblem_data() {

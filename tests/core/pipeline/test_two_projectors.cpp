@@ -57,6 +57,8 @@ class TestTwoProjectors : public QObject {
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;  // of others, parts are darker than the room
+    evaluating.methods = {compensation::Method::refined};
+    evaluating.blended = true;
     EvaluateResult result = evaluate(root() / "relief", evaluating, cache(), silent);
     // As large as for venues of one projector: see test_pipeline.
     QVERIFY2(result.transport.frobenius < 0.2, qPrintable(QString::number(result.transport.frobenius)));

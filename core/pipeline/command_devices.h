@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "relucent/base/message.h"
+#include "relucent/pipeline/rig_settings.h"
+
+namespace relucent::pipeline {
+
+/// The projectors of a rig of external programs, in their order in T; at least one.
+std::vector<CommandRigSettings::Projector> projectorsOf(const CommandRigSettings& rig);
+/// Its cameras, in their order in T; at least one.
+std::vector<CommandRigSettings::Camera> camerasOf(const CommandRigSettings& rig);
+
+/// The rig with other ones.  Contract: there are some.
+/// Law: withProjectors(rig, projectorsOf(rig)) is rig, and so for cameras.
+CommandRigSettings withProjectors(CommandRigSettings rig,
+                                  const std::vector<CommandRigSettings::Projector>& projectors);
+CommandRigSettings withCameras(CommandRigSettings rig, const std::vector<CommandRigSettings::Camera>& cameras);
+
+/// Devices that are named twice: one command for two projectors lights one of them, one for two cameras
+/// photographs one view.
+std::vector<Message> problemsOfDevices(const CommandRigSettings& rig);
+
+}  // namespace relucent::pipeline

@@ -5744,6 +5744,34 @@ projector %2</source>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>أقل ما يخفي حواف أجهزة العرض</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>مكان المشاهد</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>التعارض</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>مقدار تراجع مشهد بسبب ما تطلبه المشاهد الأخرى</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>تجري مقارنة المشاهد</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>أسوأ بوضوح بسبب المشاهد الأخرى: %1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>أسوأ بوضوح بسبب المشاهد الأخرى</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

@@ -5612,6 +5612,34 @@ Projektor %2</translation>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>So wenig, wie die Ränder der Projektoren verbirgt</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>Ort des Betrachters</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>Widerspruch</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>Um wie viel schlechter eine Ansicht ist, weil die anderen anderes verlangen</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>Die Ansichten werden verglichen</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>Sichtbar schlechter wegen anderer Ansichten: %1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>Sichtbar schlechter wegen anderer Ansichten</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

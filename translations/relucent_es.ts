@@ -5612,6 +5612,34 @@ proyector %2</translation>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>Lo mínimo que oculta los bordes de los proyectores</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>Lugar del espectador</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>Contradicción</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>Cuánto empeora una vista por lo que piden las demás</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>Comparando las vistas</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>Visiblemente peor por otras vistas: %1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>Visiblemente peor por otras vistas</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

@@ -5612,6 +5612,34 @@ projecteur %2</translation>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>Juste assez pour cacher les bords des projecteurs</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>Place du spectateur</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>Contradiction</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>De combien une vue est moins bonne à cause de ce que demandent les autres</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>Comparaison des vues</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>Visiblement moins bon à cause des autres vues&#x202f;: %1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>Visiblement moins bon à cause des autres vues</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

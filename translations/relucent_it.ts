@@ -5612,6 +5612,34 @@ proiettore %2</translation>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>Il minimo che nasconde i bordi dei proiettori</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>Posizione dello spettatore</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>Contraddizione</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>Quanto peggiora una vista per ciò che chiedono le altre</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>Confronto delle viste</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>Visibilmente peggio per le altre viste: %1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>Visibilmente peggio per le altre viste</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

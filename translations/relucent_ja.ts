@@ -5579,6 +5579,34 @@ projector %2</source>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>プロジェクターの端が見えなくなる最小限</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>観客の位置</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>矛盾</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>ほかの視点の要求によってこの視点がどれだけ悪くなるか</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>視点を比較しています</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>ほかの視点のために目に見えて悪い部分：%1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>ほかの視点のために目に見えて悪い部分</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

@@ -5579,6 +5579,34 @@ projector %2</source>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1正在进行。结束后才能保留此处的选择。</translation>
     </message>
+    <message>
+        <source>As little as hides where projectors end</source>
+        <translation>刚好隐藏投影机边缘的最小值</translation>
+    </message>
+    <message>
+        <source>Place of the viewer</source>
+        <translation>观众的位置</translation>
+    </message>
+    <message>
+        <source>Contradiction</source>
+        <translation>矛盾</translation>
+    </message>
+    <message>
+        <source>How much worse a view is because of what the other views ask for</source>
+        <translation>因其他视角的要求，此视角变差的程度</translation>
+    </message>
+    <message>
+        <source>Comparing the views</source>
+        <translation>正在比较各视角</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views: %1</source>
+        <translation>因其他视角而明显变差：%1</translation>
+    </message>
+    <message>
+        <source>Visibly worse because of other views</source>
+        <translation>因其他视角而明显变差</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::SettingsDialog</name>

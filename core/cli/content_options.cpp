@@ -105,6 +105,17 @@ void addViews(CLI::App* sub, compensation::TargetSettings& target) {
       ->type_name("X,Y,Z");
 }
 
+/// "auto" or a number; its range is for problems() to judge. Throws: WrongUsage.
+std::optional<double> readBlackLift(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  std::istringstream input(text);
+  double share = 0.0;
+  if (!(input >> share) || !(input >> std::ws).eof())
+    throw WrongUsage(
+        fmt::format("'{}' is no black lift: write auto, or a share of white such as 0.01", text));
+  return share;
+}
+
 void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   sub->add_option_function<std::vector<double>>(
          "--corners",
@@ -120,9 +131,12 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
                   "Percent of the pixels that may be too dark to show white: more makes the picture brighter")
       ->type_name("PERCENT")
       ->capture_default_str();
-  sub->add_option("--black-lift", target.blackLift, "Share of white added to black")
-      ->type_name("SHARE")
-      ->capture_default_str();
+  sub->add_option_function<std::string>(
+         "--black-lift", [&target](const std::string& text) { target.blackLift = readBlackLift(text); },
+         "Share of white added to black; auto: the least that hides where the black of several projectors "
+         "ends")
+      ->type_name("SHARE|auto")
+      ->default_str("auto");
   addNamed(sub, "--brightness", "How bright white is where: " + listOfNames<compensation::Brightness>(),
            target.brightness)
       ->type_name("BRIGHTNESS");

@@ -160,8 +160,9 @@ std::string textOf(const pipeline::EvaluateResult& result) {
         seams.blended.elsewhere, seams.joint.p95, seams.blended.p95, seams.joint.elsewhereP95,
         seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95);
   if (result.blackSteps)
-    text += fmt::format("Edges of black: dE2000 {:.2f} (95 %); not seen with --black-lift {:.4f}.\n",
-                        result.blackSteps->p95, result.blackSteps->leastLift);
+    text +=
+        fmt::format("Edges of black: dE2000 {:.2f} (95 %) with a lift of {:.4f}; not seen from {:.4f} on.\n",
+                    result.blackSteps->p95, result.blackSteps->lift, result.blackSteps->leastLift);
   for (const pipeline::WalkFrame& frame : result.walk) {
     text += fmt::format("Viewer at ({:.2f}, {:.2f}, {:.2f}): the views have {:.1f} dB", frame.viewer[0],
                         frame.viewer[1], frame.viewer[2], fmt::join(frame.psnr, ", "));

@@ -15,9 +15,11 @@ Seams blackSteps(const MeasuredVenue& venue, const Target& target, const SeamPai
 
 double leastBlackLift(const MeasuredVenue& venue, const Target& target, const SeamPairs& pairs, double seen,
                       double most) {
-  const auto isSeen = [&](double lift) { return blackSteps(venue, target, pairs, lift).p95 > seen; };
+  // What is uneven beside the edges decides nothing here, and takes long.
+  const SeamPairs edges{pairs.across, pairs.stretch, {}};
+  const auto isSeen = [&](double lift) { return blackSteps(venue, target, edges, lift).p95 > seen; };
   if (pairs.across.empty() || !isSeen(0.0)) return 0.0;
-  if (isSeen(most)) return most;
+  if (isSeen(most)) return 0.0;
   constexpr double accuracy = 1e-4;
   double low = 0.0, high = most;
   while (high - low > accuracy) {
@@ -25,6 +27,11 @@ double leastBlackLift(const MeasuredVenue& venue, const Target& target, const Se
     (isSeen(middle) ? low : high) = middle;
   }
   return high;
+}
+
+double leastBlackLift(const MeasuredVenue& venue, const Target& target) {
+  if (venue.transport.projectors().devices() < 2) return 0.0;
+  return leastBlackLift(venue, target, seamPairs(venue.transport, target.inside, seamApart, {}));
 }
 
 }  // namespace relucent::compensation

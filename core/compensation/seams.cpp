@@ -22,15 +22,19 @@ double meanOf(const std::vector<double>& values) {
   return values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(values.size());
 }
 
-/// Per camera pixel of the mask, L*a*b* of the mean of it and its neighbours.
+/// Per camera pixel that a pair has, L*a*b* of the mean of it and its neighbours within the mask.
 std::vector<image::Colour> smoothedLab(const CameraStack& seen, const Rasters& cameras,
-                                       const CameraMask& mask, const std::array<float, 3>& white) {
+                                       const CameraMask& mask, const std::array<float, 3>& white,
+                                       const SeamPairs& pairs) {
+  CameraMask asked(cameras.count(), 0);
+  for (const auto* some : {&pairs.across, &pairs.elsewhere})
+    for (const auto& [a, b] : *some) asked[a] = asked[b] = 1;
   std::vector<image::Colour> lab(cameras.count());
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const Size size = cameras.size(camera);
     const std::size_t begin = cameras.offset(camera);
     parallelFor(0, size.count(), 256, [&](std::size_t i) {
-      if (mask[begin + i] == 0) return;
+      if (asked[begin + i] == 0) return;
       const Pixel at = pixelAt(size, i);
       std::array<double, 3> sum{};
       double count = 0.0;
@@ -135,7 +139,7 @@ std::vector<double> alongEdges(const std::vector<image::Colour>& lab, const Seam
 
 Seams seamsOf(const CameraStack& seen, const Rasters& cameras, const CameraMask& mask,
               const std::array<float, 3>& white, const SeamPairs& pairs) {
-  const std::vector<image::Colour> lab = smoothedLab(seen, cameras, mask, white);
+  const std::vector<image::Colour> lab = smoothedLab(seen, cameras, mask, white, pairs);
   const auto apart = [&](const std::vector<std::array<std::size_t, 2>>& all) {
     std::vector<double> differences;
     differences.reserve(all.size());

@@ -16,6 +16,8 @@ struct SeamPairs {
   std::vector<std::size_t> stretch;                   // of an edge, eight pixels long: of every pair across
   std::vector<std::array<std::size_t, 2>> elsewhere;  // as far apart, lit by the same projectors
 };
+/// Beyond the blur of an edge, and near enough to be compared.
+inline constexpr int seamApart = 3;
 SeamPairs seamPairs(const transport::TransportMatrix& transport, const CameraMask& mask, int apart,
                     const DirectLightSettings& settings);
 

@@ -6,6 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/compensation/black_steps.h"
 #include "relucent/compensation/white_levels.h"
 
 namespace relucent::compensation {
@@ -83,6 +84,7 @@ Placement placementOf(const image::Image& content, const MeasuredVenue& venue, s
   return fitted(*corners, aspect, fit);
 }
 
+/// As a show follows him, see followedWeights().
 /// Throws: Error{input} naming the first camera whose position is not known, or for a viewer far from all.
 void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
   std::vector<Position> cameras;
@@ -101,8 +103,11 @@ void weighFor(const Position& viewer, std::vector<ViewSettings>& views) {
         ErrorKind::input, std::move(far),
         RELUCENT_ENGLISH_MESSAGE("compensation.give-viewer-as-cameras",
                                  "give his position in the units and from the origin of the cameras'"));
-  const std::vector<double> weights = viewerWeights(cameras, viewer);
-  for (std::size_t camera = 0; camera < views.size(); ++camera) views[camera].weight *= weights[camera];
+  std::vector<double> home;
+  for (const ViewSettings& view : views) home.push_back(view.weight);
+  const std::vector<double> weights = followedWeights(cameras, home, viewer);
+  for (std::size_t camera = 0; camera < views.size(); ++camera)
+    views[camera].weight = weights.empty() ? 0.0 : weights[camera];
 }
 
 /// Per camera, as the settings have it.
@@ -229,7 +234,7 @@ std::vector<Message> problems(const TargetSettings& settings) {
     found.push_back(RELUCENT_ENGLISH_MESSAGE(
         "compensation.reachable-percentile-out-of-range",
         "the share of pixels too dark for white must lie between 0 and 100 percent"));
-  if (!(settings.blackLift >= 0.0 && settings.blackLift < 1.0))
+  if (settings.blackLift && !(*settings.blackLift >= 0.0 && *settings.blackLift < 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
   if (settings.unreachableWeight &&
@@ -356,7 +361,8 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   const float white = WhiteLevels(venue, target.inside).at(target.viewWeight, settings.reachablePercentile);
   target.white = {white, white, white};
   transport::ColourBlock mixing = meanColourMixing(venue);
-  auto lift = static_cast<float>(settings.blackLift);
+  target.blackLift = settings.blackLift ? *settings.blackLift : leastBlackLift(venue, target);
+  auto lift = static_cast<float>(target.blackLift);
   const float unreachableWeight = unreachableWeightOf(settings);
   target.wanted = venue.black;
   if (settings.brightness != Brightness::even)

@@ -73,7 +73,9 @@ struct TargetSettings {
   std::optional<Position> viewer{};
   Fit fit = Fit::fill;                // if content and corners differ in aspect ratio
   double reachablePercentile = 15.0;  // share of pixels (percent) that may be too dark to show white
-  double blackLift = 0.0;             // share of white added to black
+  /// Share of white added to black; none: the least that hides where the projectors' black ends, see
+  /// leastBlackLift().
+  std::optional<double> blackLift{};
   Brightness brightness = Brightness::even;
   Objective objective = Objective::seen;
   /// Weight of unreachable pixels; none: as the objective has it.
@@ -83,6 +85,7 @@ struct TargetSettings {
   static TargetSettings ofLight() {
     TargetSettings settings;
     settings.objective = Objective::light;
+    settings.blackLift = 0.0;
     return settings;
   }
 };
@@ -99,6 +102,7 @@ struct Target {
   std::vector<float> weight;
   std::vector<float> windowsWeight;  // the same without sensitivity, for what M corrects
   std::array<float, 3> white{};      // wanted signal of the content's white: the peak for PSNR
+  double blackLift = 0.0;            // share of white that is added to black
   /// Per camera pixel, of white there: who adapts to the picture sees signals over white and gain. Empty: 1.
   std::vector<float> gain{};
   Corners corners{};  // where the content was placed: within the quadrilateral for Fit::fit

@@ -64,6 +64,23 @@ std::vector<double> viewerWeights(std::span<const Position> cameras, const Posit
   return weights;
 }
 
+std::vector<double> followedWeights(std::span<const Position> cameras, std::span<const double> home,
+                                    const Position& viewer) {
+  require(home.size() == cameras.size(), "{} weights of {} cameras", home.size(), cameras.size());
+  constexpr double least = 1e-3;
+  std::vector<double> weights = viewerWeights(cameras, viewer);
+  double near = 0.0, all = 0.0;
+  for (std::size_t view = 0; view < weights.size(); ++view) {
+    weights[view] *= home[view];
+    near += weights[view];
+    all += home[view];
+  }
+  if (!(near > 0.0)) return {};
+  for (std::size_t view = 0; view < weights.size(); ++view)
+    weights[view] = std::max(weights[view] / near, least * home[view] / all);
+  return weights;
+}
+
 Message farFromCameras(std::span<const Position> cameras, const Position& viewer) {
   constexpr double mostTimes = 2.0;
   const double widest = widestDistance(cameras);

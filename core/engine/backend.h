@@ -16,7 +16,7 @@ struct FrameRequest {
   bool compensated = true;  // false: only warped into place, with the best single brightness
   int steps = 2;            // K: number of refinement steps
   float brightness = 1.0f;  // of the content's white, relative to the target's
-  float blackLift = 0.0f;   // share of white added to black, where that is more than the target's own
+  float blackLift = 0.0f;   // share of white added to black, where that is more than the content's own
   /// Starts from what was projected last instead of from the windows, where there is something: no M and no
   /// correction, only the steps, from the first on, so that what is wanted now grows in none of them.
   bool fromLast = false;

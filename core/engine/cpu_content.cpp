@@ -57,8 +57,8 @@ void CpuBackend::takeGains(const compensation::BrightnessField& field) noexcept 
 
 void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& request) noexcept {
   takeGains(request.field != nullptr ? *request.field : compensation::BrightnessField());
-  const float white = content_->white * request.brightness;
-  const float lift = std::max(request.blackLift, static_cast<float>(engine_.settings.target.blackLift));
+  const float white = content_->white * request.brightness,
+              lift = std::max(content_->blackLift, request.blackLift);
   const transport::ColourBlock mixing = white * (1.0f - lift) * engine_.mixing;
   ContentTarget target;
   std::copy_n(mixing.data(), target.mixing.size(), target.mixing.begin());

@@ -94,6 +94,7 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   EngineContent result;
   result.corners = target.corners;
   result.white = target.white[0];
+  result.blackLift = static_cast<float>(target.blackLift);
   result.warp = ContentWarp(content, target.placements, venue.transport.cameras(), venue.views);
   result.weight = weightsOf(venue, target);
   result.viewWeight = target.viewWeight;

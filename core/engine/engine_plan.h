@@ -50,6 +50,7 @@ struct EngineContent {
   ContentWarp warp;                 // into the cameras' views
   compensation::Corners corners{};  // where the content was placed
   float white = 0.0f;               // wanted signal of the content's white
+  float blackLift = 0.0f;           // share of it that is added to black, at the least
   std::vector<std::array<float, 2>>
       place;           // per camera pixel: where it looks in the content, see placesInContent()
   ProjectorMask free;  // per projector pixel: it belongs to the content; the others are black

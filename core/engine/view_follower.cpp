@@ -2,6 +2,7 @@
 #include "relucent/engine/view_follower.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "relucent/base/error.h"
@@ -45,21 +46,15 @@ const ViewFollower::Lit& ViewFollower::litFor(const std::vector<bool>& views) {
 }
 
 std::vector<double> ViewFollower::weightsFor(std::span<const compensation::Position> cameras,
-                                             std::span<const double> home,
+                                             std::span<const double> home, std::span<const double> rest,
                                              const compensation::Position& viewer, double presence) const {
-  constexpr double least = 1e-3;
-  std::vector<double> weights = compensation::viewerWeights(cameras, viewer);
-  double near = 0.0, all = 0.0;
-  for (std::size_t view = 0; view < weights.size(); ++view) {
-    weights[view] *= shows(view) ? home[view] : 0.0;
-    near += weights[view];
-    all += home[view];
-  }
-  if (!(near > 0.0)) return {};
-  for (std::size_t view = 0; view < weights.size(); ++view) {
-    const double share = home[view] / all;
-    weights[view] = std::max(presence * weights[view] / near + (1.0 - presence) * share, least * share);
-  }
+  std::vector<double> shown(home.begin(), home.end());
+  for (std::size_t view = 0; view < shown.size(); ++view)
+    if (!shows(view)) shown[view] = 0.0;
+  std::vector<double> weights = compensation::followedWeights(cameras, shown, viewer);
+  const double all = std::reduce(rest.begin(), rest.end());
+  for (std::size_t view = 0; view < weights.size(); ++view)
+    weights[view] = presence * weights[view] + (1.0 - presence) * rest[view] / all;
   return weights;
 }
 

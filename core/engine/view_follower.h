@@ -20,13 +20,12 @@ class ViewFollower {
   /// `engine` must outlive it. `content`: of prepareContent().
   ViewFollower(const EngineVenue& engine, const EngineContent& content);
 
-  /// Weights for a viewer at a place: viewerWeights() of those views that show something, times `home`, which
-  /// asks when nobody is followed, and blended with it by his presence. What home asks for has a thousandth
-  /// at the least: what only others see stays theirs, it costs him nothing, and nothing jumps as he passes a
-  /// camera. Empty: nothing is asked for where he stands.
+  /// Weights for a viewer at a place: followedWeights() of those views that show something, blended by his
+  /// presence with what is asked for when nobody is followed. Empty: nothing is asked for where he stands.
+  ///   home: of the views themselves;  rest: when nobody is followed, home or for whoever stands at a sweet spot.
   std::vector<double> weightsFor(std::span<const compensation::Position> cameras,
-                                 std::span<const double> home, const compensation::Position& viewer,
-                                 double presence) const;
+                                 std::span<const double> home, std::span<const double> rest,
+                                 const compensation::Position& viewer, double presence) const;
 
   /// `content` becomes what prepareContent() makes with these weights. Whatever back end has it must be told:
   /// EngineBackend::contentFollowed(). The first time that other views than ever before have a weight costs a

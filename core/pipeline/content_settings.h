@@ -16,11 +16,12 @@ struct ContentSettings {
   std::string picture;  // a file; empty: the product's own
   compensation::Method method = compensation::Method::refined;
   double reachablePercentile = 15.0;  // as TargetSettings
-  double blackLift = 0.0;
+  std::optional<double> blackLift{};
   compensation::Objective objective = compensation::Objective::seen;
   compensation::Fit fit = compensation::Fit::fit;
   std::optional<compensation::Corners> corners;  // as TargetSettings
   std::vector<compensation::ViewSettings> views;
+  std::optional<compensation::Position> viewer{};
 
   bool operator==(const ContentSettings&) const = default;
 };

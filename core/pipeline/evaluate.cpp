@@ -251,8 +251,6 @@ std::vector<compensation::Method> methodsOf(const EvaluateSettings& settings) {
   return settings.methods.empty() ? allValues<compensation::Method>() : settings.methods;
 }
 
-constexpr int seamApart = 3;  // pixels between the two of a pair
-
 /// At some flat greys, shaped as the content is.
 std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
                                   const compensation::Compensator& compensator, const Judge& judge,
@@ -264,7 +262,7 @@ std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
     const compensation::Target target = fitTarget(flat, measured.venue, settings.target);
     const CameraMask mask = judge.reachable(target);
     const compensation::SeamPairs pairs =
-        compensation::seamPairs(transport, mask, seamApart, settings.compensator.direct);
+        compensation::seamPairs(transport, mask, compensation::seamApart, settings.compensator.direct);
     const auto seams = [&](const compensation::Compensation& compensation) {
       return compensation::seamsOf(judge.seen(compensation), transport.cameras(), mask, target.white, pairs);
     };
@@ -370,9 +368,9 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
     result.seams = seamScores(measured, compensator, judge, content.front().linear.size(), settings);
   if (settings.blended) {
     const compensation::Target target = fitTarget(content.front().linear, measured.venue, settings.target);
-    const compensation::SeamPairs pairs = compensation::seamPairs(measured.venue.transport, target.inside,
-                                                                  seamApart, settings.compensator.direct);
-    result.blackSteps = {blackSteps(measured.venue, target, pairs, settings.target.blackLift).p95,
+    const compensation::SeamPairs pairs = compensation::seamPairs(
+        measured.venue.transport, target.inside, compensation::seamApart, settings.compensator.direct);
+    result.blackSteps = {target.blackLift, blackSteps(measured.venue, target, pairs, target.blackLift).p95,
                          leastBlackLift(measured.venue, target, pairs)};
   }
   if (settings.walk.frames > 0) {

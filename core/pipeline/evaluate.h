@@ -73,7 +73,8 @@ struct SeamScore {
 
 /// What is seen of the edges of projectors' black (compensation/black_steps.h).
 struct BlackSteps {
-  double p95 = 0.0;        // CIEDE2000, with the black lift that was asked for
+  double lift = 0.0;       // of black, share of white, as it was asked for or found
+  double p95 = 0.0;        // CIEDE2000, with it
   double leastLift = 0.0;  // with which it is not seen
 };
 

@@ -192,7 +192,9 @@ calibration::Json toJson(const EvaluateResult& result) {
                          {"images", std::move(images)}};
   if (!result.seams.empty()) json["seams"] = seamsToJson(result.seams);
   if (result.blackSteps)
-    json["black_steps"] = {{"p95", result.blackSteps->p95}, {"least_lift", result.blackSteps->leastLift}};
+    json["black_steps"] = {{"lift", result.blackSteps->lift},
+                           {"p95", result.blackSteps->p95},
+                           {"least_lift", result.blackSteps->leastLift}};
   for (const WalkFrame& frame : result.walk)
     json["walk"].push_back({{"viewer", frame.viewer},
                             {"weights", frame.weights},

@@ -174,6 +174,7 @@ compensation::TargetSettings targetOf(const ContentSettings& settings) {
   compensation::TargetSettings target;
   target.corners = settings.corners;
   target.views = settings.views;
+  target.viewer = settings.viewer;
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
   target.blackLift = settings.blackLift;

@@ -40,7 +40,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ClusteringSettings, leastLuminan
 
 namespace relucent::pipeline {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(ContentSettings, picture, method, reachablePercentile,
-                                                blackLift, objective, fit)
+                                                objective, fit)
 }  // namespace relucent::pipeline
 
 namespace relucent::venue {
@@ -104,6 +104,19 @@ std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
   auto content = settings.find("content");
   if (content == settings.end() || !content->contains("corners")) return std::nullopt;
   return content->at("corners").get<compensation::Corners>();
+}
+
+std::optional<compensation::Position> viewerFromJson(const Sorted& settings) {
+  auto content = settings.find("content");
+  if (content == settings.end() || !content->contains("viewer")) return std::nullopt;
+  return content->at("viewer").get<compensation::Position>();
+}
+
+/// Where somebody chose it; versions that knew no other choice always wrote it.
+std::optional<double> blackLiftFromJson(const Sorted& settings) {
+  auto content = settings.find("content");
+  if (content == settings.end() || !content->contains("blackLift")) return std::nullopt;
+  return content->at("blackLift").get<double>();
 }
 
 /// A calibration of a version that knew no other has all of them.
@@ -381,8 +394,10 @@ std::vector<Reduction> reductionsFromJson(const calibration::Json& json) {
 calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
+  if (settings.content.blackLift) content["blackLift"] = *settings.content.blackLift;
   for (const compensation::ViewSettings& view : settings.content.views)
     content["views"].push_back(viewToJson(view));
+  if (settings.content.viewer) content["viewer"] = *settings.content.viewer;
   Sorted linearization = settings.linearization;
   // Calibrations from before there was such a choice keep their fingerprints.
   if (settings.linearization.exposureUnit > 0.0)
@@ -411,7 +426,9 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.clustering = sorted.value("clustering", settings.clustering);
     settings.content = sorted.value("content", settings.content);
     settings.content.corners = cornersFromJson(sorted);
+    settings.content.blackLift = blackLiftFromJson(sorted);
     settings.content.views = viewsFromJson(sorted);
+    settings.content.viewer = viewerFromJson(sorted);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

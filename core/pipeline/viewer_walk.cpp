@@ -123,7 +123,7 @@ std::vector<WalkFrame> walk(const MeasuredCalibration& measured, const image::Im
     progress.checkpoint();
     WalkFrame next{placeAt(way, static_cast<double>(index) / (settings.frames - 1)), {}, {}, {}};
     next.weights = compensation::viewerWeights(cameras, next.viewer);
-    const std::vector<double> asked = follower.weightsFor(cameras, home, next.viewer, 1.0);
+    const std::vector<double> asked = follower.weightsFor(cameras, home, home, next.viewer, 1.0);
     compensation::TargetSettings there = plan.target;
     for (std::size_t view = 0; view < asked.size(); ++view) there.views[view].weight = asked[view];
     if (!asked.empty()) follower.follow(asked, placed);

@@ -135,7 +135,8 @@ void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings&
                                  : std::filesystem::path(content.picture).filename().string()});
   list.push_back({"Correction", methodWords(content.method)});
   list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});
-  list.push_back({"Blacks lifted by", percent(content.blackLift)});
+  list.push_back({"Blacks lifted by", content.blackLift ? percent(*content.blackLift)
+                                                        : "as little as hides the edges of projectors"});
   for (std::size_t camera = 0; camera < content.views.size(); ++camera)
     list.push_back({fmt::format("View of camera {}", camera + 1), viewWords(content.views[camera])});
 }

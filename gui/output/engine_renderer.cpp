@@ -62,6 +62,7 @@ EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const C
   if (views > 1) cameras_ = cameras.empty() ? positionsOf(settings.target.views, views) : cameras;
   for (std::size_t view = 0; view < views; ++view)
     home_.push_back(view < settings.target.views.size() ? settings.target.views[view].weight : 1.0);
+  rest_.assign(content_->viewWeight.begin(), content_->viewWeight.end());
   if (!cameras_.empty()) follower_.emplace(*venue_, *content_);
   const compensation::Method method = chosen.content.method;
   // Brightness that follows the content is the engine's.
@@ -120,13 +121,13 @@ void EngineRenderer::interrupt() {
 
 std::vector<double> EngineRenderer::weightsFor(const std::optional<FrameViewer>& viewer) const {
   if (!follower_ || !viewer) return {};
-  return follower_->weightsFor(cameras_, home_, viewer->position, viewer->presence);
+  return follower_->weightsFor(cameras_, home_, rest_, viewer->position, viewer->presence);
 }
 
 void EngineRenderer::follow(const std::optional<FrameViewer>& viewer) {
   if (!follower_ || viewer == followed_) return;
   const std::vector<double> weights = weightsFor(viewer);
-  follower_->follow(weights.empty() ? home_ : weights, *content_);
+  follower_->follow(weights.empty() ? rest_ : weights, *content_);
   backend_->contentFollowed();
   followed_ = viewer;
 }

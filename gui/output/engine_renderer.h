@@ -71,6 +71,7 @@ class EngineRenderer : public FrameRenderer {
 
   std::vector<compensation::Position> cameras_;  // empty: nobody can be followed
   std::vector<double> home_;                     // weights of the views as the calibration has them
+  std::vector<double> rest_;                     // for whom its content is when nobody is followed
   std::optional<engine::ViewFollower> follower_;
   std::optional<FrameViewer> followed_;
   // What the back end has projected last, to go on from.

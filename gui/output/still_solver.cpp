@@ -66,7 +66,10 @@ const compensation::Compensation* StillSolver::solve(const ContentPicture& conte
     Watch watch(outdated, *stop);
     Progress progress(watch, *stop);
     compensation::TargetSettings settings = target_;
-    if (!viewWeights.empty()) settings.views.resize(viewWeights.size());
+    if (!viewWeights.empty()) {
+      settings.views.resize(viewWeights.size());
+      settings.viewer.reset();  // weighed already
+    }
     for (std::size_t view = 0; view < viewWeights.size(); ++view)
       settings.views[view].weight = viewWeights[view];
     compensation::Target target = fitTarget(linearOf(content.image), calibration_.venue, settings);

@@ -230,9 +230,25 @@ Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent
   connect(&group_, &QButtonGroup::idClicked, this, &Segmented::chosen);
 }
 
+QList<QAbstractButton*> Segmented::offered() const {
+  QList<QAbstractButton*> buttons;
+  for (QAbstractButton* button : group_.buttons())
+    if (!button->isHidden()) buttons.append(button);
+  return buttons;
+}
+
+void Segmented::setOffered(int index, bool offered) {
+  QAbstractButton* button = group_.button(index);
+  if (button == nullptr || button->isHidden() != offered) return;
+  button->setVisible(offered);
+  updateGeometry();
+  QResizeEvent again(size(), size());
+  resizeEvent(&again);
+}
+
 QSize Segmented::sizeHint() const {
   QSize all(-space::tight, 0);
-  for (const QAbstractButton* button : group_.buttons()) {
+  for (const QAbstractButton* button : offered()) {
     QSize one = button->sizeHint();
     all = {all.width() + space::tight + one.width(), std::max(all.height(), one.height())};
   }
@@ -241,18 +257,18 @@ QSize Segmented::sizeHint() const {
 
 QSize Segmented::minimumSizeHint() const {
   QSize least;
-  for (const QAbstractButton* button : group_.buttons()) least = least.expandedTo(button->sizeHint());
+  for (const QAbstractButton* button : offered()) least = least.expandedTo(button->sizeHint());
   return least;
 }
 
 int Segmented::heightForWidth(int width) const {
-  int one = sizeHint().height(), count = static_cast<int>(group_.buttons().size());
+  int one = sizeHint().height(), count = static_cast<int>(offered().size());
   return width >= sizeHint().width() ? one : count * one + (count - 1) * space::tight;
 }
 
 /// By hand: of a widget with a layout, layouts ask that one how high it is.
 void Segmented::resizeEvent(QResizeEvent*) {
-  const QList<QAbstractButton*> buttons = group_.buttons();
+  const QList<QAbstractButton*> buttons = offered();
   const auto count = static_cast<int>(buttons.size());
   const QSize row = sizeHint();
   bool inARow = width() >= row.width();

@@ -130,6 +130,8 @@ class Segmented : public QWidget {
   int current() const { return group_.checkedId(); }
   /// Emits no signal.
   void setCurrent(int index);
+  /// What is not offered is not there to be chosen.
+  void setOffered(int index, bool offered);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   bool hasHeightForWidth() const override { return true; }
@@ -142,6 +144,7 @@ class Segmented : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  QList<QAbstractButton*> offered() const;
   QButtonGroup group_;
 };
 

@@ -67,7 +67,7 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
   placing.set(1, static_cast<std::uint32_t>(picture.format));
   placing.set(2, static_cast<std::size_t>(picture.size.width) * bytesPerPixel(picture.format));
   placing.set(3, content->white * request.brightness);
-  placing.set(4, std::max(request.blackLift, static_cast<float>(engine.settings.target.blackLift)));
+  placing.set(4, std::max(content->blackLift, request.blackLift));
   placing.set(5, unreachableWeightOf(engine.settings.target));
   placing.setMatrix(6, engine.mixing.data());
   const float white = content->white * request.brightness;

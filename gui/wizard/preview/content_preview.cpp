@@ -64,13 +64,6 @@ double weightOf(const compensation::Target& target, std::size_t camera) {
   return camera < target.viewWeight.size() ? static_cast<double>(target.viewWeight[camera]) : 1.0;
 }
 
-compensation::TargetSettings targetFor(const pipeline::ContentSettings& settings,
-                                       const std::optional<compensation::Position>& viewer) {
-  compensation::TargetSettings target = targetOf(settings);
-  target.viewer = viewer;
-  return target;
-}
-
 ViewPreview viewOf(std::size_t camera, const compensation::MeasuredVenue& venue,
                    const compensation::Target& target, const CameraStack& without, const CameraStack& with) {
   const Rasters& cameras = venue.transport.cameras();
@@ -109,13 +102,12 @@ void findUncorrectable(const compensation::MeasuredVenue& venue, const compensat
 
 std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
                                                 const pipeline::ContentSettings& settings,
-                                                std::shared_ptr<const image::Image> known,
-                                                const std::optional<compensation::Position>& viewer) {
+                                                std::shared_ptr<const image::Image> known) {
   Progress quiet;
   std::shared_ptr<const image::Image> content = known ? std::move(known) : contentFor(settings);
   const compensation::MeasuredVenue& venue = engine.measured.venue;
   const Rasters& cameras = venue.transport.cameras();
-  compensation::Target target = fitTarget(*content, venue, targetFor(settings, viewer));
+  compensation::Target target = fitTarget(*content, venue, targetOf(settings));
   const compensation::Compensation corrected = engine.compensator->solve(settings.method, target, quiet),
                                    warped =
                                        engine.compensator->solve(compensation::Method::none, target, quiet);
@@ -130,22 +122,32 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     preview->views.push_back(viewOf(camera, venue, target, without.camera, with.camera));
   preview->white = target.white[0];
+  preview->blackLift = target.blackLift;
   preview->corners = target.corners;
   preview->reachableShare = with.reachable;
   preview->clipped = with.clipped;
   preview->deltaEMean = with.meanDeltaE;
   preview->psnr = with.psnrReachable;
   findUncorrectable(venue, target, *preview);
+  preview->corrected = corrected;
   return preview;
 }
 
+std::shared_ptr<const compensation::Contradiction> contradictionIn(const PreviewEngine& engine,
+                                                                   const pipeline::ContentSettings& settings,
+                                                                   const ContentPreview& preview) {
+  Progress quiet;
+  const compensation::Target target = fitTarget(*preview.content, engine.measured.venue, targetOf(settings));
+  return std::make_shared<compensation::Contradiction>(
+      contradictionOf(*engine.compensator, target, preview.corrected, quiet));
+}
+
 MethodPreview methodPreviewOf(const PreviewEngine& engine, const pipeline::ContentSettings& settings,
-                              const image::Image& content, compensation::Method method,
-                              const std::optional<compensation::Position>& viewer) {
+                              const image::Image& content, compensation::Method method) {
   Progress quiet;
   const compensation::MeasuredVenue& venue = engine.measured.venue;
   const Rasters& cameras = venue.transport.cameras();
-  compensation::Target target = fitTarget(content, venue, targetFor(settings, viewer));
+  compensation::Target target = fitTarget(content, venue, targetOf(settings));
   engine.compensator->solve(compensation::Method::none, target, quiet);
   Stopwatch watch;
   compensation::Compensation compensation = engine.compensator->solve(method, target, quiet);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "relucent/compensation/contradiction.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/engine/drive_encoder.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -36,6 +37,7 @@ struct ContentPreview {
   std::vector<ViewPreview> views;
   const ViewPreview& first() const { return views.front(); }
   float white = 1.0f;
+  double blackLift = 0.0;                                                    // share of white added to black
   compensation::Corners corners{};                                           // in the first view
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;  // of the first view
   double tooDark = 0.0, tooBright = 0.0;        // with what is reachable, the whole content
@@ -44,6 +46,7 @@ struct ContentPreview {
   std::string picture;                          // where it came from
   // What the projectors are sent for either, a picture each.
   std::vector<QImage> sentWithout, sentWith;
+  compensation::Compensation corrected;  // by the chosen method
 };
 
 /// Everything that predicting needs, made once for a threshold.
@@ -54,15 +57,18 @@ struct PreviewEngine {
 };
 
 /// The content in its place, by the settings' method and uncorrected. Takes as long as the method.
-/// `known`: the settings' picture, where it was read already; `viewer`: for whom; none: for all.
+/// `known`: the settings' picture, where it was read already.
 /// Throws: as fitTarget().
 std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
                                                 const pipeline::ContentSettings& settings,
-                                                std::shared_ptr<const image::Image> known,
-                                                const std::optional<compensation::Position>& viewer = {});
+                                                std::shared_ptr<const image::Image> known);
+/// Where the views of that preview contradict each other (compensation/contradiction.h). Takes as long as
+/// `refined` once more, and once for each view.  Throws: as fitTarget().
+std::shared_ptr<const compensation::Contradiction> contradictionIn(const PreviewEngine& engine,
+                                                                   const pipeline::ContentSettings& settings,
+                                                                   const ContentPreview& preview);
 /// The same content by another method, timed; figures are means over the views that ask for something.
 MethodPreview methodPreviewOf(const PreviewEngine& engine, const pipeline::ContentSettings& settings,
-                              const image::Image& content, compensation::Method method,
-                              const std::optional<compensation::Position>& viewer = {});
+                              const image::Image& content, compensation::Method method);
 
 }  // namespace relucent::gui

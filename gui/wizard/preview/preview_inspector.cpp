@@ -8,6 +8,7 @@
 
 #include "theme/controls.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
@@ -70,8 +71,11 @@ QWidget* previewInspector(PreviewPage& page) {
   auto* lift = new QSlider(Qt::Horizontal);
   lift->setRange(0, 20);
   lift->setAccessibleName(PreviewPage::tr("Lift of the blacks, percent"));
+  auto* least = new Tick(PreviewPage::tr("As little as hides where projectors end"));
+  least->setObjectName("least-lift");
   column->addWidget(black);
   column->addWidget(lift);
+  column->addWidget(least);
   column->addWidget(lineOf());
   column->addWidget(labelOf(PreviewPage::tr("Reach"), "section"));
   auto* reach = new ValueRow(PreviewPage::tr("Can be reached"));
@@ -111,15 +115,28 @@ QWidget* previewInspector(PreviewPage& page) {
     apply(PreviewPage::tr("Lift of the blacks"),
           [value](pipeline::ContentSettings& s) { s.blackLift = value / 100.0; });
   });
+  QObject::connect(least, &Tick::toggled, &page, [apply, &page](bool automatic) {
+    apply(PreviewPage::tr("Lift of the blacks"), [automatic, &page](pipeline::ContentSettings& s) {
+      s.blackLift.reset();
+      if (!automatic) s.blackLift = page.preview() ? page.preview()->blackLift : 0.0;
+    });
+  });
   auto refresh = [=, &page] {
     const pipeline::ContentSettings& settings = page.settings();
     name->setText(page.pictureName());
     fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
-    QSignalBlocker quietBrightness(brightness), quietLift(lift);
+    QSignalBlocker quietBrightness(brightness), quietLift(lift), quietLeast(least);
     brightness->setValue(static_cast<int>(settings.reachablePercentile));
-    lift->setValue(static_cast<int>(std::lround(100.0 * settings.blackLift)));
+    // Of one projector there is nothing to hide.
+    const bool isLeast = !settings.blackLift && page.projectors() > 1;
+    const double found = page.preview() ? page.preview()->blackLift : 0.0;
+    const double blackLift = settings.blackLift.value_or(isLeast ? found : 0.0);
+    least->setVisible(page.projectors() > 1);
+    least->setChecked(isLeast);
+    lift->setEnabled(!isLeast);
+    lift->setValue(static_cast<int>(std::lround(100.0 * blackLift)));
     bright->setValue(percentText(settings.reachablePercentile / 100.0));
-    black->setValue(percentText(settings.blackLift));
+    black->setValue(percentText(blackLift));
     automatic->setEnabled(page.isPlacedByHand());
     problem->setVisible(!page.problem().isEmpty());
     problem->setText(page.problem());

@@ -49,13 +49,22 @@ void make(PreviewEngine& engine, const std::filesystem::path& path, Progress& pr
 PreviewPage::PreviewPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       computing_(
-          [this](std::shared_ptr<const ContentPreview> preview) {
-            preview_ = std::move(preview);
+          [this](const Predicted& predicted) {
+            preview_ = predicted.second;
+            contradiction_ = nullptr;
             problem_.clear();
             surface_.present(sent());
             adoptContent(preview_->picture, preview_->content);
+            findContradiction(predicted.first);
             compareNext();
             tellAll();
+          },
+          [this](const Failure& failure) { refuse(failure); }),
+      contradicting_(
+          [this](const Contradicting& found) {
+            if (found.first != preview_) return;
+            contradiction_ = found.second;
+            tellResult();
           },
           [this](const Failure& failure) { refuse(failure); }),
       comparing_(
@@ -89,10 +98,10 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     settings_ = session_.settings().content;
     engine_ = nullptr;
     preview_ = nullptr;
+    contradiction_ = nullptr;
     content_ = nullptr;
     problem_.clear();
     preparedFor_.clear();
-    viewer_.reset();
     forgetTable();
     looked_ = false;
   });
@@ -251,8 +260,9 @@ void PreviewPage::refuse(const Failure& failure) {
 void PreviewPage::compute() {
   if (!engine_) return;
   computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
-                  settings = placedSettings(),
-                  viewer = viewer_] { return previewOf(*engine, settings, known, viewer); });
+                  settings = placedSettings()] {
+    return Predicted(settings, previewOf(*engine, settings, known));
+  });
   tellStatus();
 }
 
@@ -272,15 +282,22 @@ std::optional<double> PreviewPage::expectedOfOthers() const {
   return measured && measured->expected ? std::optional(measured->expected->now) : std::nullopt;
 }
 
+void PreviewPage::findContradiction(const pipeline::ContentSettings& settings) {
+  if (!engine_ || preview_->views.size() < 2) return;
+  contradicting_.ask([engine = engine_, settings, preview = preview_] {
+    return Contradicting(preview, contradictionIn(*engine, settings, *preview));
+  });
+}
+
 /// The table fills row by row while the pictures are there already.
 void PreviewPage::compareNext() {
   if (!engine_ || !content_ || comparing_.isBusy() || computing_.isBusy() ||
       table_.size() >= comparedMethods.size())
     return;
   compensation::Method method = comparedMethods[table_.size()];
-  comparing_.ask([engine = engine_, content = content_, settings = placedSettings(), viewer = viewer_, method,
+  comparing_.ask([engine = engine_, content = content_, settings = placedSettings(), method,
                   round = round_] {
-    return std::pair(round, methodPreviewOf(*engine, settings, *content, method, viewer));
+    return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
   });
 }
 
@@ -392,7 +409,7 @@ std::optional<double> PreviewPage::progress() const {
 void PreviewPage::accept() {
   try {
     pipeline::CalibrateSettings settings = session_.settings();
-    settings.content = settings_;
+    settings.content = placedSettings();
     session_.changeSettings(settings);
     session_.decide(calibration::ContentResult{preview_->reachableShare, preview_->deltaEMean});
     Q_EMIT nextWanted();

@@ -61,7 +61,7 @@ class PreviewPage : public DevicePage {
   bool areCamerasPlaced() const;
   void placeCamera(std::size_t camera, const compensation::Position& position);
   /// For whom the picture is; none: for everybody who looks from the cameras.
-  const std::optional<compensation::Position>& viewer() const { return viewer_; }
+  const std::optional<compensation::Position>& viewer() const { return settings_.viewer; }
   void setViewer(const std::optional<compensation::Position>& viewer);
   /// He walks from the first camera to the last: 0 to cameras() - 1; whole numbers are cameras' places.
   void setViewerOnPath(double place);
@@ -75,6 +75,8 @@ class PreviewPage : public DevicePage {
   void choosePicture(const QString& file);
   QString pictureName() const;
   const std::shared_ptr<const ContentPreview>& preview() const { return preview_; }
+  /// Where the views of preview() contradict each other; null: of one view, or not worked out yet.
+  const std::shared_ptr<const compensation::Contradiction>& contradiction() const { return contradiction_; }
   /// One row a method that has been tried with this content, in the order of the methods.
   const std::vector<MethodPreview>& table() const { return table_; }
   /// That of the method in use; none yet.
@@ -97,6 +99,11 @@ class PreviewPage : public DevicePage {
   void updateCommands() override;
 
  private:
+  /// And for what.
+  using Predicted = std::pair<pipeline::ContentSettings, std::shared_ptr<const ContentPreview>>;
+  using Contradicting =
+      std::pair<std::shared_ptr<const ContentPreview>, std::shared_ptr<const compensation::Contradiction>>;
+
   void prepare();
   void prepared();
   void adopt(const pipeline::ContentSettings& settings);
@@ -104,6 +111,7 @@ class PreviewPage : public DevicePage {
   void refuse(const Failure& failure);
   void compute();
   void compareNext();
+  void findContradiction(const pipeline::ContentSettings& settings);
   void forgetTable();
   void accept();
   const std::vector<QImage>& sent() const;
@@ -124,12 +132,13 @@ class PreviewPage : public DevicePage {
   std::shared_ptr<const ContentPreview> preview_;
   std::vector<MethodPreview> table_;
   int round_ = 0;  // of comparisons: answers of earlier ones are dropped
-  Latest<std::shared_ptr<const ContentPreview>> computing_;
+  Latest<Predicted> computing_;
+  std::shared_ptr<const compensation::Contradiction> contradiction_;
+  Latest<Contradicting> contradicting_;
   Latest<std::pair<int, MethodPreview>> comparing_;
   Latest<std::pair<std::string, std::shared_ptr<const image::Image>>> reading_;
   bool looked_ = false;  // now
   bool shinesCorrected_ = true;
-  std::optional<compensation::Position> viewer_;
   SurfacePictures surface_;
 };
 

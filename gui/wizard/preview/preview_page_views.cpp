@@ -55,7 +55,7 @@ void PreviewPage::placeCamera(std::size_t camera, const compensation::Position& 
 /// With places for all cameras where there is a viewer, whoever gave them.
 pipeline::ContentSettings PreviewPage::placedSettings() const {
   pipeline::ContentSettings placed = settings_;
-  if (!viewer_) return placed;
+  if (!viewer()) return placed;
   placed.views.resize(std::max(placed.views.size(), cameras()));
   const std::vector<compensation::Position> positions = cameraPositions();
   for (std::size_t camera = 0; camera < cameras(); ++camera)
@@ -64,11 +64,10 @@ pipeline::ContentSettings PreviewPage::placedSettings() const {
 }
 
 void PreviewPage::setViewer(const std::optional<compensation::Position>& viewer) {
-  if (viewer == viewer_ || (viewer && !compensation::isFinite(*viewer)) || cameras() < 2) return;
-  viewer_ = viewer;
-  forgetTable();
-  compute();
-  tellSettings();
+  if (viewer == settings_.viewer || (viewer && !compensation::isFinite(*viewer)) || cameras() < 2) return;
+  pipeline::ContentSettings after = settings_;
+  after.viewer = viewer;
+  setSettings(after, tr("Place of the viewer"));
 }
 
 void PreviewPage::setViewerOnPath(double place) {
@@ -84,20 +83,20 @@ void PreviewPage::setViewerOnPath(double place) {
 }
 
 double PreviewPage::viewerOnPath() const {
-  if (!viewer_) return 0.0;
+  if (!viewer()) return 0.0;
   const std::vector<compensation::Position> stops = cameraPositions();
   double best = 0.0, nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     double along = 0.0, length = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = stops[i + 1][axis] - stops[i][axis];
-      along += step * ((*viewer_)[axis] - stops[i][axis]);
+      along += step * ((*viewer())[axis] - stops[i][axis]);
       length += step * step;
     }
     const double share = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
     double apart = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      apart += std::pow((1.0 - share) * stops[i][axis] + share * stops[i + 1][axis] - (*viewer_)[axis], 2.0);
+      apart += std::pow((1.0 - share) * stops[i][axis] + share * stops[i + 1][axis] - (*viewer())[axis], 2.0);
     if (apart >= nearest) continue;
     nearest = apart;
     best = static_cast<double>(i) + share;
@@ -106,8 +105,8 @@ double PreviewPage::viewerOnPath() const {
 }
 
 std::vector<double> PreviewPage::viewerShares() const {
-  if (!viewer_) return {};
-  return compensation::viewerWeights(cameraPositions(), *viewer_);
+  if (!viewer()) return {};
+  return compensation::viewerWeights(cameraPositions(), *viewer());
 }
 
 }  // namespace relucent::gui

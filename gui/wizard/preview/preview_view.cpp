@@ -45,7 +45,7 @@ QImage hatchesOf(const ViewPreview& preview) {
 
 constexpr int leastHeight = 260;  // of its card: a picture that can be judged
 
-enum Shown { picture, reachable, difference };
+enum Shown { picture, reachable, difference, contradiction };
 
 class PreviewStage : public QWidget {
  public:
@@ -57,11 +57,12 @@ class PreviewStage : public QWidget {
     card_->setSubtitle(PreviewPage::tr("predicted from the measurement"));
     card_->setMinimumHeight(leastHeight);
     kind_ = new Segmented(
-        {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference")});
+        {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference"),
+         PreviewPage::tr("Contradiction")});
     kind_->setObjectName("preview-kind");
     card_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, card_));
     card_->addAction(kind_);
-    views_ = {place_ = new CornerView, new ImageView, new ImageView};
+    views_ = {place_ = new CornerView, new ImageView, new ImageView, new ImageView};
     for (ImageView* view : views_) {
       view->setLink(&link_);
       view->setEmptyText(PreviewPage::tr("Preparing the preview"));
@@ -77,6 +78,9 @@ class PreviewStage : public QWidget {
         "The brightest light that can be reached; hatched where the content is out of reach"));
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
+    views_[contradiction]->setAccessibleName(
+        PreviewPage::tr("How much worse a view is because of what the other views ask for"));
+    views_[contradiction]->setEmptyText(PreviewPage::tr("Comparing the views"));
     addViewMenu(
         *card_, [this] { return shownView(); },
         [this](const Failure& failure) {
@@ -86,7 +90,8 @@ class PreviewStage : public QWidget {
     column->addWidget(card_, 1);
     column->addWidget(methods_ = new MethodsCard(page_));
     connect(kind_, &Segmented::chosen, this, [this](int index) {
-      for (int i = 0; i < 3; ++i) views_[static_cast<std::size_t>(i)]->setVisible(i == index);
+      for (std::size_t i = 0; i < views_.size(); ++i)
+        views_[i]->setVisible(i == static_cast<std::size_t>(index));
     });
     refreshOn(
         page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
@@ -124,8 +129,10 @@ class PreviewStage : public QWidget {
     };
     if (shown_ && index == reachable) values = [of] { return image::Image(of().with.size(), 1, of().reach); };
     if (shown_ && index == difference) values = [of] { return of().deltaE; };
+    if (shown_ && index == contradiction && contradiction_)
+      values = [found = contradiction_, camera = camera_] { return found->worse[camera]; };
     if (shown_ && index == picture) values = [of] { return of().with; };
-    static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000"};
+    static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000", "CIEDE2000"};
     return {*views_[index], {values, units[index]}};
   }
   std::size_t shownCamera() const {
@@ -141,8 +148,11 @@ class PreviewStage : public QWidget {
     place_->setWrong(!page_.problem().isEmpty());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
-    if (preview == shown_ && (!preview || camera_ == shownCamera())) return;
+    offerContradiction();
+    if (preview == shown_ && contradiction_ == page_.contradiction() && (!preview || camera_ == shownCamera()))
+      return;
     shown_ = preview;
+    contradiction_ = page_.contradiction();
     if (preview) camera_ = shownCamera();
     if (!preview) {
       for (ImageView* view : views_) view->setPicture({});
@@ -168,6 +178,35 @@ class PreviewStage : public QWidget {
       return isolated(QString::fromUtf8("%1: ΔE %2")
                           .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
+    showContradiction();
+  }
+
+  /// Of several views.
+  void offerContradiction() {
+    const bool isOffered = page_.cameras() > 1;
+    kind_->setOffered(contradiction, isOffered);
+    if (isOffered || kind_->current() != contradiction) return;
+    kind_->setCurrent(picture);
+    Q_EMIT kind_->chosen(picture);
+  }
+  void showContradiction() {
+    ImageView* view = views_[contradiction];
+    if (!contradiction_ || camera_ >= contradiction_->worse.size()) {
+      view->setPicture({});
+      view->setReadout({});
+      return;
+    }
+    const image::Image& worse = contradiction_->worse[camera_];
+    ColourScale scale{ColourMap::cividis, 0.0, 10.0, false};
+    view->setScale(scale, QString::fromUtf8("ΔE₀₀"), false);
+    view->setPicture(mapped(worse.data(), worse.size(), scale));
+    view->setCaption(PreviewPage::tr("Visibly worse because of other views: %1")
+                         .arg(percentText(contradiction_->shares[camera_])));
+    view->setReadout([found = contradiction_, camera = camera_](QPoint pixel) {
+      const float much = found->worse[camera].at(pixel.x(), pixel.y(), 0);
+      return isolated(QString::fromUtf8("%1: ΔE %2")
+                          .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(much))));
+    });
   }
 
   PreviewPage& page_;
@@ -175,10 +214,11 @@ class PreviewStage : public QWidget {
   Card* card_;
   Segmented* kind_;
   CornerView* place_;
-  std::array<ImageView*, 3> views_{};
+  std::array<ImageView*, 4> views_{};
   MethodsCard* methods_;
   QPointer<QWidget> room_;
   std::shared_ptr<const ContentPreview> shown_;
+  std::shared_ptr<const compensation::Contradiction> contradiction_;  // of it
   std::size_t camera_ = 0;  // of it
 };
 

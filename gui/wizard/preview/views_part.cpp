@@ -73,6 +73,9 @@ QWidget* viewsPart(PreviewPage& page) {
   column->addWidget(labelOf(PreviewPage::tr("Views"), "section"));
   auto* quality = new QualityRows(page);
   column->addWidget(quality);
+  auto* contradicting = new ValueRow(PreviewPage::tr("Visibly worse because of other views"));
+  contradicting->setObjectName("contradiction");
+  column->addWidget(contradicting);
   auto* placement = new Segmented({PreviewPage::tr("On the surface"), PreviewPage::tr("Upright from here")});
   placement->setObjectName("view-placement");
   column->addWidget(placement);
@@ -123,6 +126,8 @@ QWidget* viewsPart(PreviewPage& page) {
     part->setVisible(page.cameras() > 1);
     if (page.cameras() < 2) return;
     quality->refresh();
+    const auto& contradiction = page.contradiction();
+    contradicting->setValue(contradiction ? percentText(contradiction->share) : QString::fromUtf8("–"));
     const compensation::ViewSettings view = page.view(page.camera());
     placement->setVisible(page.camera() > 0);
     placement->setCurrent(view.placement == compensation::ViewPlacement::own ? 1 : 0);

@@ -218,13 +218,18 @@ class TestViewFollower : public QObject {
     const std::vector<Position> cameras{{0, 0, 0}, {2, 0, 0}};
     const Weights home{1.0, 0.5};
     const auto at = [&](double x, double presence) {
-      return follower.weightsFor(cameras, home, {x, 0, 0}, presence);
+      return follower.weightsFor(cameras, home, home, {x, 0, 0}, presence);
     };
     const auto near = [](double a, double b) { return std::abs(a - b) < 2e-3; };
     QVERIFY(near(at(0, 1)[0], 1.0) && at(0, 1)[1] > 1e-4 && near(at(2, 1)[1], 1.0) && at(2, 1)[0] > 1e-4);
     QVERIFY(near(at(1, 1)[0], 2.0 / 3.0) && near(at(1, 1)[1], 1.0 / 3.0));
     QVERIFY(near(at(2, 0)[0], 2.0 / 3.0) && near(at(2, 0.5)[0], 1.0 / 3.0));
-    QVERIFY(follower.weightsFor(cameras, Weights{0.0, 1.0}, {0, 0, 0}, 1.0).empty());
+    const Weights second{0.0, 1.0};
+    QVERIFY(follower.weightsFor(cameras, second, second, {0, 0, 0}, 1.0).empty());
+    // Home may be a sweet spot, to which he goes back.
+    const Weights rest = followedWeights(cameras, home, {2, 0, 0});
+    const std::vector<double> gone = follower.weightsFor(cameras, home, rest, {0, 0, 0}, 0.0);
+    QVERIFY(near(gone[0], rest[0]) && near(gone[1], rest[1]) && gone[0] > 1e-4);
   }
 
   /// Where content lies in no other view, nobody can walk there.

@@ -704,7 +704,7 @@ class TestWizardWindow : public QObject {
       QVERIFY(output.status().state != StepState::outOfDate);
       CalibrateSettings other = before;
       if (isContent)
-        other.content.blackLift += 0.01;
+        other.content.blackLift = 0.01;
       else
         other.clustering.patchRadius += 1.0;
       wizard_->session().changeSettings(other);

@@ -71,7 +71,7 @@ class TestWhatPlays : public QObject {
     row("threshold", true, [](Settings& s) { s.threshold.shareOfRowMax = 0.3f; });
     row("clusters", true, [](Settings& s) { s.clustering.patchRadius += 1.0; });
     row("method", true, [](Settings& s) { s.content.method = compensation::Method::none; });
-    row("blacks", true, [](Settings& s) { s.content.blackLift += 0.1; });
+    row("blacks", true, [](Settings& s) { s.content.blackLift = 0.1; });
     row("nothing", false, [](Settings&) {});
     // Which pictures play is the playlist's.
     row("picture", false, [](Settings& s) { s.content.picture = "another.png"; });

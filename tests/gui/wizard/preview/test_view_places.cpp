@@ -110,8 +110,8 @@ class TestViewPlaces : public QObject {
     QVERIFY(std::abs(shares[before] - (1.0 - (place - static_cast<double>(before)))) < 0.02);
   }
 
-  /// Law: cameras stand where they were placed, for all time; before, all round the surface. Nothing of a
-  /// viewer is kept.
+  /// Law: cameras and the viewer stand where they were placed, for all time, and content is for him wherever it
+  /// is shown; before, cameras stand all round the surface.
   void camerasAreKeptWhereTheyWerePlaced() {
     QVERIFY(!page_->areCamerasPlaced());
     const std::vector<Position> round = page_->cameraPositions();
@@ -123,8 +123,18 @@ class TestViewPlaces : public QObject {
     settle();
     page_->primary()->trigger();
     own_.session.open(own_.path("venue"));
-    QVERIFY(page_->areCamerasPlaced() && !page_->viewer());
+    QVERIFY(page_->areCamerasPlaced() && page_->viewer());
+    QVERIFY(std::abs(page_->viewerOnPath() - 0.5) < 1e-9);
     QVERIFY(page_->cameraPositions()[1] == (Position{0.5, 4.0, 0.0}));
+    const TargetSettings shown = targetOf(own_.session.settings().content);
+    QVERIFY(shown.viewer == page_->viewer() && shown.views[1].position == (Position{0.5, 4.0, 0.0}));
+    page_->setViewer(std::nullopt);
+    page_->undoStack().undo();
+    QVERIFY(page_->viewer() == shown.viewer);
+    page_->setViewer(std::nullopt);
+    settle();
+    page_->primary()->trigger();
+    QVERIFY(!own_.session.settings().content.viewer);
     page_->undoStack().clear();
     page_->setViewer(Position{std::nan(""), 0.0, 0.0});
     QVERIFY(!page_->viewer());

@@ -193,8 +193,9 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
       ->type_name("FILE");
   addNamed(sub, "--method", "Only these methods; may be given several times", command->settings.methods)
       ->type_name("METHOD");
-  sub->add_flag("--blended", command->settings.blended,
-                "Of several projectors: compare with each solved on its own, blended by cosine ramps");
+  sub->add_flag(
+      "--blended", command->settings.blended,
+      "Of several projectors: compare with each solved on its own, blended by cosine ramps, and alone");
   sub->add_option(
          "--walk", command->settings.walk.frames,
          "A viewer walks past all cameras in so many frames, of the first picture, as a show follows him; "

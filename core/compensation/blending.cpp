@@ -41,6 +41,49 @@ std::vector<double> floodSharesOf(const transport::TransportMatrix& transport, s
   return shares;
 }
 
+/// Projectors solved each on its own, the others black.
+class OwnSolves {
+ public:
+  OwnSolves(const Compensator& compensator, const Target& target, const SolverSettings& settings)
+      : transport_(compensator.venue().transport),
+        target_(target),
+        settings_(settings),
+        free_(compensator.contentPixelsOf(target)) {
+    together_.projector.assign(3 * transport_.projectors().count(), 0.0f);
+  }
+
+  /// `asked`: of its light alone.
+  void add(std::size_t projector, const CameraStack& asked, Progress& progress) {
+    const ProjectorMask own = onlyOf(projector, free_, transport_.projectors());
+    const ConstrainedProblem problem{transport_, asked, target_.weight, own};
+    const SolveResult solved =
+        solveConstrained(problem, ProjectorStack(together_.projector.size(), 0.0f), settings_, progress);
+    together_.iterations += solved.iterations;
+    for (std::size_t j = 0; j < own.size(); ++j) {
+      if (own[j] == 0) continue;
+      for (std::size_t c = 3 * j; c < 3 * j + 3; ++c) {
+        together_.projector[c] = solved.x[c];
+        limited_ += solved.x[c] <= 0.0f || solved.x[c] >= 1.0f;
+        ++values_;
+      }
+    }
+  }
+
+  Compensation result() const {
+    Compensation result = together_;
+    if (values_ > 0) result.clipped = static_cast<double>(limited_) / static_cast<double>(values_);
+    return result;
+  }
+
+ private:
+  const transport::TransportMatrix& transport_;
+  const Target& target_;
+  const SolverSettings& settings_;
+  ProjectorMask free_;
+  Compensation together_;
+  std::size_t limited_ = 0, values_ = 0;
+};
+
 }  // namespace
 
 std::vector<std::vector<float>> blendingMasks(const transport::TransportMatrix& transport,
@@ -66,33 +109,25 @@ std::vector<std::vector<float>> blendingMasks(const transport::TransportMatrix& 
 
 Compensation solvedSeparately(const Compensator& compensator, const Target& target,
                               const SolverSettings& settings, Progress& progress) {
-  const MeasuredVenue& venue = compensator.venue();
-  const Rasters& projectors = venue.transport.projectors();
-  const std::vector<std::vector<float>> masks = blendingMasks(venue.transport, compensator.settings().direct);
-  const ProjectorMask free = compensator.contentPixelsOf(target);
-  Compensation together;
-  together.projector.assign(3 * projectors.count(), 0.0f);
-  std::size_t limited = 0, values = 0;
+  const Rasters& projectors = compensator.venue().transport.projectors();
+  const std::vector<std::vector<float>> masks =
+      blendingMasks(compensator.venue().transport, compensator.settings().direct);
+  OwnSolves solves(compensator, target, settings);
   for (std::size_t k = 0; k < projectors.devices(); ++k) {
     Progress solving = progress.part(1.0 / static_cast<double>(projectors.devices()), progress.stage());
-    const ProjectorMask own = onlyOf(k, free, projectors);
-    const CameraStack wanted = stackOf<CameraStack>(
-        target.wanted.size(), [&](std::size_t i) { return masks[k][i / 3] * target.asked[i]; });
-    const ConstrainedProblem problem{venue.transport, wanted, target.weight, own};
-    const SolveResult solved =
-        solveConstrained(problem, ProjectorStack(together.projector.size(), 0.0f), settings, solving);
-    together.iterations += solved.iterations;
-    for (std::size_t j = 0; j < own.size(); ++j) {
-      if (own[j] == 0) continue;
-      for (std::size_t c = 3 * j; c < 3 * j + 3; ++c) {
-        together.projector[c] = solved.x[c];
-        limited += solved.x[c] <= 0.0f || solved.x[c] >= 1.0f;
-        ++values;
-      }
-    }
+    solves.add(k,
+               stackOf<CameraStack>(target.wanted.size(),
+                                    [&](std::size_t i) { return masks[k][i / 3] * target.asked[i]; }),
+               solving);
   }
-  if (values > 0) together.clipped = static_cast<double>(limited) / static_cast<double>(values);
-  return together;
+  return solves.result();
+}
+
+Compensation solvedAlone(const Compensator& compensator, const Target& target, std::size_t projector,
+                         const SolverSettings& settings, Progress& progress) {
+  OwnSolves solves(compensator, target, settings);
+  solves.add(projector, target.asked, progress);
+  return solves.result();
 }
 
 }  // namespace relucent::compensation

@@ -26,4 +26,9 @@ std::vector<std::vector<float>> blendingMasks(const transport::TransportMatrix& 
 Compensation solvedSeparately(const Compensator& compensator, const Target& target,
                               const SolverSettings& settings, Progress& progress);
 
+/// With one projector alone, the others black: p_k = argmin 1/2 sum_i w_i |(T_k p_k - (wanted - e))_i|^2 over
+/// 0 <= p_k <= 1. Throws: as solveConstrained().
+Compensation solvedAlone(const Compensator& compensator, const Target& target, std::size_t projector,
+                         const SolverSettings& settings, Progress& progress);
+
 }  // namespace relucent::compensation

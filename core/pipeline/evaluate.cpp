@@ -86,18 +86,19 @@ class Judge {
   Judge(const MeasuredCalibration& measured, const venue::SimulatedVenue& venue,
         std::vector<reduction::Reduction> reductions, Rasters rasters)
       : measured_(measured), venue_(venue), reductions_(std::move(reductions)), rasters_(std::move(rasters)) {
-    ProjectorStack white(measured.venue.transport.projectors().count() * 3, 1.0f);
     black_ = reduction::reducedRadiance(venue.trueBlack(), reductions_);
-    brightest_ = reduction::reducedRadiance(venue.trueTransport().apply(white), reductions_);
-    for (std::size_t i = 0; i < brightest_.size(); ++i) brightest_[i] += black_[i];
+    brightest_ = brightestOf(ProjectorStack(measured.venue.transport.projectors().count() * 3, 1.0f));
   }
 
   /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
-  CameraMask reachable(const compensation::Target& target) const {
-    CameraMask reachable = target.inside;
-    for (std::size_t i = 0; i < target.wanted.size(); ++i)
-      if (target.wanted[i] < black_[i] || target.wanted[i] > brightest_[i]) reachable[i / 3] = 0;
-    return reachable;
+  CameraMask reachable(const compensation::Target& target) const { return within(target, brightest_); }
+  /// The same with one projector alone.
+  CameraMask reachableAlone(const compensation::Target& target, std::size_t projector) const {
+    const Rasters& projectors = measured_.venue.transport.projectors();
+    ProjectorStack white(projectors.count() * 3, 0.0f);
+    const auto first = white.begin() + 3 * static_cast<std::ptrdiff_t>(projectors.offset(projector));
+    std::fill_n(first, 3 * projectors.size(projector).count(), 1.0f);
+    return within(target, brightestOf(white));
   }
 
   std::size_t views() const { return rasters_.devices(); }
@@ -128,6 +129,18 @@ class Judge {
   }
 
  private:
+  CameraStack brightestOf(const ProjectorStack& white) const {
+    CameraStack brightest = reduction::reducedRadiance(venue_.trueTransport().apply(white), reductions_);
+    for (std::size_t i = 0; i < brightest.size(); ++i) brightest[i] += black_[i];
+    return brightest;
+  }
+  CameraMask within(const compensation::Target& target, const CameraStack& brightest) const {
+    CameraMask reachable = target.inside;
+    for (std::size_t i = 0; i < target.wanted.size(); ++i)
+      if (target.wanted[i] < black_[i] || target.wanted[i] > brightest[i]) reachable[i / 3] = 0;
+    return reachable;
+  }
+
   /// Where nothing is reachable there is no such error: NaN.  Contract: the content covers some of it.
   MethodScore score(compensation::Method method, const CameraStack& seen, const compensation::Target& target,
                     const CameraMask& reachable, std::size_t camera) const {
@@ -274,6 +287,28 @@ std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
   return scores;
 }
 
+/// What the projectors make of an image without each other: blended, and each alone.
+void judgeApart(const compensation::Compensator& compensator, const compensation::Target& target,
+                const CameraMask& reachable, const Judge& judge, const compensation::SolverSettings& settings,
+                ImageScore& score, Progress& progress) {
+  const auto scoreOf = [&](const CameraStack& seen, std::size_t camera) {
+    return judge.scoreOf(compensation::Method::optimum, seen, target, reachable, camera);
+  };
+  const CameraStack blended = judge.seen(solvedSeparately(compensator, target, settings, progress));
+  for (std::size_t camera = 0; camera < judge.views(); ++camera)
+    (camera == 0 ? score.blended : score.others[camera - 1].blended) = scoreOf(blended, camera);
+  const std::size_t projectors = compensator.venue().transport.projectors().devices();
+  for (std::size_t k = 0; projectors > 1 && k < projectors; ++k) {
+    Progress quiet;
+    const CameraStack seen = judge.seen(solvedAlone(compensator, target, k, settings, quiet));
+    const CameraMask alone = judge.reachableAlone(target, k);
+    for (std::size_t camera = 0; camera < judge.views(); ++camera)
+      (camera == 0 ? score.alone : score.others[camera - 1].alone)
+          .push_back(
+              {shareOf(judge.view(alone, camera), judge.view(target.inside, camera)), scoreOf(seen, camera)});
+  }
+}
+
 }  // namespace
 
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
@@ -354,11 +389,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       Progress solving = judging.part(
           0.0, RELUCENT_ENGLISH_MESSAGE("stage.solving-separately", "{}: each projector on its own")
                    .with(image.name));
-      const CameraStack seen =
-          judge.seen(solvedSeparately(compensator, target, settings.compensator.optimum, solving));
-      for (std::size_t camera = 0; camera < judge.views(); ++camera)
-        (camera == 0 ? score.blended : score.others[camera - 1].blended) =
-            judge.scoreOf(compensation::Method::optimum, seen, target, reachable, camera);
+      judgeApart(compensator, target, reachable, judge, settings.compensator.optimum, score, solving);
     }
     result.reachable += score.reachable / static_cast<double>(content.size());
     result.images.push_back(std::move(score));

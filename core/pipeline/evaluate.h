@@ -22,7 +22,8 @@ struct EvaluateSettings {
   std::vector<compensation::Method> methods;  // none: all of them
   compensation::TargetSettings target;
   compensation::CompensatorSettings compensator;
-  /// Whether several projectors are also compared with each of them solved on its own and blended.
+  /// Whether several projectors are also compared with each of them solved on its own and blended, and with
+  /// each of them alone.
   bool blended = false;
   WalkSettings walk{};  // a viewer who walks past the cameras, by the first image
 };
@@ -44,12 +45,19 @@ struct MethodScore {
   double seconds = 0.0;           // for one frame
 };
 
+/// What one of several projectors would make of an image alone, the others black.
+struct AloneScore {
+  double reachable = 0.0;                // share of the image's pixels in that view: e <= wanted <= T_k 1 + e
+  std::optional<MethodScore> optimum{};  // over the pixels that all projectors together reach
+};
+
 /// What another camera, or a viewer where none stands, sees of an image on the surface. Without methods it is
 /// nothing of it.
 struct ViewScore {
   double reachable = 0.0;  // share of the image's pixels in that view
   std::vector<MethodScore> methods;
   std::optional<MethodScore> blended{};  // each projector's optimum on its own, under cosine ramps
+  std::vector<AloneScore> alone{};       // projector after projector
 };
 
 /// What the first camera sees, in whose view the image lies.
@@ -58,6 +66,7 @@ struct ImageScore {
   double reachable = 0.0;  // share of this image's pixels
   std::vector<MethodScore> methods;
   std::optional<MethodScore> blended{};  // as ViewScore
+  std::vector<AloneScore> alone{};       // likewise
   std::vector<ViewScore> others{};       // camera after camera
   std::vector<ViewScore> unseen{};       // what viewers see who stand where no camera does, place after place
   std::optional<ContradictionShares> contradiction{};  // of several views, as the last method has it

@@ -43,9 +43,20 @@ calibration::Json methodsToJson(const std::vector<MethodScore>& scores) {
   return methods;
 }
 
+/// Of what projectors make of it without each other.  `Score`: of a view, or of an image in the first one.
+template <typename Score>
+void addApart(const Score& score, calibration::Json& json) {
+  if (score.blended) json["blended"] = methodToJson(*score.blended);
+  for (const AloneScore& alone : score.alone) {
+    calibration::Json projector{{"reachable", alone.reachable}};
+    if (alone.optimum) projector["optimum"] = methodToJson(*alone.optimum);
+    json["alone"].push_back(std::move(projector));
+  }
+}
+
 calibration::Json viewToJson(const ViewScore& view) {
   calibration::Json json{{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}};
-  if (view.blended) json["blended"] = methodToJson(*view.blended);
+  addApart(view, json);
   return json;
 }
 
@@ -75,7 +86,7 @@ calibration::Json scoreToJson(const ImageScore& image) {
       {"name", image.name}, {"reachable", image.reachable}, {"methods", methodsToJson(image.methods)}};
   for (const ViewScore& view : image.others) json["other_views"].push_back(viewToJson(view));
   for (const ViewScore& view : image.unseen) json["unseen_places"].push_back(viewToJson(view));
-  if (image.blended) json["blended"] = methodToJson(*image.blended);
+  addApart(image, json);
   if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
   return json;
 }

@@ -149,6 +149,28 @@ class TestBlending : public QObject {
     QVERIFY2(apart < 2e-4 && together < 2e-4, qPrintable(QString("%1 %2").arg(apart).arg(together)));
   }
 
+  /// Law: alone, one shows what is wanted where it lights the wall, and the others stay black.
+  void aloneItShowsItsPart() {
+    const MeasuredVenue venue = sideBySide(0.0f);
+    const Target target = targetIn(venue);
+    const Solver solver(venue);
+    const Rasters& projectors = venue.transport.projectors();
+    for (std::size_t k = 0; k < 2; ++k) {
+      Progress silent;
+      const ProjectorStack shown =
+          solvedAlone(Compensator(venue, solver.inverse), target, k, {}, silent).projector;
+      for (std::size_t j = 0; j < projectors.count(); ++j)
+        if (j / projectors.size(0).count() != k) QCOMPARE(shown[3 * j + 1], 0.0f);
+      const CameraStack seen = venue.transport.apply(shown);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const int x = pixelAt({width, height}, i / 3).x;
+        const bool lit = k == 0 ? x < each : x >= shift;
+        // Half a code of white is a five-hundredth of it.
+        QVERIFY(std::abs(seen[i] - (lit ? target.asked[i] : 0.0f)) < 2e-3f * target.white[i % 3]);
+      }
+    }
+  }
+
   /// What each sends into the other's part nobody takes back.
   void commonLightIsNotTakenBack() {
     const MeasuredVenue venue = sideBySide(0.15f);

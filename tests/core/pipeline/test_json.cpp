@@ -117,6 +117,7 @@ class TestJson : public QObject {
     const MethodScore score{Method::refined, 30.0, 29.0, 28.0, 27.0, 0.9, 0.8, 1.5, 2.0, 3.0, 0.001};
     result.images[0].unseen = {{0.5, {score}}};
     result.images[0].blended = score;
+    result.images[0].alone = {{0.25, score}, {0.5, std::nullopt}};
     result.images[0].others = {{0.75, {score}, score}};
     result.seams = {{0.25,
                      Method::refined,
@@ -127,6 +128,8 @@ class TestJson : public QObject {
     QCOMPARE(image["unseen_places"][0]["methods"]["refined"]["psnr_reachable"].get<double>(), 30.0);
     QVERIFY(!image["unseen_places"][0].contains("blended"));
     QCOMPARE(image["blended"]["delta_e"].get<double>(), 2.0);
+    QCOMPARE(image["alone"][0]["optimum"]["delta_e"].get<double>(), 2.0);
+    QCOMPARE(image["alone"][1].dump(), R"({"reachable":0.5})");
     QCOMPARE(image["other_views"][0]["blended"]["psnr_all"].get<double>(), 29.0);
     QCOMPARE(document["seams"][0].dump(),
              std::string(

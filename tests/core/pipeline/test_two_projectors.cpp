@@ -65,6 +65,15 @@ class TestTwoProjectors : public QObject {
     QVERIFY2(result.transport.relightNatural < 0.02,
              qPrintable(QString::number(result.transport.relightNatural)));
     QVERIFY2(result.reachable > 0.9, qPrintable(QString::number(result.reachable)));
+    // Each has a shadow of its own, which the other fills.
+    for (const ImageScore& image : result.images) {
+      QCOMPARE(image.alone.size(), std::size_t{2});
+      for (const AloneScore& alone : image.alone) {
+        QVERIFY2(alone.reachable < image.reachable, qPrintable(QString::number(alone.reachable)));
+        QVERIFY(alone.optimum->psnrReachable < image.methods.front().psnrReachable);
+      }
+      QVERIFY(image.alone[0].reachable + image.alone[1].reachable < 2.0 * image.reachable);
+    }
   }
 
   void eachHasAPictureOfItsOwn() {

@@ -211,6 +211,10 @@
         <source>still picture</source>
         <translation>صورة ثابتة</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>يتبع المشاهد خلال %1 مللي ثانية</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5737,13 +5741,6 @@ projector %2</source>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>اسحب الكاميرات إلى حيث تقف، ثم حرّك المشاهد.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>أقل ما يخفي حواف أجهزة العرض</translation>
@@ -5771,6 +5768,13 @@ projector %2</source>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>أسوأ بوضوح بسبب المشاهد الأخرى</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
     </message>
 </context>
 <context>

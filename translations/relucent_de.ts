@@ -207,6 +207,10 @@
         <source>still picture</source>
         <translation>Standbild</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>folgt einem Betrachter binnen %1 ms</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5605,13 +5609,6 @@ Projektor %2</translation>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>Ziehen Sie die Kameras dahin, wo sie stehen; dann bewegen Sie den Betrachter.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>So wenig, wie die Ränder der Projektoren verbirgt</translation>
@@ -5639,6 +5636,13 @@ Projektor %2</translation>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>Sichtbar schlechter wegen anderer Ansichten</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
     </message>
 </context>
 <context>

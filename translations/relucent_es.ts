@@ -207,6 +207,10 @@
         <source>still picture</source>
         <translation>imagen fija</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>sigue a un espectador en %1 ms</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5605,13 +5609,6 @@ proyector %2</translation>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>Arrastre las cámaras adonde están y mueva luego al espectador.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>Lo mínimo que oculta los bordes de los proyectores</translation>
@@ -5639,6 +5636,13 @@ proyector %2</translation>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>Visiblemente peor por otras vistas</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
     </message>
 </context>
 <context>

@@ -207,6 +207,10 @@
         <source>still picture</source>
         <translation>image fixe</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>suit un spectateur en %1 ms</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5605,13 +5609,6 @@ projecteur %2</translation>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>Faites glisser les caméras là où elles se trouvent, puis déplacez le spectateur.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>Juste assez pour cacher les bords des projecteurs</translation>
@@ -5639,6 +5636,13 @@ projecteur %2</translation>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>Visiblement moins bon à cause des autres vues</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
     </message>
 </context>
 <context>

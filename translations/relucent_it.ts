@@ -207,6 +207,10 @@
         <source>still picture</source>
         <translation>immagine fissa</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>segue uno spettatore entro %1 ms</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5605,13 +5609,6 @@ proiettore %2</translation>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>Trascinare le fotocamere dove si trovano, poi spostare lo spettatore.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>Il minimo che nasconde i bordi dei proiettori</translation>
@@ -5639,6 +5636,13 @@ proiettore %2</translation>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>Visibilmente peggio per le altre viste</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
     </message>
 </context>
 <context>

@@ -206,6 +206,10 @@
         <source>still picture</source>
         <translation>静止画</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>観客に %1 ms 以内で追従</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5572,13 +5576,6 @@ projector %2</source>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>カメラを実際の位置へドラッグし、それから観客を動かしてください。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>プロジェクターの端が見えなくなる最小限</translation>
@@ -5606,6 +5603,13 @@ projector %2</source>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>ほかの視点のために目に見えて悪い部分</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
     </message>
 </context>
 <context>

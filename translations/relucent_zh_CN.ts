@@ -206,6 +206,10 @@
         <source>still picture</source>
         <translation>静止图像</translation>
     </message>
+    <message>
+        <source>follows a viewer within %1 ms</source>
+        <translation>在 %1 ms 内跟随观众</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5572,13 +5576,6 @@ projector %2</source>
         <source>Drag the cameras to where they stand, then move the viewer.</source>
         <translation>请将相机拖到其所在位置，然后移动观众。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::Session</name>
-    <message>
-        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
-        <translation>%1正在进行。结束后才能保留此处的选择。</translation>
-    </message>
     <message>
         <source>As little as hides where projectors end</source>
         <translation>刚好隐藏投影机边缘的最小值</translation>
@@ -5606,6 +5603,13 @@ projector %2</source>
     <message>
         <source>Visibly worse because of other views</source>
         <translation>因其他视角而明显变差</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Session</name>
+    <message>
+        <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
+        <translation>%1正在进行。结束后才能保留此处的选择。</translation>
     </message>
 </context>
 <context>

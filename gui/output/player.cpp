@@ -64,6 +64,7 @@ Player::~Player() {
 void Player::start() {
   if (playing_) return;
   playing_ = true;
+  moved_.reset();
   clock_.resume();
   running_.start();
   beginFrame();
@@ -90,6 +91,7 @@ void Player::beginFrame() {
   ContentTime time = clock_.time();
   request_.seconds = refreshSeconds(windows_);
   request_.viewer = viewer();
+  following_ = std::exchange(moved_, std::nullopt);
   working_.setFuture(startedInBackground([renderer = renderer_, content = chart_ ? chartContent_ : content_,
                                           request = request_, clock = clock_, time, last = last_]() -> Frame {
     ContentPicture picture = content->at(time);
@@ -116,9 +118,11 @@ void Player::frameReady() {
       ++frames_;
       late_ += !last_.request.thorough &&
                1e-9 * static_cast<double>(begun_.nsecsElapsed()) > refreshSeconds(windows_);
-      recent_.push_back({microseconds(running_), last_.rendered.seconds, last_.content});
-      while (recent_.size() > mostRecent) recent_.pop_front();
       present();
+      const ContentTime now = microseconds(running_);
+      const double waited = following_ ? 1e-6 * static_cast<double>((now - *following_).count()) : 0.0;
+      recent_.push_back({now, last_.rendered.seconds, last_.content, waited});
+      while (recent_.size() > mostRecent) recent_.pop_front();
     }
   } catch (const Error& error) {
     stop();
@@ -157,6 +161,7 @@ PlayerStatistics Player::statistics() const {
   for (const Shown& frame : recent_) {
     if (static_cast<double>((now - frame.when).count()) > 1e6 * windowSeconds) continue;
     seconds += frame.seconds;
+    result.viewerSeconds = std::max(result.viewerSeconds, frame.viewerSeconds);
     ++count;
     changes += before != nullptr && before->content != frame.content;
     before = &frame;
@@ -190,6 +195,7 @@ void Player::setBrightness(double brightness) {
 
 bool Player::moveViewer(const compensation::Position& position) {
   if (!canFollowViewers() || !viewer_.moveTo(position, viewerTime())) return false;
+  if (playing_ && !moved_) moved_ = microseconds(running_);
   renderer_->interrupt();
   return true;
 }

@@ -92,6 +92,7 @@ class Player : public QObject {
     ContentTime when{0};  // on a clock that never pauses
     double seconds = 0.0;
     std::uint64_t content = 0;
+    double viewerSeconds = 0.0;  // since the first move that it follows; 0: nobody has moved
   };
 
   void next();
@@ -120,6 +121,8 @@ class Player : public QObject {
   std::uint64_t frames_ = 0, late_ = 0;
   std::vector<compensation::Position> cameras_;
   compensation::MovingViewer viewer_;
+  // When he moved first since a frame was begun, and since the one before that: what is computed follows it.
+  std::optional<ContentTime> moved_, following_;
 };
 
 }  // namespace relucent::gui

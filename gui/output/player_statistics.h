@@ -13,6 +13,9 @@ struct PlayerStatistics {
   int steps = 0;                 // of refinement, of the last frame
   std::uint64_t frames = 0;      // since it began
   std::uint64_t late = 0;        // of these, finished more than one refresh of the display after their start
+  // The longest that a viewer who moved has waited for his picture, up to when windows had it, which show it
+  // with their next refresh; 0: nobody has moved.
+  double viewerSeconds = 0.0;
 };
 
 }  // namespace relucent::gui

@@ -252,6 +252,7 @@ void Show::writeHealth(ShowState state) {
                      {"late", static_cast<qint64>(statistics.late)},
                      {"frames_per_second", statistics.framesPerSecond},
                      {"frame_milliseconds", 1e3 * statistics.frameSeconds},
+                     {"viewer_milliseconds", 1e3 * statistics.viewerSeconds},
                      {"clipped", statistics.clipped},
                      {"steps", statistics.steps},
                      {"item", static_cast<qint64>(content.playing)},

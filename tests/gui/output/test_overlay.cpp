@@ -24,6 +24,14 @@ class TestOverlay : public QObject {
     QVERIFY2(text.contains("4.5 % out of reach"), qPrintable(text));
   }
 
+  void tellsHowLongAViewerWaits() {
+    PlayerStatistics now;
+    QVERIFY(!overlayLines({now, true, false, std::nullopt}).join('\n').contains("viewer"));
+    now.viewerSeconds = 0.0421;
+    const QString text = overlayLines({now, true, false, std::nullopt}).join('\n');
+    QVERIFY2(text.contains("viewer within 42.1 ms"), qPrintable(text));
+  }
+
   void tellsWhatWasSwitched() {
     QString text = overlayLines({{}, false, true, TestChart::ramps}).join('\n');
     QVERIFY(text.contains("not compensated") && text.contains("frozen") && text.contains("ramps"));

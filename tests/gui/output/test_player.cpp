@@ -99,9 +99,11 @@ class TestPlayer : public QObject {
     player->start();
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     QVERIFY(player->canFollowViewers() && player->cameras().size() == 2 && !player->viewer());
+    QCOMPARE(player->statistics().viewerSeconds, 0.0);
     QVERIFY(player->moveViewer({1.5, 0, 0}));
     QTRY_VERIFY(renderer_->presence == 1.0 && renderer_->viewerX == 1.5);
     QVERIFY(player->viewer() == FrameViewer({{1.5, 0, 0}, 1.0}));
+    QTRY_VERIFY(player->statistics().viewerSeconds > 0.0);
     // He stands: as well as possible, and no more.
     hand_.now += 1s;
     QTRY_VERIFY(renderer_->thorough && renderer_->presence == 1.0);

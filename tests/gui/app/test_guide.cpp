@@ -6,6 +6,7 @@
 #include <QTemporaryDir>
 #include <QTextDocument>
 #include <QtTest>
+#include <algorithm>
 #include <stdexcept>
 
 #include "app/guide.h"
@@ -49,6 +50,38 @@ QString withoutNumber(QString title) {
 /// As it reads within a sentence.
 QString plain(QString words) {
   return words.remove(QRegularExpression("[.。]$")).toLower();
+}
+
+QString evenSpaces(QString text) {
+  return text.replace(QRegularExpression("[\\x{a0}\\x{202f}]"), " ");
+}
+
+QRegularExpression patternOf(const QString& pattern) {
+  return QRegularExpression(pattern, QRegularExpression::CaseInsensitiveOption);
+}
+
+/// Messages of the program that a quotation is the whole of, or the first sentences; then "more" is captured.
+/// Its "…" and its numbers may be what the program fills in.
+QRegularExpression messageQuotedAs(QString quote) {
+  const QString gap = R"(\{\d?\}|%L?\d)";
+  QString pattern = QRegularExpression::escape(quote.remove(QRegularExpression("[.]$")));
+  pattern.replace(QRegularExpression(R"((?<![.\d])(\d+)(?!\d|\\\.\d))"), R"((?:\1|)" + gap + ')');
+  pattern.replace(QRegularExpression::escape("…"), "(?:" + gap + ')');
+  return patternOf('^' + pattern + R"((?:\.?$|(?<more>[.:]\s)))");
+}
+
+/// The first sentence of a message that goes on.
+QString beginningOf(const QString& message, bool goesOn) {
+  static const QRegularExpression end(R"([.:](?=\s)|[。：])");
+  return goesOn ? message.left(message.indexOf(end)).trimmed() : message;
+}
+
+/// How a guide may quote a message.
+QRegularExpression asQuoted(QString message) {
+  message = evenSpaces(message.remove(QRegularExpression("[.。]$")));
+  QString pattern = QRegularExpression::escape(message);
+  pattern.replace(QRegularExpression(R"(\\\{\d?\\\}|\\%L?\d)"), R"((?:…|\d+))");
+  return patternOf(pattern);
 }
 
 QString read(const QString& path) {
@@ -153,8 +186,7 @@ class TestGuide : public QObject {
     QList<HelpPage> english = guidePages(resource, "en"), pages = guidePages(resource, language);
     int found = 0;
     for (int i = 0; i < pages.size(); ++i) {
-      QStringList quoted =
-          allOf(R"((?<!\*)\*([^*]+)\*(?!\*))", english[i].text) + allOf("“([^”]+)”", english[i].text);
+      QStringList quoted = allOf(R"((?<!\*)\*([^*]+)\*(?!\*))", english[i].text);
       if (i < 8) quoted << withoutNumber(english[i].title);
       QString text = pages[i].text.toLower();
       for (const QString& phrase : quoted) {
@@ -166,6 +198,34 @@ class TestGuide : public QObject {
       }
     }
     QVERIFY(language == "en" || found > 40);
+  }
+
+  /// Law: what stands in quotation marks is a message of the program, or the sentences that it begins with,
+  /// and it is that message in every language.
+  void quotedMessagesAreTheProgramsOwn_data() { everyLanguage(); }
+  void quotedMessagesAreTheProgramsOwn() {
+    QFETCH(QString, language);
+    // English has a file of its plurals only; the file of any other language has every sentence.
+    const QString known = language == "en" ? QString("de") : language;
+    const QList<TranslatedSentence> program =
+        sentencesOf(QString(RELUCENT_SOURCE "/translations/relucent_%1.ts").arg(known));
+    const QList<HelpPage> english = guidePages(resource, "en"), pages = guidePages(resource, language);
+    int found = 0;
+    for (int i = 0; i < pages.size(); ++i) {
+      const QString page = evenSpaces(pages[i].text);
+      for (const QString& quote : allOf("“([^”]+)”", english[i].text)) {
+        QStringList said;
+        for (const TranslatedSentence& sentence : program)
+          if (const auto match = messageQuotedAs(quote).match(sentence.source); match.hasMatch())
+            said << (language == "en" ? quote
+                                      : beginningOf(sentence.forms.value(0), match.hasCaptured("more")));
+        QVERIFY2(!said.isEmpty(), qPrintable(pages[i].id + ": the program never says " + quote));
+        QVERIFY2(std::ranges::any_of(said, [&](const QString& word) { return page.contains(asQuoted(word)); }),
+                 qPrintable(pages[i].id + ": " + quote + ": " + said.join(", ")));
+        ++found;
+      }
+    }
+    QVERIFY(found > 10);
   }
 
   void wordsAreInTheirOrder_data() { everyLanguage(); }

@@ -14,6 +14,13 @@
 #include "wizard/devices/full_disk.h"
 
 namespace relucent::gui {
+namespace {
+
+int photographsOf(const Session& session) {
+  return session.live().taken(std::string(nameOf(calibration::Stage::linearization))).photographs;
+}
+
+}  // namespace
 
 LinearizePage::LinearizePage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent), room_(this) {
@@ -158,6 +165,10 @@ std::optional<double> LinearizePage::blackShare() const {
   return flood > 0.0 ? std::optional(std::max(0.0, black / flood)) : std::nullopt;
 }
 
+int LinearizePage::photographs() const {
+  return isMeasuring() ? photographsOf(session_) - begunAt_ : 0;
+}
+
 std::vector<double> LinearizePage::exposures() const {
   if (result_ && !isMeasuring()) return result_->exposures;
   const auto& checked = session_.figures<calibration::Stage::camera>();
@@ -190,6 +201,7 @@ void LinearizePage::keepLevels(int levels) {
 void LinearizePage::measure(bool again) {
   if (isMeasuring() || !session_.areDevicesFree() || !session_.mayMeasure()) return;
   lease_ = session_.leaseDevices(stepName, DeviceWork::measurement);
+  begunAt_ = photographsOf(session_);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
     room->countPauses([devices = work.devices] { return devices->live().paused(); });

@@ -41,6 +41,8 @@ class LinearizePage : public DevicePage {
   /// Points of its ramps while they are measured, drive -> share of full light.
   Ramps ramps() const { return session_.live().ramps(projector()); }
   LivePictures pictures() const { return session_.live().pictures(projector(), camera()); }
+  /// Taken by all cameras since this measurement began; neither other steps' nor those read from the disk.
+  int photographs() const;
   /// Seconds that the measurement took; none before.
   std::optional<double> seconds() const;
 
@@ -72,6 +74,7 @@ class LinearizePage : public DevicePage {
   Job job_;  // ends before what its work uses
   std::optional<linearization::Linearization> result_;
   std::string shown_;  // when the result was stored that is in result_
+  int begunAt_ = 0;    // photographs of this step by then
 };
 
 }  // namespace relucent::gui

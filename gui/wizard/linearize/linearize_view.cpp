@@ -139,9 +139,12 @@ QWidget* liveCards(LinearizePage& model) {
     if (live.pattern.empty() || live.frame.signal.empty()) return;
     pattern->setPicture(encodedPictureOf(live.pattern));
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
-    seen->setSubtitle(
-        LinearizePage::tr("%1, photograph %2")
-            .arg(exposureText(live.frame.seconds), countText(static_cast<std::uint64_t>(live.photographs))));
+    const QString exposure = exposureText(live.frame.seconds);
+    const int number = model.photographs();
+    seen->setSubtitle(number == 0
+                          ? exposure
+                          : LinearizePage::tr("%1, photograph %2")
+                                .arg(exposure, countText(static_cast<std::uint64_t>(number))));
   };
   refreshOn(model, row, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged,
             &LinearizePage::progressChanged);

@@ -4,12 +4,14 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QtTest>
+#include <algorithm>
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/calibration/results.h"
 #include "views/cut_histogram.h"
 #include "views/number_text.h"
 #include "wizard/acquire/acquire_page.h"
+#include "wizard/camera/camera_page.h"
 #include "wizard/frame/step_rail.h"
 #include "wizard/frame/wizard.h"
 #include "wizard/linearize/linearize_page.h"
@@ -68,6 +70,36 @@ class TestReadouts : public QObject {
     session_->wantAcquisition();
     QTRY_VERIFY_WITH_TIMEOUT(session_->acquisition() != nullptr, patience);
     QCOMPARE(page.blackShare(), black);
+  }
+
+  /// Law: photographs are counted by the measurement that takes them; those of whoever looked before are not.
+  void photographsAreOfOneMeasurement() {
+    own_->begin(smallVenue({96, 72}, {80, 60}));
+    CameraPage camera(*session_);
+    LinearizePage page(*session_);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    camera.enter();
+    QTRY_VERIFY_WITH_TIMEOUT(camera.areChecksDone(), patience);
+    camera.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(session_->areDevicesFree(), patience);
+    const int before = session_->live().photographs();
+    QVERIFY(before > 0);
+    int most = 0;
+    connect(&page, &PageModel::progressChanged, &page, [&] {
+      const int least = session_->live().photographs() - before, counted = page.photographs();
+      QVERIFY(counted >= least && counted <= session_->live().photographs() - before);
+      most = std::max(most, counted);
+      QStringList texts;
+      for (const QLabel* label : stage->findChildren<QLabel*>()) texts << label->text();
+      const QString here = texts.filter("photograph ").join('\n');
+      const int shown = here.section("photograph ", 1).toInt();
+      QVERIFY2(shown <= counted, qPrintable(here));
+    });
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.result(), patience);
+    QVERIFY(most > 0);
+    QCOMPARE(page.photographs(), 0);
   }
 
   /// Exposures that were kept are those that are shown, until the response has its own.

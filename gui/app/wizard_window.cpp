@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/wizard_window.h"
 
-#include <QGuiApplication>
+#include <QApplication>
 #include <utility>
 
 #include "app/help_window.h"
@@ -32,7 +32,11 @@ WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache, con
   Theme::instance().apply(preferences_.isLight() ? Look::light : Look::dark);
   follow();
   for (const std::unique_ptr<PageModel>& page : pages_) wizard_.add(*page);
+  // Under a style sheet, each widget that is put into another has all its children styled again: it comes last.
+  const QString sheet = qApp->styleSheet();
+  qApp->setStyleSheet({});
   window_ = makeWindow();
+  qApp->setStyleSheet(sheet);
   QObject::connect(&preferences_, &Preferences::changed, &session_, [this] { follow(); });
 }
 

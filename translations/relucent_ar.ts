@@ -3649,6 +3649,10 @@
         <source>how many projectors light each place</source>
         <translation>كم جهاز عرض يضيء كل موضع</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>اكتمل الفحص</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

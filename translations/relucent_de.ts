@@ -3557,6 +3557,10 @@
         <source>how many projectors light each place</source>
         <translation>wie viele Projektoren jede Stelle beleuchten</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>Prüfungen fertig</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

@@ -3557,6 +3557,10 @@
         <source>how many projectors light each place</source>
         <translation>cuántos proyectores iluminan cada punto</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>Comprobado</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

@@ -3557,6 +3557,10 @@
         <source>how many projectors light each place</source>
         <translation>combien de projecteurs éclairent chaque endroit</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>Vérifications faites</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

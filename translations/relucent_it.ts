@@ -3557,6 +3557,10 @@
         <source>how many projectors light each place</source>
         <translation>quanti proiettori illuminano ogni punto</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>Controlli completati</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

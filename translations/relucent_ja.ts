@@ -3534,6 +3534,10 @@
         <source>how many projectors light each place</source>
         <translation>各所を照らすプロジェクターの数</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>確認完了</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

@@ -3534,6 +3534,10 @@
         <source>how many projectors light each place</source>
         <translation>每处由几台投影机照亮</translation>
     </message>
+    <message>
+        <source>Checks done</source>
+        <translation>检查完毕</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>

@@ -133,7 +133,7 @@ CameraPage::~CameraPage() {
 StepStatus CameraPage::status() const {
   if (isLooking()) {
     bool done = session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
-    return {done ? StepState::done : StepState::open, tr("Checking")};
+    return {done ? StepState::done : StepState::open, areChecksDone() ? tr("Checks done") : tr("Checking")};
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
@@ -143,6 +143,13 @@ StepStatus CameraPage::status() const {
   if (session_.result(calibration::Stage::linearization))
     return {StepState::done, tr("Exposures as measured")};
   return {};
+}
+
+bool CameraPage::areChecksDone() const {
+  if (!isLooking() || isChecking_) return false;
+  for (std::size_t camera = 0; camera < cameras(); ++camera)
+    if (!tooBrightEverywhere(camera) || !tooDarkEverywhere(camera)) return false;
+  return true;
 }
 
 bool CameraPage::needsCamera() const {

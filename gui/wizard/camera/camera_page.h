@@ -69,6 +69,8 @@ class CameraPage : public DevicePage {
   const std::optional<CameraLook>& look(std::size_t camera) const;
   /// The devices are being checked and exposures found.
   bool isChecking() const { return isLooking() && isChecking_; }
+  /// Every check has its verdict, and the live picture goes on.
+  bool areChecksDone() const;
   /// Exposures for this venue, longest first; as they were kept where nobody looks; empty until they are
   /// found.
   std::vector<double> exposures() const;

@@ -83,6 +83,21 @@ class TestCameraStates : public QObject {
     QVERIFY(page_->primary()->isEnabled());
   }
 
+  /// Law: the rail says that devices are being checked until every check has its verdict, and no longer.
+  void theRailSaysWhetherChecksAreDone() {
+    QStringList said;
+    connect(page_.get(), &PageModel::statusChanged, page_.get(), [this, &said] {
+      if (!page_->isLooking()) return;
+      const bool isJudged = page_->tooBrightEverywhere() && page_->tooDarkEverywhere();
+      QCOMPARE(page_->status().result, isJudged ? CameraPage::tr("Checks done") : CameraPage::tr("Checking"));
+      if (said.isEmpty() || said.last() != page_->status().result) said << page_->status().result;
+    });
+    look();
+    QCOMPARE(said, QStringList({CameraPage::tr("Checking"), CameraPage::tr("Checks done")}));
+    keep();
+    QVERIFY2(page_->status().result != CameraPage::tr("Checks done"), qPrintable(page_->status().result));
+  }
+
   /// Law: the best focus is that of this venue and this exposure; what arrives of another venue counts not.
   void theBestFocusIsOfThisVenue() {
     look();

@@ -320,12 +320,7 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
-    column->addWidget(labelOf(CameraPage::tr("Light in this exposure: red, green, blue"), "section"));
-    auto* histogram = new LineChart(axisOf(0.0, 1.0, CameraPage::tr("Signal")), {1.0, 1e4, true, {}});
-    histogram->setFixedHeight(150);
-    histogram->setMark(0.97);
-    column->addWidget(histogram);
-    column->addWidget(lineOf());
+    // First what is looked at while somebody turns the lens or aims, and what stands against going on.
     auto* focus = new ValueRow(CameraPage::tr("Focus"));
     auto* meter = new FocusMeter;
     column->addWidget(focus);
@@ -333,6 +328,8 @@ class CameraInspector {
     QLabel* best =
         labelOf(CameraPage::tr("Turn the lens until the bar stays at the mark: the best so far."), "note");
     column->addWidget(best);
+    column->addWidget(lineOf());
+    column->addWidget(checksPart(model));
     column->addWidget(lineOf());
     column->addWidget(labelOf(CameraPage::tr("Exposures"), "section"));
     auto* buttons = new QHBoxLayout;
@@ -346,9 +343,12 @@ class CameraInspector {
     }
     QObject::connect(group, &QButtonGroup::idClicked, &model,
                      [&model](int id) { model.chooseExposure(static_cast<std::size_t>(id)); });
+    column->addWidget(labelOf(CameraPage::tr("Light in this exposure: red, green, blue"), "section"));
+    auto* histogram = new LineChart(axisOf(0.0, 1.0, CameraPage::tr("Signal")), {1.0, 1e4, true, {}});
+    histogram->setFixedHeight(150);
+    histogram->setMark(0.97);
+    column->addWidget(histogram);
     column->addWidget(pixelUseView(model));
-    column->addWidget(lineOf());
-    column->addWidget(checksPart(model));
     column->addStretch(1);
 
     auto refresh = [&model, histogram, focus, meter, group] {

@@ -183,14 +183,14 @@ QWidget* checksPart(CameraPage& model) {
   auto* sees = new Remark;
   auto* bright = new Remark;
   auto* dark = new Remark;
+  auto* together = labelOf({}, "note");
+  together->setObjectName("device-verdicts");
   rows->addWidget(sees);
+  rows->addWidget(together);
   rows->addWidget(coveragePart(model));
   rows->addWidget(flickerPart(model));
   rows->addWidget(bright);
   rows->addWidget(dark);
-  auto* together = labelOf({}, "note");
-  together->setObjectName("device-verdicts");
-  rows->addWidget(together);
   auto refresh = [&model, sees, bright, dark, together] {
     const QString lines = verdictLines(model);
     together->setText(lines);

@@ -77,12 +77,13 @@ QWidget* devicesStage(VenuePage& model) {
 QWidget* devicesInspector(VenuePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
+  // First, as nothing goes on without it: below lists that grow it would be out of sight.
+  column->addWidget(consentToBegin(model));
   column->addWidget(labelOf(VenuePage::tr("Real devices"), "section"));
   column->addWidget(projectorList(model));
   column->addWidget(cameraList(model));
   column->addWidget(lineOf());
   column->addWidget(keepingPart(model));
-  column->addWidget(consentToBegin(model));
   column->addStretch(1);
   return card;
 }

@@ -57,6 +57,7 @@ QWidget* scriptStage(VenuePage& model) {
 QWidget* scriptInspector(VenuePage& model) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
+  column->addWidget(consentToBegin(model));
   column->addWidget(labelOf(VenuePage::tr("Projector's pixels"), "section"));
   auto* row = new QHBoxLayout;
   for (int Size::*side : {&Size::width, &Size::height}) {
@@ -80,7 +81,6 @@ QWidget* scriptInspector(VenuePage& model) {
   column->addLayout(row);
   column->addWidget(lineOf());
   column->addWidget(keepingPart(model));
-  column->addWidget(consentToBegin(model));
   column->addStretch(1);
   return card;
 }

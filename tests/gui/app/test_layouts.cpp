@@ -10,10 +10,13 @@
 #include "gui/app/layout_faults.h"
 #include "gui/app/naming_faults.h"
 #include "relucent/base/message.h"
+#include "relucent/devices/check/check_verdict.h"
 #include "theme/accessible_role.h"
+#include "theme/controls.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/cluster/cluster_page.h"
+#include "wizard/devices/flash_consent.h"
 #include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/linearize/linearize_page.h"
@@ -37,6 +40,7 @@ constexpr int patience = 120000;  // milliseconds; what is waited for takes seco
 constexpr QSize screen(1366, 768);
 constexpr QSize halfOfFullHd(960, 540);  // on a desktop that scales by two
 constexpr int titleBar = 40;
+constexpr QSize underTitleBar(1366, 720);  // what a panel or a tall title bar leaves
 
 void settle() {
   // Labels that wrap ask their parents for room, which ask theirs.
@@ -157,6 +161,38 @@ class TestLayouts : public QObject {
     faults.removeDuplicates();
     return faults;
   }
+  /// What is not wholly in sight without scrolling where a title bar takes some of the height.
+  QStringList notInSight(const QList<const QWidget*>& wanted, const QString& where) {
+    wizard_->window().resize(underTitleBar);
+    settle();
+    QStringList faults;
+    if (wizard_->window().size() != underTitleBar) faults << where + ": the window has another size";
+    for (const QWidget* widget : wanted)
+      if (!hiddenOf(*widget).isEmpty())
+        faults << QString("%1: %2 %3, %4")
+                      .arg(where, widget->metaObject()->className(), widget->objectName(), hiddenOf(*widget));
+    wizard_->window().resize(screen);
+    return faults;
+  }
+  /// Law: nothing goes on without consent, so that it is asked for in sight, with the sentence that says so.
+  QStringList consentNotInSight(const QString& where) {
+    QList<const QWidget*> wanted{wizard_->window().findChild<QWidget*>("hint")};
+    for (const auto* consent : wizard_->window().findChildren<FlashConsent*>())
+      if (consent->isVisible()) wanted << consent;
+    if (wanted.size() != 2 || wizard_->wizard().currentPage().primary()->isEnabled())
+      return {where + ": no consent is asked for"};
+    return notInSight(wanted, where);
+  }
+  /// Law: every check's verdict is in sight while somebody aims the camera.
+  QStringList verdictsNotInSight(const QString& where, qsizetype least) {
+    QList<const QWidget*> verdicts;
+    for (const auto* verdict : wizard_->window().findChildren<QWidget*>())
+      if ((qobject_cast<const Remark*>(verdict) != nullptr || verdict->objectName() == "device-verdicts") &&
+          verdict->isVisible())
+        verdicts << verdict;
+    if (verdicts.size() < least) return {where + ": verdicts are missing"};
+    return notInSight(verdicts, where);
+  }
   /// Half of Full HD is enough.
   void reachesAll(std::initializer_list<std::size_t> wanted) {
     wizard_->window().resize(halfOfFullHd);
@@ -234,6 +270,11 @@ class TestLayouts : public QObject {
   }
 
   void beginning() {
+    VenuePage& venue = wizard_->page<VenuePage>();
+    venue.setMode(VenuePage::Mode::devices);
+    for (const ScreenChoice& choice : venue.screensToChoose())
+      if (choice.refusal.isEmpty() && venue.projectors().empty()) venue.chooseScreen(choice);
+    QVERIFY(venue.projectors().size() == 1 && venue.needsConsent());
     inEveryLanguage([this](const QString& language) {
       QStringList faults;
       for (auto [mode, name] :
@@ -242,6 +283,8 @@ class TestLayouts : public QObject {
             std::pair(VenuePage::Mode::devices, "devices")}) {
         wizard_->page<VenuePage>().setMode(mode);
         faults << seen(language, name);
+        if (wizard_->page<VenuePage>().needsConsent())
+          faults << consentNotInSight(QString("%1, %2").arg(language, name));
       }
       wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
       return faults;
@@ -283,7 +326,9 @@ class TestLayouts : public QObject {
     wizard_->page<VenuePage>().primary()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{1}, patience);
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().tooDarkEverywhere().has_value(), patience);
-    page("looking");
+    inEveryLanguage([this](const QString& language) {
+      return seen(language, "looking") + verdictsNotInSight(language, 4);
+    });
     QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().primary()->isEnabled(), patience);
     wizard_->page<CameraPage>().primary()->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(steps().current(), std::size_t{2}, patience);
@@ -421,8 +466,21 @@ class TestLayouts : public QObject {
         !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().foundCameras().cameras.empty(),
         patience);
     page("choosing");
-    wizard_->session().decide(CameraCheckResult{{1.0}, std::nullopt, {}});
-    pages({2}, "asking for consent");
+
+    rig.cameraAddress = "genicam:40012345";
+    rig.camera = {48, 36};
+    settings.rig = rig;
+    wizard_->session().begin(folder_.filePath("aimed").toStdString(), settings);
+    const CheckVerdict sees{.finding = Finding::screenSeen, .share = 0.4, .screen = "HDMI-1"};
+    const CheckVerdict late{.finding = Finding::pictureOut, .count = 2, .seconds = 0.083, .frame = 1.0 / 60};
+    wizard_->session().decide(CameraCheckResult{
+        {1.0, 0.1}, late.seconds, {messageOf(sees), messageOf(late), messageOf({Finding::lightEven})}});
+    inEveryLanguage([this](const QString& language) {
+      steps().go(1);
+      QStringList faults = seen(language, "checked before") + verdictsNotInSight(language, 2);
+      steps().go(2);
+      return faults + seen(language, "asking for consent") + consentNotInSight(language);
+    });
   }
 
   void cleanupTestCase() { wizard_.reset(); }

@@ -17,6 +17,7 @@ struct ContentSettings {
   compensation::Method method = compensation::Method::refined;
   double reachablePercentile = 15.0;  // as TargetSettings
   std::optional<double> blackLift{};
+  compensation::Brightness brightness = compensation::Brightness::even;
   compensation::Objective objective = compensation::Objective::seen;
   compensation::Fit fit = compensation::Fit::fit;
   std::optional<compensation::Corners> corners;  // as TargetSettings

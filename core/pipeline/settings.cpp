@@ -178,6 +178,7 @@ compensation::TargetSettings targetOf(const ContentSettings& settings) {
   target.fit = settings.fit;
   target.reachablePercentile = settings.reachablePercentile;
   target.blackLift = settings.blackLift;
+  target.brightness = settings.brightness;
   target.objective = settings.objective;
   return target;
 }

@@ -99,6 +99,13 @@ std::vector<compensation::ViewSettings> viewsFromJson(const Sorted& settings) {
   return views;
 }
 
+/// Of content whose white follows the picture.
+compensation::Brightness brightnessFromJson(const Sorted& settings) {
+  auto content = settings.find("content");
+  if (content == settings.end()) return compensation::Brightness::even;
+  return content->value("brightness", compensation::Brightness::even);
+}
+
 /// Of content whose place somebody chose: four pairs x, y.
 std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
   auto content = settings.find("content");
@@ -395,6 +402,9 @@ calibration::Json stagesToJson(const CalibrateSettings& settings) {
   Sorted content = settings.content;
   if (settings.content.corners) content["corners"] = *settings.content.corners;
   if (settings.content.blackLift) content["blackLift"] = *settings.content.blackLift;
+  // Left out where it is what versions did that knew no other, so that their fingerprints stay.
+  if (settings.content.brightness != compensation::Brightness::even)
+    content["brightness"] = settings.content.brightness;
   for (const compensation::ViewSettings& view : settings.content.views)
     content["views"].push_back(viewToJson(view));
   if (settings.content.viewer) content["viewer"] = *settings.content.viewer;
@@ -429,6 +439,7 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.content.blackLift = blackLiftFromJson(sorted);
     settings.content.views = viewsFromJson(sorted);
     settings.content.viewer = viewerFromJson(sorted);
+    settings.content.brightness = brightnessFromJson(sorted);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

@@ -121,6 +121,18 @@ std::string methodWords(compensation::Method method) {
   return "the best possible for still pictures";
 }
 
+const char* brightnessWords(compensation::Brightness brightness) {
+  switch (brightness) {
+    case compensation::Brightness::even:
+      return "one for all pictures";
+    case compensation::Brightness::picture:
+      return "one for each picture";
+    case compensation::Brightness::region:
+      break;
+  }
+  return "one for each part of a picture";
+}
+
 std::string viewWords(const compensation::ViewSettings& view) {
   return fmt::format("weight {:.3g}, {}", view.weight,
                      view.placement == compensation::ViewPlacement::own ? "a picture of its own"
@@ -134,6 +146,7 @@ void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings&
                                  ? "Demonstration picture"
                                  : std::filesystem::path(content.picture).filename().string()});
   list.push_back({"Correction", methodWords(content.method)});
+  list.push_back({"Brightness of white", brightnessWords(content.brightness)});
   list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});
   list.push_back({"Blacks lifted by", content.blackLift ? percent(*content.blackLift)
                                                         : "as little as hides the edges of projectors"});

@@ -43,6 +43,10 @@ const QCommandLineOption display("screen",
                                  "NAME");
 const QCommandLineOption canvas("canvas", "Size to which content is scaled.", "WxH", "1920x1080");
 const QCommandLineOption adaptive("adaptive-range", "Adapt brightness and black level to the content.");
+const QCommandLineOption brightness("brightness",
+                                    "How bright white is where: even, picture or region. Default: as the "
+                                    "calibration has it.",
+                                    "NAME");
 const QCommandLineOption backend("backend",
                                  "Device for computing: cpu, opengl (including software renderers), or "
                                  "automatic, a graphics card if there is one.",
@@ -75,7 +79,8 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
   for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
-  for (const QCommandLineOption& option : {schedule, canvas, backend, osc, oscAddress, oscFeedback})
+  for (const QCommandLineOption& option :
+       {schedule, canvas, brightness, backend, osc, oscAddress, oscFeedback})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive})
     if (parser.isSet(option)) again << "--" + option.names().first();
@@ -129,6 +134,13 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   settings.content.loop = settings.content.loop || parser.isSet(loop);
   settings.displays = parser.values(display);
   settings.adaptiveRange = parser.isSet(adaptive);
+  if (parser.isSet(brightness)) {
+    settings.brightness = valueNamed<compensation::Brightness>(parser.value(brightness).toStdString());
+    if (!settings.brightness) throw WrongArguments("the brightness must be even, picture or region");
+    if (settings.adaptiveRange)
+      throw WrongArguments(
+          "--adaptive-range and --brightness both say how bright white is: give one of them");
+  }
   for (const QString& position : parser.values(cameraPosition))
     settings.cameras.push_back(positionFrom(position));
   settings.osc = oscPlaceOf(parser);
@@ -156,8 +168,8 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content, loop, schedule, display, canvas, adaptive, backend, cameraPosition, osc,
-                     oscAddress, oscFeedback, log, installService, installAutostart, removeService,
+  parser.addOptions({content, loop, schedule, display, canvas, adaptive, brightness, backend, cameraPosition,
+                     osc, oscAddress, oscFeedback, log, installService, installAutostart, removeService,
                      removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};

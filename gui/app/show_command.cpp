@@ -49,14 +49,13 @@ int run(const PlayShow& play) {
   Show show(settings, [settings](const std::function<void(const QString&)>& warn) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
-        settings.calibration, settings.canvas, settings.adaptiveRange, quiet,
-        [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
-        settings.backend,
+        RendererSettings{settings.calibration, settings.canvas, settings.adaptiveRange, settings.brightness,
+                         settings.backend, settings.cameras},
+        quiet, [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
         [] {
           SharedGl* shared = SharedGl::instance();
           return shared != nullptr ? shared->host() : nullptr;
-        },
-        settings.cameras);
+        });
   });
   Termination termination;
   QObject::connect(&termination, &Termination::requested, &show, [&show] {

@@ -39,34 +39,37 @@ void checkCount(const std::vector<compensation::Position>& positions, std::size_
 
 }  // namespace
 
-EngineRenderer::EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas,
-                               bool adaptiveRange, Progress& progress,
-                               const engine::FallbackBackend::Notify& notify, engine::BackendChoice choice,
-                               const engine::MakeGlHost& host,
-                               const std::vector<compensation::Position>& cameras)
-    : canvas_(canvas) {
+EngineRenderer::EngineRenderer(const RendererSettings& wanted, Progress& progress,
+                               const engine::FallbackBackend::Notify& notify, const engine::MakeGlHost& host)
+    : canvas_(wanted.canvas) {
   calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(calibration, calibration::CalibrationFolder::Access::read);
+      calibration::CalibrationFolder::open(wanted.calibration, calibration::CalibrationFolder::Access::read);
   calibration_ = pipeline::loadCalibration(folder, progress);
   engine::EngineSettings settings;
   pipeline::CalibrateSettings chosen = pipeline::settingsOf(folder);
   settings.target = targetOf(chosen.content);
+  if (wanted.brightness) settings.target.brightness = *wanted.brightness;
+  // Both at once would brighten twice.
+  if (wanted.adaptiveRange) settings.target.brightness = compensation::Brightness::even;
   venue_.emplace(engine::prepareVenue(calibration_.venue, calibration_.inverse,
                                       calibration_.linearization.projectors, settings));
-  content_ = engine::prepareContent(*venue_, {canvas.size.width(), canvas.size.height()});
-  backend_ = engine::makeBackend(*venue_, choice, notify, host);
+  content_ = engine::prepareContent(*venue_, {canvas_.size.width(), canvas_.size.height()});
+  backend_ = engine::makeBackend(*venue_, wanted.backend, notify, host);
   backend_->setContent(*content_);
-  if (adaptiveRange) range_.emplace(*venue_, *content_);
+  if (wanted.adaptiveRange) range_.emplace(*venue_, *content_);
+  if (settings.target.brightness != compensation::Brightness::even)
+    whites_.emplace(*venue_, *content_, settings.target.brightness);
   const std::size_t views = calibration_.venue.transport.cameras().devices();
-  checkCount(cameras, views);
-  if (views > 1) cameras_ = cameras.empty() ? positionsOf(settings.target.views, views) : cameras;
+  checkCount(wanted.cameras, views);
+  if (views > 1)
+    cameras_ = wanted.cameras.empty() ? positionsOf(settings.target.views, views) : wanted.cameras;
   for (std::size_t view = 0; view < views; ++view)
     home_.push_back(view < settings.target.views.size() ? settings.target.views[view].weight : 1.0);
   rest_.assign(content_->viewWeight.begin(), content_->viewWeight.end());
   if (!cameras_.empty()) follower_.emplace(*venue_, *content_);
   const compensation::Method method = chosen.content.method;
-  // Brightness that follows the content is the engine's.
-  if (!adaptiveRange || method != compensation::Method::refined)
+  // A range that follows the content is the engine's.
+  if (!wanted.adaptiveRange || method != compensation::Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
   words_.resize(calibration_.venue.transport.projectors().count());
   cards_ = CardPictures(EngineRenderer::projectors());
@@ -160,14 +163,7 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
                     last_.compensated &&
                     (request.viewer != last_.viewer || request.brightness != last_.brightness);
   if (wanted.fromLast) wanted.steps = std::max(wanted.steps, 1);
-  bool settled = true;
-  if (range_ && request.compensated) {
-    auto now = std::chrono::steady_clock::now();
-    engine::DisplayRange range = range_->follow(frame, now - std::exchange(rangeAsked_, now));
-    wanted.brightness *= range.brightness;
-    wanted.blackLift = range.blackLift;
-    settled = range_->settled();
-  }
+  const bool settled = !request.compensated || lightFor(frame, wanted);
   engine::FrameReport report;
   RenderedFrame rendered;
   rendered.drives = computed(frame, wanted, report);
@@ -180,6 +176,20 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   rendered.settled = settled;
   rendered.seconds = report.seconds.count();
   return rendered;
+}
+
+bool EngineRenderer::lightFor(const engine::ContentFrame& frame, engine::FrameRequest& request) {
+  if (!range_ && !whites_) return true;
+  const auto now = std::chrono::steady_clock::now();
+  const auto elapsed = now - std::exchange(lightAsked_, now);
+  if (whites_) {
+    request.field = &whites_->follow(frame, elapsed);
+    return whites_->settled();
+  }
+  const engine::DisplayRange range = range_->follow(frame, elapsed);
+  request.brightness *= range.brightness;
+  request.blackLift = range.blackLift;
+  return range_->settled();
 }
 
 std::vector<DrivePicture> EngineRenderer::computed(const engine::ContentFrame& frame,

@@ -13,27 +13,37 @@
 #include "relucent/engine/adaptive_range.h"
 #include "relucent/engine/engine_plan.h"
 #include "relucent/engine/fallback_backend.h"
+#include "relucent/engine/followed_brightness.h"
 #include "relucent/engine/step_budget.h"
 #include "relucent/engine/view_follower.h"
 #include "relucent/pipeline/measured_venue.h"
 
 namespace relucent::gui {
 
+/// What is rendered, and by what.
+struct RendererSettings {
+  std::filesystem::path calibration;
+  Canvas canvas;
+  /// One white that goes with the content, and its offset, see AdaptiveRange; instead of `brightness`.
+  bool adaptiveRange = false;
+  /// How bright white is where; none: as the calibration's content has it.
+  std::optional<compensation::Brightness> brightness{};
+  engine::BackendChoice backend = engine::BackendChoice::automatic;
+  /// Where the cameras stand; empty: as the calibration's content has it.
+  std::vector<compensation::Position> cameras{};
+};
+
 /// The real-time engine over a calibration.
 class EngineRenderer : public FrameRenderer {
  public:
-  /// Reads a finished calibration and prepares everything; takes seconds. `adaptiveRange`: brightness and
-  /// offset follow the content, see AdaptiveRange. Placement, brightness and black level are those stored for
-  /// the calibration's content; its method applies to still pictures, see StillSolver. `notify` is called
-  /// once, on the rendering thread, when a graphics card is lost or unusable and the processor takes over.
-  /// `host`: of SharedGl; with it pictures stay on the graphics card where they are computed there.
-  /// `cameras`: where they stand; empty: as the calibration's content has it. Throws: as loadCalibration(),
-  /// prepareVenue() and prepareContent(); Error{input} if these are not as many as the cameras.
-  EngineRenderer(const std::filesystem::path& calibration, const Canvas& canvas, bool adaptiveRange,
-                 Progress& progress, const engine::FallbackBackend::Notify& notify = {},
-                 engine::BackendChoice choice = engine::BackendChoice::automatic,
-                 const engine::MakeGlHost& host = {},
-                 const std::vector<compensation::Position>& cameras = {});
+  /// Reads a finished calibration and prepares everything; takes seconds. Placement, brightness and black
+  /// level are those stored for the calibration's content; its method applies to still pictures, see
+  /// StillSolver. `notify` is called once, on the rendering thread, when a graphics card is lost or unusable
+  /// and the processor takes over. `host`: of SharedGl; with it pictures stay on the graphics card where they
+  /// are computed there. Throws: as loadCalibration(), prepareVenue() and prepareContent(); Error{input} if
+  /// the positions are not as many as the cameras.
+  EngineRenderer(const RendererSettings& settings, Progress& progress,
+                 const engine::FallbackBackend::Notify& notify = {}, const engine::MakeGlHost& host = {});
 
   std::vector<QSize> projectors() const override;
   Canvas canvas() const override { return canvas_; }
@@ -49,6 +59,8 @@ class EngineRenderer : public FrameRenderer {
                                      engine::FrameReport& report);
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
   RenderedFrame encoded(const compensation::Compensation& solved, double seconds);
+  /// How bright white is where in this frame. Whether the same frame would have the same light again.
+  bool lightFor(const engine::ContentFrame& frame, engine::FrameRequest& request);
   /// Views of `words_`, one per projector.
   std::vector<DrivePicture> drives() const;
   int stepsFor(const RenderRequest& request);
@@ -62,8 +74,9 @@ class EngineRenderer : public FrameRenderer {
   std::optional<engine::EngineContent> content_;
   std::unique_ptr<engine::EngineBackend> backend_;
   std::optional<engine::AdaptiveRange> range_;
-  std::chrono::steady_clock::time_point rangeAsked_{};
-  std::unique_ptr<StillSolver> still_;  // none: still pictures use the engine's steps
+  std::optional<engine::FollowedBrightness> whites_;    // none: white is even
+  std::chrono::steady_clock::time_point lightAsked_{};  // when range or whites were
+  std::unique_ptr<StillSolver> still_;                  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
   CardPictures cards_{{}};
   std::optional<engine::StepBudget> budget_;

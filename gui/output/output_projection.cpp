@@ -74,8 +74,8 @@ void OutputProjection::open(const Wanted& wanted) {
     Canvas canvas = canvasFor(wanted.list, wanted.fit);
     made->content = std::make_shared<Playlist>(wanted.list, canvas);
     made->renderer = std::make_unique<TappedRenderer>(
-        std::make_unique<EngineRenderer>(wanted.calibration, canvas, false, preparing,
-                                         engine::FallbackBackend::Notify(), engine::BackendChoice::automatic,
+        std::make_unique<EngineRenderer>(RendererSettings{wanted.calibration, canvas}, preparing,
+                                         engine::FallbackBackend::Notify(),
                                          [host] { return std::move(*host); }),
         tap);
   });

@@ -9,6 +9,7 @@
 #include "content/playlist.h"
 #include "output/daily_hours.h"
 #include "output/screen_identity.h"
+#include "relucent/compensation/brightness.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/engine/fallback_backend.h"
 #include "remote/osc_server.h"
@@ -22,6 +23,8 @@ struct ShowSettings {
   QStringList displays;  // connectors, one a projector; empty: chosen by size, see displaysFor()
   Canvas canvas;
   bool adaptiveRange = false;  // brightness and offset follow the content
+  /// How bright white is where; none: as the calibration has it.
+  std::optional<compensation::Brightness> brightness;
   engine::BackendChoice backend = engine::BackendChoice::automatic;
   std::optional<DailyHours> hours;              // daily hours of play; none: always
   std::vector<compensation::Position> cameras;  // where they stand; empty: as the calibration has it

@@ -169,6 +169,18 @@ class TestSettingsJson : public QObject {
              english(found.front()).c_str());
   }
 
+  /// Law: an even white is written as versions did that knew no other, so that nothing measured is out of
+  /// date; others come back.
+  void brightnessComesBack() {
+    CalibrateSettings settings;
+    QVERIFY(!stagesToJson(settings).at("content").contains("brightness"));
+    for (compensation::Brightness brightness : allValues<compensation::Brightness>()) {
+      settings.content.brightness = brightness;
+      QVERIFY(comeBack(settings).content == settings.content);
+      QVERIFY(targetOf(settings.content).brightness == brightness);
+    }
+  }
+
   void whatIsNamedTwiceIsAProblem_data() {
     QTest::addColumn<bool>("isScreen");
     QTest::addColumn<QByteArray>("sentence");
@@ -220,6 +232,7 @@ class TestSettingsJson : public QObject {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QByteArray>("known");
     QTest::newRow("method") << QByteArray(R"({"content":{"method":"magic"}})") << QByteArray("refined");
+    QTest::newRow("brightness") << QByteArray(R"({"content":{"brightness":"loud"}})") << QByteArray("region");
     QTest::newRow("objective") << QByteArray(R"({"content":{"objective":"guess"}})") << QByteArray("light");
     QTest::newRow("fit") << QByteArray(R"({"content":{"fit":"stretch"}})") << QByteArray("cover");
     QTest::newRow("scheme") << QByteArray(R"({"acquisition":{"scheme":"magic"}})") << QByteArray("adaptive");

@@ -75,7 +75,8 @@ class TestShowArguments : public QObject {
   void theDefaultsAreOff() {
     ShowSettings settings = parsed<PlayShow>({"show", "venue", "--content", "chart:grid"}).settings;
     QCOMPARE(settings.backend, BackendChoice::automatic);
-    QVERIFY(!settings.adaptiveRange && !settings.hours && settings.displays.isEmpty());
+    QVERIFY(!settings.adaptiveRange && !settings.brightness && !settings.hours &&
+            settings.displays.isEmpty());
     QVERIFY(!settings.osc && !settings.oscFeedback && settings.cameras.empty());
     QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
     QCOMPARE(settings.canvas.size, QSize(1920, 1080));
@@ -121,6 +122,13 @@ class TestShowArguments : public QObject {
     QVERIFY((again.osc == OscPlace{QHostAddress(QHostAddress::LocalHost), 7700}) && again.oscFeedback);
   }
 
+  void itsWhiteIsTheSame() {
+    const QStringList said{"show", "v", "--content", "chart:grid", "--brightness", "region"};
+    const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    QVERIFY(parsed<PlayShow>(said).settings.brightness == compensation::Brightness::region);
+    QVERIFY(parsed<PlayShow>(wanted.arguments).settings.brightness == compensation::Brightness::region);
+  }
+
   void isTakenAwayWithoutSayingWhat() {
     QCOMPARE(parsed<UninstallShow>({"show", "--remove-service"}).start, Start::service);
     QCOMPARE(parsed<UninstallShow>({"show", "--remove-autostart"}).start, Start::autostart);
@@ -129,9 +137,9 @@ class TestShowArguments : public QObject {
   void helpNamesEveryOption() {
     QString help = parsed<TextToPrint>({"--help"}).text;
     for (const char* option :
-         {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--backend",
-          "--log", "--osc", "--osc-address", "--osc-feedback", "--camera-position", "--install-service",
-          "--install-autostart", "--remove-service"})
+         {"--content", "--loop", "--schedule", "--screen", "--canvas", "--adaptive-range", "--brightness",
+          "--backend", "--log", "--osc", "--osc-address", "--osc-feedback", "--camera-position",
+          "--install-service", "--install-autostart", "--remove-service"})
       QVERIFY2(help.contains(option), option);
   }
 
@@ -146,6 +154,9 @@ class TestShowArguments : public QObject {
     QTest::newRow("unknown option") << right + QStringList{"--fast"} << "fast";
     QTest::newRow("no size") << right + QStringList{"--canvas", "7x7"} << "WIDTHxHEIGHT";
     QTest::newRow("no backend") << right + QStringList{"--backend", "fast"} << "automatic";
+    QTest::newRow("no brightness") << right + QStringList{"--brightness", "bright"} << "picture or region";
+    QTest::newRow("two brightnesses")
+        << right + QStringList{"--brightness", "even", "--adaptive-range"} << "one of them";
     QTest::newRow("no hours") << right + QStringList{"--schedule", "9-5"} << "HH:MM-HH:MM";
     QTest::newRow("no port") << right + QStringList{"--osc", "0"} << "1 to 65535";
     QTest::newRow("no number") << right + QStringList{"--osc", "desk"} << "1 to 65535";

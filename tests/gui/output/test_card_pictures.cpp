@@ -68,9 +68,9 @@ class TestCardPictures : public QObject {
 
   std::unique_ptr<EngineRenderer> rendererOf(const QString& venue, const MakeGlHost& host) {
     Progress silent;
-    return std::make_unique<EngineRenderer>(root() / venue.toStdString(),
-                                            Canvas{contentSize, compensation::Fit::fit}, false, silent,
-                                            FallbackBackend::Notify(), BackendChoice::openGl, host);
+    RendererSettings settings{root() / venue.toStdString(), {contentSize, compensation::Fit::fit}};
+    settings.backend = BackendChoice::openGl;
+    return std::make_unique<EngineRenderer>(settings, silent, FallbackBackend::Notify(), host);
   }
 
  private slots:

@@ -28,12 +28,14 @@ namespace {
 constexpr Size contentSize{64, 48};
 
 /// Saturated and dark colours: where the light of one camera pixel has more than one colour mixing they tell.
-QImage colours() {
+/// `share`: of their brightness.
+QImage colours(double share = 1.0) {
   QImage image(contentSize.width, contentSize.height, QImage::Format_RGBX8888);
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x)
       image.setPixelColor(x, y,
-                          QColor::fromHsv((23 * (x / 8)) % 360, 40 * (y / 8), 60 + 24 * ((x + y) / 16)));
+                          QColor::fromHsv((23 * (x / 8)) % 360, 40 * (y / 8),
+                                          static_cast<int>(share * (60 + 24 * ((x + y) / 16)))));
   return image;
 }
 
@@ -45,22 +47,31 @@ class TestEngineRenderer : public QObject {
   QTemporaryDir temporary_;
   fs::path root() const { return temporary_.path().toStdString(); }
 
-  RenderedFrame rendered(const char* venue, const Outdated& outdated) {
+  RendererSettings settingsOf(const char* venue, const std::vector<Position>& cameras = {}) {
+    RendererSettings settings{root() / venue, {{contentSize.width, contentSize.height}, Fit::fit}};
+    settings.backend = BackendChoice::cpu;
+    settings.cameras = cameras;
+    return settings;
+  }
+  RenderedFrame rendered(const char* venue, const Outdated& outdated,
+                         std::optional<Brightness> brightness = {}, double share = 1.0) {
     Progress silent;
-    EngineRenderer renderer(root() / venue, {{contentSize.width, contentSize.height}, Fit::fit}, false,
-                            silent, {}, BackendChoice::cpu);
+    RendererSettings settings = settingsOf(venue);
+    settings.brightness = brightness;
+    EngineRenderer renderer(settings, silent);
     RenderRequest request;
     request.thorough = true;
-    return renderer.render({colours(), 1}, request, outdated);
+    return renderer.render({colours(share), 1}, request, outdated);
   }
   /// The pipeline's drive by the same method, as a picture.
-  Image compensated(const char* venue) {
+  Image compensated(const char* venue, Brightness brightness) {
     Progress silent;
     colours().save(QString::fromStdString((root() / "colours.png").string()));
     CompensateSettings settings;
     settings.image = root() / "colours.png";
     settings.out = root() / (std::string(venue) + "-out");
     settings.target = targetOf(ContentSettings());
+    settings.target.brightness = brightness;
     compensate(root() / venue, settings, silent);
     return readPicture(settings.out / "pattern.png").encoded;
   }
@@ -83,14 +94,19 @@ class TestEngineRenderer : public QObject {
 
   void aPictureThatStandsIsThePipelines_data() {
     QTest::addColumn<QString>("venue");
-    QTest::newRow("corner") << "corner";
-    QTest::newRow("plain") << "plain";
+    QTest::addColumn<int>("brightness");
+    for (const char* venue : {"corner", "plain"})
+      for (Brightness brightness : allValues<Brightness>())
+        QTest::addRow("%s, %s", venue, nameOf(brightness).data()) << venue << static_cast<int>(brightness);
   }
   void aPictureThatStandsIsThePipelines() {
     QFETCH(QString, venue);
+    QFETCH(int, brightness);
     QByteArray name = venue.toUtf8();
-    RenderedFrame frame = rendered(name, [] { return false; });
-    Image wanted = compensated(name);
+    const auto way = static_cast<Brightness>(brightness);
+    RenderedFrame frame = rendered(
+        name, [] { return false; }, way);
+    Image wanted = compensated(name, way);
     QCOMPARE(frame.drives.size(), std::size_t{1});
     QCOMPARE(frame.drives[0].size(), QSize(wanted.width(), wanted.height()));
     const QImage drive = frame.drives[0].image();
@@ -109,8 +125,7 @@ class TestEngineRenderer : public QObject {
   void aViewerIsFollowed() {
     Progress silent;
     const std::vector<Position> places{{-1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-    EngineRenderer renderer(root() / "statue3", {{contentSize.width, contentSize.height}, Fit::fit}, false,
-                            silent, {}, BackendChoice::cpu, {}, places);
+    EngineRenderer renderer(settingsOf("statue3", places), silent);
     QVERIFY(renderer.cameras() == places);
     const Outdated needed = [] { return false; };
     RenderRequest request;
@@ -158,11 +173,53 @@ class TestEngineRenderer : public QObject {
     Progress silent;
     const auto sentence = sentenceOf(
         [&] {
-          EngineRenderer(root() / "statue3", {{contentSize.width, contentSize.height}, Fit::fit}, false,
-                         silent, {}, BackendChoice::cpu, {}, {{0, 0, 0}, {1, 0, 0}});
+          EngineRenderer(settingsOf("statue3", {{0, 0, 0}, {1, 0, 0}}), silent);
         },
         ErrorKind::input);
     QVERIFY(mentions(sentence, "2 positions are given, and the calibration has 3 cameras"));
+  }
+
+  /// Law: the engine's frames have the gains that the picture that stands has, and a range of its own that
+  /// goes with the content takes their place.
+  void framesInHasteHaveTheSameWhite() {
+    const Outdated outdated = [] { return true; }, needed = [] { return false; };
+    // Mean distance of codes: how far a frame in haste is from the solution, and one white from another.
+    const auto apart = [](const RenderedFrame& a, const RenderedFrame& b) {
+      const QImage one = a.drives[0].image(), other = b.drives[0].image();
+      double sum = 0.0;
+      for (int y = 0; y < one.height(); ++y)
+        for (int x = 0; x < one.width(); ++x)
+          for (int c = 0; c < 3; ++c)
+            sum += std::abs(one.constScanLine(y)[4 * x + c] - other.constScanLine(y)[4 * x + c]);
+      return sum / (3.0 * one.width() * one.height());
+    };
+    // Where a white of its own is another by codes: of a picture four times as bright it is another by less
+    // than one, and the engine's one colour mixing a pixel is off by as much.
+    constexpr double dark = 0.1;
+    for (const char* venue : {"corner", "plain"}) {
+      const RenderedFrame even = rendered(venue, needed, Brightness::even, dark);
+      for (Brightness way : {Brightness::picture, Brightness::region}) {
+        const RenderedFrame solved = rendered(venue, needed, way, dark),
+                            inHaste = rendered(venue, outdated, way, dark);
+        QVERIFY(inHaste.settled);
+        QVERIFY2(2.0 * apart(inHaste, solved) < apart(inHaste, even),
+                 qPrintable(QString("%1: %2 from its own, %3 from the even one")
+                                .arg(venue)
+                                .arg(apart(inHaste, solved))
+                                .arg(apart(inHaste, even))));
+      }
+      Progress silent;
+      RendererSettings settings = settingsOf(venue);
+      settings.adaptiveRange = true;
+      RenderRequest request;
+      request.seconds = 1e9;  // all steps
+      EngineRenderer ranged(settings, silent);
+      settings.brightness = Brightness::region;
+      EngineRenderer both(settings, silent);
+      QCOMPARE(
+          apart(both.render({colours(), 1}, request, needed), ranged.render({colours(), 1}, request, needed)),
+          0.0);
+    }
   }
 
   void outdatedItIsAFrameInHaste() {

@@ -5773,6 +5773,34 @@ projector %2</source>
         <source>Visibly worse because of other views</source>
         <translation>أسوأ بوضوح بسبب المشاهد الأخرى</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>موحّد</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>أبيض واحد لكل الصور، بأعلى سطوع يستطيع معظم السطح عرضه.</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>لكل صورة</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>لكل صورة الأبيض الذي يضيع عنده أقل قدر منها: تزداد الصور المعتمة سطوعًا، وتقل الساطعة.</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>لكل منطقة</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>الأمر نفسه لكل جزء من الصورة، بانتقال سلس بين الأجزاء: هكذا يضيع أقل قدر.</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>مقدار سطوع الأبيض</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

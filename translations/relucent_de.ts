@@ -5641,6 +5641,34 @@ Projektor %2</translation>
         <source>Visibly worse because of other views</source>
         <translation>Sichtbar schlechter wegen anderer Ansichten</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>Gleich</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>Ein Weiß für alle Bilder, so hell, wie der größte Teil der Oberfläche es zeigen kann.</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>Je Bild</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>Jedes Bild hat das Weiß, bei dem am wenigsten von ihm verloren geht: Dunkle werden heller, helle dunkler.</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>Je Bereich</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>Dasselbe für jeden Teil des Bildes, mit weichen Übergängen: So geht am wenigsten verloren.</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>Wie hell Weiß ist</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

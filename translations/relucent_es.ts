@@ -5641,6 +5641,34 @@ proyector %2</translation>
         <source>Visibly worse because of other views</source>
         <translation>Visiblemente peor por otras vistas</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>Uniforme</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>Un blanco para todas las imágenes, tan brillante como la mayor parte de la superficie pueda mostrarlo.</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>Por imagen</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>Cada imagen tiene el blanco con el que menos se pierde de ella: las oscuras ganan brillo, las claras lo ceden.</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>Por zona</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>Lo mismo para cada parte de la imagen, con transiciones suaves: así es como menos se pierde.</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>Lo brillante que es el blanco</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

@@ -5641,6 +5641,34 @@ projecteur %2</translation>
         <source>Visibly worse because of other views</source>
         <translation>Visiblement moins bon à cause des autres vues</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>Uniforme</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>Un seul blanc pour toutes les images, aussi clair que la plus grande partie de la surface peut le montrer.</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>Par image</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>Chaque image a le blanc avec lequel elle perd le moins : les sombres deviennent plus claires, les claires moins.</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>Par zone</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>De même pour chaque partie de l’image, avec des transitions douces : c’est ainsi que l’on perd le moins.</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>Luminosité du blanc</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

@@ -5641,6 +5641,34 @@ proiettore %2</translation>
         <source>Visibly worse because of other views</source>
         <translation>Visibilmente peggio per le altre viste</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>Uniforme</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>Un bianco per tutte le immagini, luminoso quanto la maggior parte della superficie può mostrarlo.</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>Per immagine</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>Ogni immagine ha il bianco con cui ne va perso il meno: quelle scure diventano più luminose, quelle chiare meno.</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>Per zona</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>Lo stesso per ogni parte dell’immagine, con passaggi graduali: è così che va perso il meno.</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>Quanto è luminoso il bianco</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

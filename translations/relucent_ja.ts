@@ -5608,6 +5608,34 @@ projector %2</source>
         <source>Visibly worse because of other views</source>
         <translation>ほかの視点のために目に見えて悪い部分</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>一様</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>すべての画像に一つの白を使います。投影面の大部分で表示できる明るさです。</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>画像ごと</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>失われる部分が最も少なくなる白を画像ごとに使います。暗い画像は明るく、明るい画像は暗くなります。</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>領域ごと</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>画像の部分ごとに同じことを行い、滑らかにつなぎます。失われる部分が最も少なくなります。</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>白の明るさ</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

@@ -5608,6 +5608,34 @@ projector %2</source>
         <source>Visibly worse because of other views</source>
         <translation>因其他视角而明显变差</translation>
     </message>
+    <message>
+        <source>Even</source>
+        <translation>统一</translation>
+    </message>
+    <message>
+        <source>One white for all pictures, as bright as most of the surface can show it.</source>
+        <translation>所有画面使用同一个白色，亮度以大部分表面能够显示为准。</translation>
+    </message>
+    <message>
+        <source>By picture</source>
+        <translation>按画面</translation>
+    </message>
+    <message>
+        <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
+        <translation>每幅画面使用损失最少的白色：暗的画面变亮，亮的画面变暗。</translation>
+    </message>
+    <message>
+        <source>By region</source>
+        <translation>按区域</translation>
+    </message>
+    <message>
+        <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
+        <translation>对画面的每个部分同样处理，并平滑过渡：损失最少。</translation>
+    </message>
+    <message>
+        <source>How bright white is</source>
+        <translation>白色的亮度</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::Session</name>

@@ -30,8 +30,21 @@ std::shared_ptr<const image::Image> contentFor(const pipeline::ContentSettings& 
   return std::make_shared<image::Image>(linearContentOf(defaultPicture()));
 }
 
-/// Per pixel of a camera, the brightest light that the projectors give, as a share of the content's white.
-std::vector<float> reachOf(const compensation::MeasuredVenue& venue, std::size_t camera, float white) {
+/// Of white over the content's pixels, in all views: the geometric mean of its gains.
+float meanGain(const compensation::Target& target) {
+  double octaves = 0.0, pixels = 0.0;
+  for (std::size_t i = 0; i < target.gain.size(); ++i) {
+    if (!target.inside[i]) continue;
+    octaves += std::log2(static_cast<double>(target.gain[i]));
+    pixels += 1.0;
+  }
+  return pixels > 0.0 ? static_cast<float>(std::exp2(octaves / pixels)) : 1.0f;
+}
+
+/// Per pixel of a camera, the brightest light that the projectors give, as a share of the content's white
+/// there.
+std::vector<float> reachOf(const compensation::MeasuredVenue& venue, const compensation::Target& target,
+                           std::size_t camera) {
   const Rasters& cameras = venue.transport.cameras();
   std::vector<float> reach(cameras.size(camera).count());
   const std::size_t offset = cameras.offset(camera);
@@ -39,7 +52,8 @@ std::vector<float> reachOf(const compensation::MeasuredVenue& venue, std::size_t
     float brightest = std::numeric_limits<float>::infinity();
     for (std::size_t c = 0; c < 3; ++c)
       brightest = std::min(brightest, venue.flood[3 * (offset + i) + c] + venue.black[3 * (offset + i) + c]);
-    reach[i] = brightest / white;
+    const float gain = target.gain.empty() ? 1.0f : target.gain[offset + i];
+    reach[i] = brightest / (target.white[0] * gain);
   }
   return reach;
 }
@@ -56,8 +70,8 @@ double ssimOf(const CameraStack& seen, const compensation::Target& target, const
                                        cameras.size(camera).count());
   if (std::none_of(inside.begin(), inside.end(), [](std::uint8_t in) { return in != 0; }))
     return std::numeric_limits<double>::quiet_NaN();
-  return ssim(image::viewed(image::imageFromStack(seen, cameras, camera), target.white),
-              image::viewed(image::imageFromStack(target.wanted, cameras, camera), target.white), inside);
+  return ssim(image::viewed(underEvenWhite(seen, target, cameras, camera), target.white),
+              image::viewed(underEvenWhite(target.wanted, target, cameras, camera), target.white), inside);
 }
 
 double weightOf(const compensation::Target& target, std::size_t camera) {
@@ -72,7 +86,7 @@ ViewPreview viewOf(std::size_t camera, const compensation::MeasuredVenue& venue,
   view.with = image::imageFromStack(with, cameras, camera);
   view.without = image::imageFromStack(without, cameras, camera);
   view.deltaE = std::move(error.deltaE);
-  view.reach = reachOf(venue, camera, target.white[0]);
+  view.reach = reachOf(venue, target, camera);
   view.inside = maskOf(target.inside, cameras, camera);
   view.reachable = maskOf(target.reachable, cameras, camera);
   view.reachableShare = error.reachable;
@@ -121,7 +135,7 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
   preview->picture = settings.picture;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
     preview->views.push_back(viewOf(camera, venue, target, without.camera, with.camera));
-  preview->white = target.white[0];
+  preview->white = target.white[0] * meanGain(target);
   preview->blackLift = target.blackLift;
   preview->corners = target.corners;
   preview->reachableShare = with.reachable;

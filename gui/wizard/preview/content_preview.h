@@ -25,7 +25,7 @@ struct MethodPreview {
 struct ViewPreview {
   image::Image without, with;  // predicted: nothing corrected, and by the chosen method
   image::Image deltaE;         // CIEDE2000; NaN outside the content
-  std::vector<float> reach;    // brightest possible, as a share of the content's white
+  std::vector<float> reach;    // brightest possible, as a share of the content's white there
   CameraMask reachable, inside;
   double reachableShare = 0.0, deltaEMean = 0.0, psnr = 0.0;
   double weight = 1.0;                           // of this view in the solve, the heaviest is 1
@@ -36,9 +36,9 @@ struct ViewPreview {
 struct ContentPreview {
   std::vector<ViewPreview> views;
   const ViewPreview& first() const { return views.front(); }
-  float white = 1.0f;
-  double blackLift = 0.0;                                                    // share of white added to black
-  compensation::Corners corners{};                                           // in the first view
+  float white = 1.0f;               // mean over the content: what an eye gets used to
+  double blackLift = 0.0;           // share of white added to black
+  compensation::Corners corners{};  // in the first view
   double reachableShare = 0.0, clipped = 0.0, deltaEMean = 0.0, psnr = 0.0;  // of the first view
   double tooDark = 0.0, tooBright = 0.0;        // with what is reachable, the whole content
   double unlit = 0.0;                           // share of the content that no projector lights

@@ -31,6 +31,24 @@ QString expectationText(const PreviewPage& page) {
       .arg(decibels(chosen->psnr), decibels(*expected));
 }
 
+struct BrightnessText {
+  compensation::Brightness value;
+  QString name, sentence;
+};
+
+/// In the order of the buttons.
+std::array<BrightnessText, 3> brightnessTexts() {
+  using compensation::Brightness;
+  return {{{Brightness::even, PreviewPage::tr("Even"),
+            PreviewPage::tr("One white for all pictures, as bright as most of the surface can show it.")},
+           {Brightness::picture, PreviewPage::tr("By picture"),
+            PreviewPage::tr("Each picture has the white at which the least of it is lost: dark ones become "
+                            "brighter, bright ones dimmer.")},
+           {Brightness::region, PreviewPage::tr("By region"),
+            PreviewPage::tr("The same for each part of the picture, smoothly from one to the next: the least "
+                            "is lost of all.")}}};
+}
+
 }  // namespace
 
 QWidget* previewInspector(PreviewPage& page) {
@@ -57,6 +75,14 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addWidget(lineOf());
   column->addWidget(viewsPart(page));
   column->addWidget(labelOf(PreviewPage::tr("Light"), "section"));
+  const std::array whites = brightnessTexts();
+  auto* white = new Segmented({whites[0].name, whites[1].name, whites[2].name});
+  white->setObjectName("white");
+  white->setAccessibleName(PreviewPage::tr("How bright white is"));
+  column->addWidget(white);
+  QLabel* whiteSentence = labelOf({}, "note");
+  whiteSentence->setObjectName("white-sentence");
+  column->addWidget(whiteSentence);
   auto* bright = new ValueRow(PreviewPage::tr("May stay too dark"));
   auto* brightness = new QSlider(Qt::Horizontal);
   brightness->setRange(0, 60);
@@ -107,6 +133,11 @@ QWidget* previewInspector(PreviewPage& page) {
     apply(PreviewPage::tr("Fit"),
           [index](pipeline::ContentSettings& s) { s.fit = fits[static_cast<std::size_t>(index)]; });
   });
+  QObject::connect(white, &Segmented::chosen, &page, [apply, whites](int index) {
+    apply(PreviewPage::tr("Brightness"), [&](pipeline::ContentSettings& s) {
+      s.brightness = whites[static_cast<std::size_t>(index)].value;
+    });
+  });
   QObject::connect(brightness, &QSlider::valueChanged, &page, [apply](int value) {
     apply(PreviewPage::tr("Brightness"),
           [value](pipeline::ContentSettings& s) { s.reachablePercentile = value; });
@@ -125,6 +156,10 @@ QWidget* previewInspector(PreviewPage& page) {
     const pipeline::ContentSettings& settings = page.settings();
     name->setText(page.pictureName());
     fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
+    const auto chosen = std::ranges::find(whites, settings.brightness, &BrightnessText::value);
+    white->setCurrent(static_cast<int>(chosen - whites.begin()));
+    whiteSentence->setText(chosen->sentence);
+    white->setAccessibleDescription(chosen->sentence);
     QSignalBlocker quietBrightness(brightness), quietLift(lift), quietLeast(least);
     brightness->setValue(static_cast<int>(settings.reachablePercentile));
     // Of one projector there is nothing to hide.

@@ -72,6 +72,7 @@ class TestWhatPlays : public QObject {
     row("clusters", true, [](Settings& s) { s.clustering.patchRadius += 1.0; });
     row("method", true, [](Settings& s) { s.content.method = compensation::Method::none; });
     row("blacks", true, [](Settings& s) { s.content.blackLift = 0.1; });
+    row("white", true, [](Settings& s) { s.content.brightness = compensation::Brightness::region; });
     row("nothing", false, [](Settings&) {});
     // Which pictures play is the playlist's.
     row("picture", false, [](Settings& s) { s.content.picture = "another.png"; });

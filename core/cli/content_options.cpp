@@ -193,6 +193,10 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
       ->type_name("FILE");
   addNamed(sub, "--method", "Only these methods; may be given several times", command->settings.methods)
       ->type_name("METHOD");
+  addNamed(sub, "--rival",
+           "What others do, besides; may be given several times: " + listOfNames<compensation::Rival>(),
+           command->settings.rivals)
+      ->type_name("RIVAL");
   sub->add_flag(
       "--blended", command->settings.blended,
       "Of several projectors: compare with each solved on its own, blended by cosine ramps, and alone");

@@ -118,10 +118,11 @@ std::string textOf(const pipeline::CompensateResult& result) {
 
 namespace {
 
-/// Projectors on their own below the methods.
+/// Projectors on their own below the methods; below that what others do.
 std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods,
                     const std::optional<pipeline::MethodScore>& blended = {},
-                    const std::vector<pipeline::AloneScore>& alone = {}) {
+                    const std::vector<pipeline::AloneScore>& alone = {},
+                    const std::vector<pipeline::RivalScore>& rivals = {}) {
   std::string text =
       fmt::format("\n{:<12} {:>14} {:>9} {:>10} {:>7} {:>8} {:>7} {:>9} {:>9}\n{:<12} {:>14} {:>9} {:>10}\n",
                   title, "reachable dB", "all dB", "encoded dB", "SSIM", "MS-SSIM", "dE2000", "dE 95 %",
@@ -135,6 +136,7 @@ std::string tableOf(const std::string& title, const std::vector<pipeline::Method
   if (blended) add("blended", *blended);
   for (std::size_t k = 0; k < alone.size(); ++k)
     if (alone[k].optimum) add(fmt::format("{} alone", k + 1), *alone[k].optimum);
+  for (const pipeline::RivalScore& rival : rivals) add(nameOf(rival.rival), rival.score);
   for (std::size_t k = 0; k < alone.size(); ++k)
     text += fmt::format("Projector {} alone reaches {:.1f} % of it.\n", k + 1, 100.0 * alone[k].reachable);
   return text;
@@ -146,10 +148,11 @@ std::string textOf(const pipeline::EvaluateResult& result) {
   std::string text =
       fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
   for (const pipeline::ImageScore& image : result.images) {
-    text += tableOf(image.name, image.methods, image.blended, image.alone);
+    text += tableOf(image.name, image.methods, image.blended, image.alone, image.rivals);
     for (std::size_t view = 0; view < image.others.size(); ++view) {
       const pipeline::ViewScore& other = image.others[view];
-      text += tableOf(fmt::format("camera {}", view + 2), other.methods, other.blended, other.alone);
+      text += tableOf(fmt::format("camera {}", view + 2), other.methods, other.blended, other.alone,
+                      other.rivals);
     }
     for (std::size_t place = 0; place < image.unseen.size(); ++place)
       text += tableOf(fmt::format("unseen {}", place + 1), image.unseen[place].methods);

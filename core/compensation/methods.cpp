@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/compensation/methods.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/compensation/correspondence.h"
+#include "relucent/compensation/pixel_mixing.h"
 #include "relucent/compensation/stacks.h"
 
 namespace relucent::compensation {
@@ -85,13 +85,9 @@ ProjectorStack Compensator::perPixel(Method method, const Target& target,
         }
         break;
       case Method::mix:
-      case Method::sharpen: {
-        Eigen::Matrix3f inverse;
-        bool invertible = false;
-        Eigen::Matrix3f(mixing_[i]).computeInverseWithCheck(inverse, invertible, 1e-12f);
-        if (invertible) drive = inverse * residual;
+      case Method::sharpen:
+        drive = inverseMixing(mixing_[i]) * residual;
         break;
-      }
       default:
         drive = Colour(&target.content[3 * i]);
     }

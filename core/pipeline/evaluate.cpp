@@ -21,6 +21,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/reduction/reduced_transport.h"
 #include "relucent/transport/difference.h"
@@ -309,6 +310,30 @@ void judgeApart(const compensation::Compensator& compensator, const compensation
   }
 }
 
+/// What others do with a picture, in all views.
+void judgeRivals(compensation::RivalCompensator& rivals, const std::vector<compensation::Rival>& wanted,
+                 const compensation::Target& target, const CameraMask& reachable, const Judge& judge,
+                 ImageScore& score, Progress& progress) {
+  for (const compensation::Rival rival : wanted) {
+    Progress solving = progress.part(
+        0.0, RELUCENT_ENGLISH_MESSAGE("stage.picture-and-method", "{}: {}").with(score.name, nameOf(rival)));
+    const int before = rivals.photographs(rival);
+    Stopwatch watch;
+    const compensation::Compensation compensation = rivals.solve(rival, target, solving);
+    const double seconds = watch.seconds();
+    // Those of even colours serve every picture.
+    const int taken = rivals.photographs(rival) - (rival == compensation::Rival::robust ? 0 : before);
+    const CameraStack seen = judge.seen(compensation);
+    for (std::size_t camera = 0; camera < judge.views(); ++camera) {
+      std::optional<MethodScore> of =
+          judge.scoreOf(compensation::Method::none, seen, target, reachable, camera);
+      if (!of) continue;
+      of->seconds = seconds;
+      (camera == 0 ? score.rivals : score.others[camera - 1].rivals).push_back({rival, taken, *of});
+    }
+  }
+}
+
 }  // namespace
 
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
@@ -317,6 +342,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   std::vector<compensation::Method> methods = methodsOf(settings);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-venue", "Preparing the venue"));
   OpenedRig devices = openedVenue(measured, cache, opening);
+  ProjectionPhotographs photographs(devices.rig, measured, "rivals");
   const venue::SimulatedVenue& venue = devices.venue.value();
 
   Evaluation evaluation;
@@ -330,6 +356,11 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   Progress tracing = progress.part(0.1, RELUCENT_MESSAGE("stage.preparing-venue", "Preparing the venue"));
   const std::optional<UnseenPlaces> unseen = UnseenPlaces::of(measured, venue, tracing);
   compensation::Compensator compensator(measured.venue, measured.inverse, settings.compensator);
+  Progress photographing;
+  compensation::RivalCompensator rivals(
+      compensator, measured.inverse,
+      [&](const ProjectorStack& linear) { return photographs.of(linear, photographing); },
+      settings.rivalSettings);
   Progress judging = progress.part(0.7, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
   for (const NamedImage& image : content) {
@@ -385,6 +416,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
         score.contradiction = {contradiction.share, contradiction.shares};
       }
     }
+    judgeRivals(rivals, settings.rivals, target, reachable, judge, score, judging);
     if (settings.blended) {
       Progress solving = judging.part(
           0.0, RELUCENT_ENGLISH_MESSAGE("stage.solving-separately", "{}: each projector on its own")

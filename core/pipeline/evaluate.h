@@ -9,6 +9,7 @@
 #include "relucent/base/progress.h"
 #include "relucent/base/raster.h"
 #include "relucent/compensation/methods.h"
+#include "relucent/compensation/rivals.h"
 #include "relucent/compensation/seams.h"
 #include "relucent/compensation/target.h"
 #include "relucent/pipeline/compensate.h"
@@ -20,6 +21,9 @@ struct EvaluateSettings {
   std::vector<std::filesystem::path> images;  // none: judgedImages()
   bool fewImages = false;                     // without `images`: standardImages() alone
   std::vector<compensation::Method> methods;  // none: all of them
+  /// What others do, besides; some of them take photographs by the simulated devices, as one would there.
+  std::vector<compensation::Rival> rivals{};
+  compensation::RivalSettings rivalSettings{};
   compensation::TargetSettings target;
   compensation::CompensatorSettings compensator;
   /// Whether several projectors are also compared with each of them solved on its own and blended, and with
@@ -51,6 +55,13 @@ struct AloneScore {
   std::optional<MethodScore> optimum{};  // over the pixels that all projectors together reach
 };
 
+/// The same of what others do.
+struct RivalScore {
+  compensation::Rival rival = compensation::Rival::corrected;
+  int photographs = 0;  // that it took: of this picture, or, of `robust`, of the venue
+  MethodScore score{};  // its `method` says nothing
+};
+
 /// What another camera, or a viewer where none stands, sees of an image on the surface. Without methods it is
 /// nothing of it.
 struct ViewScore {
@@ -58,6 +69,7 @@ struct ViewScore {
   std::vector<MethodScore> methods;
   std::optional<MethodScore> blended{};  // each projector's optimum on its own, under cosine ramps
   std::vector<AloneScore> alone{};       // projector after projector
+  std::vector<RivalScore> rivals{};
 };
 
 /// What the first camera sees, in whose view the image lies.
@@ -67,6 +79,7 @@ struct ImageScore {
   std::vector<MethodScore> methods;
   std::optional<MethodScore> blended{};  // as ViewScore
   std::vector<AloneScore> alone{};       // likewise
+  std::vector<RivalScore> rivals{};      // likewise
   std::vector<ViewScore> others{};       // camera after camera
   std::vector<ViewScore> unseen{};       // what viewers see who stand where no camera does, place after place
   std::optional<ContradictionShares> contradiction{};  // of several views, as the last method has it

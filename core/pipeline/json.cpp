@@ -54,9 +54,18 @@ void addApart(const Score& score, calibration::Json& json) {
   }
 }
 
+/// Nothing where nobody asked for them.
+void addRivals(calibration::Json& json, const std::vector<RivalScore>& rivals) {
+  for (const RivalScore& rival : rivals) {
+    calibration::Json& entry = json["rivals"][std::string(nameOf(rival.rival))] = methodToJson(rival.score);
+    entry["photographs"] = rival.photographs;
+  }
+}
+
 calibration::Json viewToJson(const ViewScore& view) {
   calibration::Json json{{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}};
   addApart(view, json);
+  addRivals(json, view.rivals);
   return json;
 }
 
@@ -87,6 +96,7 @@ calibration::Json scoreToJson(const ImageScore& image) {
   for (const ViewScore& view : image.others) json["other_views"].push_back(viewToJson(view));
   for (const ViewScore& view : image.unseen) json["unseen_places"].push_back(viewToJson(view));
   addApart(image, json);
+  addRivals(json, image.rivals);
   if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
   return json;
 }

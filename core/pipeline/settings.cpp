@@ -225,6 +225,7 @@ Problems problems(const EvaluateSettings& settings) {
   Problems found;
   checkTarget(found, settings.target);
   append(found, problems(settings.compensator));
+  append(found, problems(settings.rivalSettings));
   append(found, problems(settings.walk));
   return found;
 }

@@ -248,6 +248,9 @@ class TestArguments : public QObject {
     QVERIFY((evaluate.settings.methods == std::vector{Method::mix, Method::refined}));
     QVERIFY(!evaluate.settings.blended && parsed<Evaluate>("evaluate d --blended").settings.blended);
     QVERIFY(parsed<Evaluate>("evaluate d").settings.methods.empty());
+    QVERIFY(parsed<Evaluate>("evaluate d").settings.rivals.empty());
+    QVERIFY((parsed<Evaluate>("evaluate d --rival robust --rival corrected").settings.rivals ==
+             std::vector{Rival::robust, Rival::corrected}));
     const WalkSettings walk = parsed<Evaluate>("evaluate d --walk 24 --film f").settings.walk;
     QVERIFY(walk.frames == 24 && walk.film == "f");
     QCOMPARE(parsed<Evaluate>("evaluate d").settings.walk.frames, 0);

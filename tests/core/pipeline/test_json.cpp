@@ -118,7 +118,7 @@ class TestJson : public QObject {
     result.images[0].unseen = {{0.5, {score}}};
     result.images[0].blended = score;
     result.images[0].alone = {{0.25, score}, {0.5, std::nullopt}};
-    result.images[0].others = {{0.75, {score}, score}};
+    result.images[0].others = {{0.75, {score}, score, {}, {{Rival::robust, 64, score}}}};
     result.seams = {{0.25,
                      Method::refined,
                      {.mean = 0.5, .p95 = 1.5, .elsewhere = 0.375, .elsewhereP95 = 0.75, .edgeP95 = 1.25},
@@ -131,6 +131,9 @@ class TestJson : public QObject {
     QCOMPARE(image["alone"][0]["optimum"]["delta_e"].get<double>(), 2.0);
     QCOMPARE(image["alone"][1].dump(), R"({"reachable":0.5})");
     QCOMPARE(image["other_views"][0]["blended"]["psnr_all"].get<double>(), 29.0);
+    QCOMPARE(image["other_views"][0]["rivals"]["robust"]["psnr_all"].get<double>(), 29.0);
+    QCOMPARE(image["other_views"][0]["rivals"]["robust"]["photographs"].get<int>(), 64);
+    QVERIFY(!image.contains("rivals"));
     QCOMPARE(document["seams"][0].dump(),
              std::string(
                  R"({"grey":0.25,"method":"refined","joint":{"mean":0.5,"p95":1.5,"elsewhere":0.375,)"

@@ -273,6 +273,34 @@ class TestPipeline : public QObject {
     }
   }
 
+  /// Rivals see the venue by its simulated camera alone: their photographs are counted, the same again give
+  /// the same bits, and with photographs of correction mix comes nearer.
+  void evaluatesRivals() {
+    EvaluateSettings settings;
+    settings.fewImages = true;
+    settings.methods = {Method::mix};
+    settings.rivals = allValues<Rival>();
+    settings.rivalSettings.levels = 2;
+    Progress silent;
+    const EvaluateResult result = evaluate(root() / "plain", settings, cache(), silent),
+                         again = evaluate(root() / "plain", settings, cache(), silent);
+    double mixed = 0.0, corrected = 0.0;
+    for (std::size_t k = 0; k < result.images.size(); ++k) {
+      const ImageScore& image = result.images[k];
+      QCOMPARE(image.rivals.size(), settings.rivals.size());
+      for (std::size_t r = 0; r < image.rivals.size(); ++r) {
+        QVERIFY(image.rivals[r].rival == settings.rivals[r]);
+        QCOMPARE(image.rivals[r].score.psnrAll, again.images[k].rivals[r].score.psnrAll);
+      }
+      QCOMPARE(image.rivals[0].photographs, settings.rivalSettings.corrections);
+      QCOMPARE(image.rivals[1].photographs, 8);
+      QCOMPARE(image.rivals[2].photographs, 0);
+      mixed += image.methods.front().psnrReachable;
+      corrected += image.rivals[0].score.psnrReachable;
+    }
+    QVERIFY2(corrected > mixed, qPrintable(QString("%1 %2").arg(corrected).arg(mixed)));
+  }
+
   void evaluatesEveryMethodInOrder() {
     EvaluateSettings settings;
     Progress silent;

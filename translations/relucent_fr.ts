@@ -5655,7 +5655,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Each picture has the white at which the least of it is lost: dark ones become brighter, bright ones dimmer.</source>
-        <translation>Chaque image a le blanc avec lequel elle perd le moins : les sombres deviennent plus claires, les claires moins.</translation>
+        <translation>Chaque image a le blanc avec lequel elle perd le moins&#x202f;: les sombres deviennent plus claires, les claires moins.</translation>
     </message>
     <message>
         <source>By region</source>
@@ -5663,7 +5663,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>The same for each part of the picture, smoothly from one to the next: the least is lost of all.</source>
-        <translation>De même pour chaque partie de l’image, avec des transitions douces : c’est ainsi que l’on perd le moins.</translation>
+        <translation>De même pour chaque partie de l’image, avec des transitions douces&#x202f;: c’est ainsi que l’on perd le moins.</translation>
     </message>
     <message>
         <source>How bright white is</source>

@@ -5,6 +5,8 @@
 #include <QDesktopServices>
 #include <QLineEdit>
 #include <QMimeData>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTableWidget>
 #include <QTemporaryDir>
@@ -166,8 +168,15 @@ class TestWizardWindow : public QObject {
     wizard_->page<VenuePage>().chooseScreen({{"DUMMY1", "", "", ""}, {64, 48}, 60.0, "Screen 1", {}});
     QCOMPARE(wizard_->page<VenuePage>().problem(), VenuePage::tr("Confirm that the room is clear."));
     auto* tick = find<QAbstractButton>("room-is-clear");
-    wizard_->window().resize(1100, 700);  // the tick is below the edge
+    wizard_->window().resize(1100, 560);
     auto inSight = [tick] { return tick->visibleRegion().boundingRect() == tick->rect(); };
+    QTRY_VERIFY(inSight());
+    // Somebody has scrolled to what stands below it.
+    const QScrollArea* scroll = nullptr;
+    for (QWidget* around = tick; around != nullptr && scroll == nullptr; around = around->parentWidget())
+      scroll = qobject_cast<QScrollArea*>(around);
+    QVERIFY(scroll != nullptr);
+    scroll->verticalScrollBar()->setValue(scroll->verticalScrollBar()->maximum());
     QTRY_VERIFY(!inSight());
     QTest::mouseClick(find<QLabel>("hint"), Qt::LeftButton);
     QVERIFY(tick->hasFocus());

@@ -123,6 +123,8 @@ class TestViewPlaces : public QObject {
     settle();
     page_->primary()->trigger();
     own_.session.open(own_.path("venue"));
+    page_->enter();
+    settle();
     QVERIFY(page_->areCamerasPlaced() && page_->viewer());
     QVERIFY(std::abs(page_->viewerOnPath() - 0.5) < 1e-9);
     QVERIFY(page_->cameraPositions()[1] == (Position{0.5, 4.0, 0.0}));

@@ -99,31 +99,12 @@ std::vector<compensation::ViewSettings> viewsFromJson(const Sorted& settings) {
   return views;
 }
 
-/// Of content whose white follows the picture.
-compensation::Brightness brightnessFromJson(const Sorted& settings) {
-  auto content = settings.find("content");
-  if (content == settings.end()) return compensation::Brightness::even;
-  return content->value("brightness", compensation::Brightness::even);
-}
-
-/// Of content whose place somebody chose: four pairs x, y.
-std::optional<compensation::Corners> cornersFromJson(const Sorted& settings) {
-  auto content = settings.find("content");
-  if (content == settings.end() || !content->contains("corners")) return std::nullopt;
-  return content->at("corners").get<compensation::Corners>();
-}
-
-std::optional<compensation::Position> viewerFromJson(const Sorted& settings) {
-  auto content = settings.find("content");
-  if (content == settings.end() || !content->contains("viewer")) return std::nullopt;
-  return content->at("viewer").get<compensation::Position>();
-}
-
-/// Where somebody chose it; versions that knew no other choice always wrote it.
-std::optional<double> blackLiftFromJson(const Sorted& settings) {
-  auto content = settings.find("content");
-  if (content == settings.end() || !content->contains("blackLift")) return std::nullopt;
-  return content->at("blackLift").get<double>();
+/// What content need not say; none: it does not.
+template <typename Value>
+std::optional<Value> ofContent(const Sorted& settings, const char* key) {
+  const auto content = settings.find("content");
+  if (content == settings.end() || !content->contains(key)) return std::nullopt;
+  return content->at(key).get<Value>();
 }
 
 /// A calibration of a version that knew no other has all of them.
@@ -198,8 +179,8 @@ Sorted commandRigToJson(const CommandRigSettings& settings) {
   for (const CommandRigSettings::Projector& projector : settings.moreProjectors)
     json["more_projectors"].push_back({{"command", projector.command}, {"size", projector.size}});
   for (const CommandRigSettings::Camera& camera : settings.moreCameras) {
-    Sorted& more = json["more_cameras"].emplace_back(
-        Sorted{{"command", camera.command}, {"address", camera.address}});
+    Sorted& more =
+        json["more_cameras"].emplace_back(Sorted{{"command", camera.command}, {"address", camera.address}});
     if (camera.size) more["size"] = *camera.size;
   }
   return json;
@@ -435,11 +416,13 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.chooseRidge = sorted.value("choose_ridge", settings.chooseRidge);
     settings.clustering = sorted.value("clustering", settings.clustering);
     settings.content = sorted.value("content", settings.content);
-    settings.content.corners = cornersFromJson(sorted);
-    settings.content.blackLift = blackLiftFromJson(sorted);
+    settings.content.corners = ofContent<compensation::Corners>(sorted, "corners");
+    // Versions that did not find it by themselves always wrote it.
+    settings.content.blackLift = ofContent<double>(sorted, "blackLift");
     settings.content.views = viewsFromJson(sorted);
-    settings.content.viewer = viewerFromJson(sorted);
-    settings.content.brightness = brightnessFromJson(sorted);
+    settings.content.viewer = ofContent<compensation::Position>(sorted, "viewer");
+    settings.content.brightness =
+        ofContent<compensation::Brightness>(sorted, "brightness").value_or(compensation::Brightness::even);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

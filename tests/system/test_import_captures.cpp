@@ -17,11 +17,15 @@ class TestImportCaptures : public QObject {
   }
   void predictsWhatItWasNotShown_data() {
     QTest::addColumn<QString>("capture");
-    QTest::addRow("capture_0") << "capture_0";
-    QTest::addRow("capture_2") << "capture_2";
+    QTest::addColumn<QString>("pixels");  // of the camera that are used
+    QTest::addRow("capture_0") << "capture_0"
+                               << "all";
+    QTest::addRow("capture_2, binned") << "capture_2"
+                                       << "1/4";
   }
   void predictsWhatItWasNotShown() {
     QFETCH(QString, capture);
+    QFETCH(QString, pixels);
     QString data = qEnvironmentVariable("RELUCENT_SHARED_DATA") + "/graycode-captures";
     if (!QFile::exists(data + "/graycode_pattern"))
       QSKIP(qPrintable("the real captures are not here: " + data));
@@ -29,7 +33,7 @@ class TestImportCaptures : public QObject {
     QProcess process;
     process.start(QCoreApplication::applicationDirPath() + "/relucent-cli",
                   {"import", folder.filePath("calibration"), "--patterns", data + "/graycode_pattern",
-                   "--photographs", data + "/" + capture, "--json"});
+                   "--photographs", data + "/" + capture, "--camera-pixels", pixels, "--json"});
     // A minute or two on a free machine.
     QVERIFY(process.waitForFinished(1'500'000));
     QVERIFY2(process.exitCode() == 0, process.readAllStandardError().constData());

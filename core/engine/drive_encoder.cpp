@@ -58,7 +58,8 @@ DriveEncoder::DriveEncoder(const linearization::ProjectorResponse& response, int
     light_.push_back(2.0f);
   }
   if (dither == Dither::ordered) threshold_ = orderedThresholds(side);
-  if (dither == Dither::blueNoise) threshold_ = blueNoise(side);
+  static const std::vector<float> noise = blueNoise(side);  // the same for every projector
+  if (dither == Dither::blueNoise) threshold_ = noise;
 }
 
 /// What encoding looks up for one channel of one line.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -134,7 +135,7 @@ inline const std::vector<std::string>& engineSceneNames() {
   return names;
 }
 
-inline EngineScene engineSceneOf(const std::string& name) {
+inline EngineScene madeEngineScene(const std::string& name) {
   if (name == "several devices") return engineScene(severalDevices(3));
   if (name == "several views") {
     compensation::MeasuredVenue venue = severalDevices(3);
@@ -183,6 +184,13 @@ inline EngineScene engineSceneOf(const std::string& name) {
     return engineScene(venueOf(std::move(scene)));
   }
   return engineScene(venueOf(makeScene(settings)));
+}
+
+/// Made once for all rows of a test: its windows take longer than most of what is done with them.
+inline EngineScene engineSceneOf(const std::string& name) {
+  static std::map<std::string, EngineScene> made;
+  if (!made.contains(name)) made.emplace(name, madeEngineScene(name));
+  return made.at(name);
 }
 
 }  // namespace relucent::synthetic

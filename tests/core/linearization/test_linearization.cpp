@@ -7,6 +7,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/linearization/linearization.h"
+#include "support/sanitized.h"
 #include "support/scripted_rig.h"
 
 using namespace relucent;
@@ -262,7 +263,7 @@ class TestLinearization : public QObject {
     };
     // In the same place each one's light is noise of the others: every kind of rig is there. Side by side
     // they share no more than far light: one row each for brightness, time and number. A row takes seconds,
-    // ten times as long under sanitizers.
+    // ten times as long under sanitizers, which see every third.
     constexpr bool inTheSamePlace = false, sideBySide = true;
     const std::vector<Row> rows{
         {"one", inTheSamePlace, {plain}},
@@ -279,8 +280,9 @@ class TestLinearization : public QObject {
         {"three", sideBySide, {plain, uneven, dimming}}};
     quint64 seed = 0;
     for (const Row& row : rows)
-      QTest::addRow("%s, %s", row.name, row.sideBySide ? "side by side" : "in the same place")
-          << row.projectors << row.sideBySide << ++seed;
+      if (++seed; !isSanitized || seed % 3 == 0)
+        QTest::addRow("%s, %s", row.name, row.sideBySide ? "side by side" : "in the same place")
+            << row.projectors << row.sideBySide << seed;
   }
   void severalProjectorsAreRecovered() {
     QFETCH(std::vector<ScriptedProjector>, projectors);
@@ -323,7 +325,7 @@ class TestLinearization : public QObject {
     for (bool sideBySide : {false, true})
       for (int which : {0, 1})
         for (int fault = 0; fault < 3; ++fault)
-          if (sideBySide == (which == 1))
+          if (sideBySide == (which == 1) && (!isSanitized || (fault + which) % 3 == 0))
             QTest::addRow("%s in projector %d, %s", faults[static_cast<std::size_t>(fault)].first, which + 1,
                           sideBySide ? "side by side" : "in the same place")
                 << fault << which << sideBySide << faults[static_cast<std::size_t>(fault)].second;

@@ -23,6 +23,7 @@
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/venue/scenes.h"
 #include "relucent/venue/traced_transport.h"
+#include "support/sanitized.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -95,15 +96,6 @@ MeasuredVenue withCamerasAt(const MeasuredVenue& measured, const SimulatedVenue&
   return venue;
 }
 
-/// How good pictures are does not depend on a sanitizer, which makes minutes of it; the code runs under it in
-/// other tests: test_view_settings, test_blending, test_venue.
-constexpr bool takesTooLong =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    true;
-#else
-    false;
-#endif
-
 double psnrOf(const std::vector<MethodScore>& scores) {
   return scores.front().psnrReachable;
 }
@@ -163,7 +155,10 @@ class TestSeveralViews : public QObject {
     Progress silent;
     return loadCalibration(CalibrationFolder::open(path, CalibrationFolder::Access::read), silent);
   }
-  fs::path statue() const { return calibrated("statue3", {96, 72}, {64, 48}); }
+  fs::path statue() const {
+    return isSanitized ? calibrated("statue3", {48, 36}, {32, 24})
+                       : calibrated("statue3", {96, 72}, {64, 48});
+  }
 
  private slots:
   /// Law: on a flat wall the map between two views is their homography, to less than half a pixel.
@@ -262,7 +257,7 @@ class TestSeveralViews : public QObject {
   /// What several cameras are for: the picture is right from each of three sides, where a calibration from
   /// one side is wrong from the others.
   void threeViewsAreBetterThanOne() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;
@@ -328,7 +323,7 @@ class TestSeveralViews : public QObject {
   /// Whoever stands between the cameras, of whom nothing was measured, sees the picture within 3 dB of what
   /// he would see if a camera had stood there.
   void placesBetweenCameras() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     QFETCH(QString, venue);
     // Where cameras are coarser than projectors, what lies between their pixels is nobody's wish.
     const fs::path path = calibrated(venue.toStdString(), {64, 48}, {64, 48});
@@ -381,7 +376,7 @@ class TestSeveralViews : public QObject {
   /// Whoever walks past the cameras has at each of them no less than if the picture were for all alike,
   /// though the show has two steps a frame only. What is seen on the way is written.
   void aViewerWalksPastTheCameras() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;
@@ -420,7 +415,7 @@ class TestSeveralViews : public QObject {
     QTest::newRow("places unknown") << 5 << 2 << "where all of them stand";
   }
   void walksThatCannotBe() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     QFETCH(int, frames);
     QFETCH(int, positions);
     QFETCH(QString, part);
@@ -443,7 +438,7 @@ class TestSeveralViews : public QObject {
   /// Pictures of their own are upright from each place, at a price that is told; between them nothing is
   /// wanted.
   void eachSideHasAPictureOfItsOwn() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;
@@ -520,7 +515,7 @@ class TestSeveralViews : public QObject {
   /// What several projectors are solved together for: blended from separate solves the dome is at least 3 dB
   /// worse, and its seams are seen.
   void theDomeIsSolvedTogether() {
-    if (takesTooLong) QSKIP("qualities are compared without sanitizers");
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     Progress silent;
     EvaluateSettings evaluating;
     evaluating.fewImages = true;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/calibration/calibration_folder.h"
 
-#include <fmt/chrono.h>
-
 #include <algorithm>
 #include <chrono>
 #include <set>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
 #include "relucent/platform/files.h"
 
@@ -21,11 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* calibrationFormat = "relucent calibration";
-
-std::string now() {
-  auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
-}
 
 /// What a program that was killed in the middle of a write left: never named by a manifest.
 bool isManifestLeftover(const std::string& name) {
@@ -183,13 +177,10 @@ CalibrationFolder CalibrationFolder::create(const fs::path& path, Json rig, Json
                                  "choose a new or an empty folder for the calibration"),
         path.string());
 
-  Json manifest = {{"format", calibrationFormat},
-                   {"version", version},
-                   {"software", "Relucent " RELUCENT_VERSION},
-                   {"created", now()},
-                   {"rig", std::move(rig)},
-                   {"settings", std::move(settings)},
-                   {"results", Json::object()}};
+  Json manifest = {
+      {"format", calibrationFormat}, {"version", version},    {"software", "Relucent " RELUCENT_VERSION},
+      {"created", utcNow()},         {"rig", std::move(rig)}, {"settings", std::move(settings)},
+      {"results", Json::object()}};
   CalibrationFolder folder(path, std::move(lock), Access::write, std::move(manifest));
   folder.writeManifest(*folder.manifest_);
   return folder;
@@ -296,7 +287,7 @@ StageResult CalibrationFolder::store(Stage stage, const std::string& inputs, Jso
 
   Json manifest = *manifest_;
   Json entry = {{"inputs", inputs},
-                {"stored", now()},
+                {"stored", utcNow()},
                 {"folder", name},
                 {"values", std::move(values)},
                 {"files", std::move(files)}};

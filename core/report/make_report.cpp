@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/chrono.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "relucent/base/error.h"
+#include "relucent/base/utc.h"
 #include "relucent/calibration/results.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
@@ -125,13 +125,13 @@ std::optional<ReportVerification> verificationIn(const calibration::CalibrationF
     return std::nullopt;
   try {
     auto read = [&](const char* name) { return image::readPicture(folder / name).encoded; };
-    auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(taken));
     ReportVerification verification{read("target.png"),
                                     read("before.png"),
                                     read("after.png"),
                                     meanDeltaE(folder / "before_delta_e.exr"),
                                     meanDeltaE(folder / "after_delta_e.exr"),
-                                    fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(seconds))};
+                                    utcText(std::chrono::time_point_cast<std::chrono::system_clock::duration>(
+                                        std::chrono::file_clock::to_sys(taken)))};
     for (std::size_t camera = 1; camera < cameras; ++camera) {
       const auto file = [&](const char* name, const char* end) {
         return pipeline::proofPicture(folder, name, camera, end);

@@ -41,6 +41,7 @@ constexpr Subcommand subcommands[] = {
     {"resume", "Continue an interrupted calibration", addResumeOptions},
     {"verify", "Photograph test patterns and decide whether a calibration is still valid", addVerifyOptions},
     {"prove", "Project a picture, photograph it, and compare it with target and prediction", addProveOptions},
+    {"perfect", "Correct still pictures by photographs of themselves, for shows of them", addPerfectOptions},
     {"import", "Make a calibration from patterns and photographs taken elsewhere", addImportOptions},
     {"plan", "Write patterns to photograph without a connection, for import", addPlanOptions},
     {"compensate", "Compute the pattern that makes the surface look like an image", addCompensateOptions},

@@ -17,6 +17,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/export.h"
 #include "relucent/pipeline/import.h"
+#include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
@@ -69,6 +70,13 @@ struct Verify {
 struct Prove {
   std::filesystem::path calibration;
   pipeline::ProveSettings settings;
+  std::filesystem::path cache;
+};
+struct Perfect {
+  std::filesystem::path calibration;
+  std::vector<std::filesystem::path> content;  // pictures, folders, playlists
+  pipeline::PerfectSettings settings;
+  bool forget = false;  // what was perfected, instead
   std::filesystem::path cache;
 };
 struct ImportPictures {
@@ -134,7 +142,7 @@ struct Bench {
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
-                             ImportPictures, Plan, Compensate, Evaluate, Export, Relight, Separate,
+                             Perfect, ImportPictures, Plan, Compensate, Evaluate, Export, Relight, Separate,
                              Difference, Report, Tidy, Bench>;
 
 struct Arguments {

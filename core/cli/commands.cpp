@@ -15,6 +15,7 @@
 #include "relucent/cli/terminal_progress.h"
 #include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
+#include "relucent/pipeline/stills.h"
 #include "relucent/report/acquisition_chart.h"
 
 namespace relucent::cli {
@@ -100,6 +101,21 @@ struct Executor {
     refuse(problems(command.settings));
     return outcomeOf(
         pipeline::proveCalibration(command.calibration, command.settings, command.cache, progress));
+  }
+
+  CommandResult operator()(const Perfect& command) const {
+    pipeline::PerfectSettings settings = command.settings;
+    for (const std::filesystem::path& content : command.content)
+      for (std::filesystem::path& still : pipeline::stillsOf(content))
+        settings.images.push_back(std::move(still));
+    if (command.forget)
+      return outcomeOf(pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas));
+    refuse(problems(settings));
+    const pipeline::PerfectResult result =
+        pipeline::perfectPictures(command.calibration, settings, command.cache, {}, progress);
+    CommandResult outcome = outcomeOf(result);
+    if (!isPerfect(result)) outcome.status = failed;
+    return outcome;
   }
 
   CommandResult operator()(const ImportPictures& command) const {

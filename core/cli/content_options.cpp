@@ -186,6 +186,34 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
+std::function<Command()> addPerfectOptions(CLI::App* sub) {
+  auto command = std::make_shared<Perfect>();
+  pipeline::PerfectSettings& settings = command->settings;
+  settings.canvas.size = {1920, 1080};  // as a show's
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  CLI::Option* content =
+      sub->add_option(
+             "--content", command->content,
+             "A picture, a folder of pictures or a playlist, of which the stills; may be given several times")
+          ->type_name("FILE");
+  addSize(sub, "--canvas", settings.canvas.size, "Size to which the show scales content")
+      ->default_str("1920x1080");
+  sub->add_option("--photographs", settings.photographs,
+                  "Photographs of a picture, at most, before the last two")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  sub->add_flag("--forget", command->forget,
+                "Show these pictures as before; without --content all of them. Takes no photographs");
+  addCache(sub, command->cache);
+  sub->footer(
+      "Stop the show first: the camera must see the pictures that are perfected.\n"
+      "Exit status: 0 all were perfected or could not be better, 1 not all; 2 and 130 as usual.");
+  return [command, content] {
+    if (!command->forget && content->count() == 0) throw WrongUsage("name pictures with --content");
+    return Command(*command);
+  };
+}
+
 std::function<Command()> addEvaluateOptions(CLI::App* sub) {
   auto command = std::make_shared<Evaluate>();
   addFolder(sub, command->calibration, "Folder of the calibration of a simulated venue");
@@ -200,6 +228,9 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
   sub->add_flag(
       "--blended", command->settings.blended,
       "Of several projectors: compare with each solved on its own, blended by cosine ramps, and alone");
+  sub->add_option("--perfected", command->settings.perfected,
+                  "Correct every picture by so many photographs of itself, and tell what each of them gained")
+      ->type_name("COUNT");
   sub->add_option(
          "--walk", command->settings.walk.frames,
          "A viewer walks past all cameras in so many frames, of the first picture, as a show follows him; "

@@ -121,6 +121,7 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub);
 std::function<Command()> addResumeOptions(CLI::App* sub);
 std::function<Command()> addVerifyOptions(CLI::App* sub);
 std::function<Command()> addProveOptions(CLI::App* sub);
+std::function<Command()> addPerfectOptions(CLI::App* sub);
 std::function<Command()> addImportOptions(CLI::App* sub);
 std::function<Command()> addPlanOptions(CLI::App* sub);
 std::function<Command()> addCompensateOptions(CLI::App* sub);

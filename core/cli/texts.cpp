@@ -85,6 +85,51 @@ std::string textOf(const pipeline::ProveResult& result) {
          textOf(pipeline::WrittenFiles{result.files});
 }
 
+namespace {
+
+std::string figuresOf(const pipeline::PerfectingRound& round) {
+  std::string text;
+  for (const pipeline::PictureError& view : round.views)
+    text += fmt::format("{}{:.2f} ({:.1f} dB)", text.empty() ? "" : ", ", view.deltaE, view.psnr);
+  return text;
+}
+
+std::string linesOf(const pipeline::PerfectedImage& image) {
+  const std::string name = image.image.string();
+  if (!image.failure.empty()) return fmt::format("{}\n", image.failure);
+  std::string text;
+  for (std::size_t round = 0; round < image.rounds.size(); ++round)
+    text += fmt::format("  photograph {}: colour error {}\n", round + 1, figuresOf(image.rounds[round]));
+  if (image.end == pipeline::PerfectingEnd::disturbed)
+    return fmt::format("{}: {}; the picture stays as it was.\n", name, image.disturbance) + text;
+  if (!image.kept)
+    return fmt::format("{}: no better picture was found; it stays as it was ({}).\n", name,
+                       descriptionOf(image.end)) +
+           text;
+  return fmt::format("{}: colour error {} is now {}, after {} photographs ({}).\n", name,
+                     figuresOf(image.before), figuresOf(image.after), image.photographs,
+                     descriptionOf(image.end)) +
+         text + textOf(pipeline::WrittenFiles{image.files});
+}
+
+}  // namespace
+
+std::string textOf(const pipeline::PerfectResult& result) {
+  std::string text;
+  for (const pipeline::PerfectedImage& image : result.images) text += linesOf(image);
+  return text + fmt::format(
+                    "Colour error: mean CIEDE2000 over the content, camera after camera; dB where it can be "
+                    "reached. {} photographs with all their exposures in {:.0f} s.\n",
+                    result.exposures, result.seconds);
+}
+
+std::string textOf(const pipeline::ForgottenPictures& result) {
+  if (result.pictures.empty()) return "None of these pictures was perfected.\n";
+  std::string text;
+  for (const std::string& picture : result.pictures) text += fmt::format("{} is shown as before.\n", picture);
+  return text;
+}
+
 std::string textOf(const pipeline::ImportResult& result) {
   return fmt::format(
              "Imported {} photographs of a {}x{} projector in {:.0f} s; {} of them were not fitted but "
@@ -118,11 +163,10 @@ std::string textOf(const pipeline::CompensateResult& result) {
 
 namespace {
 
-/// Projectors on their own below the methods; below that what others do.
-std::string tableOf(const std::string& title, const std::vector<pipeline::MethodScore>& methods,
-                    const std::optional<pipeline::MethodScore>& blended = {},
-                    const std::vector<pipeline::AloneScore>& alone = {},
-                    const std::vector<pipeline::RivalScore>& rivals = {}) {
+/// Of one view, an ImageScore or a ViewScore: the methods, below them projectors on their own, what others
+/// do, and what photographs of the picture gained.
+template <typename View>
+std::string tableOf(const std::string& title, const View& view) {
   std::string text =
       fmt::format("\n{:<12} {:>14} {:>9} {:>10} {:>7} {:>8} {:>7} {:>9} {:>9}\n{:<12} {:>14} {:>9} {:>10}\n",
                   title, "reachable dB", "all dB", "encoded dB", "SSIM", "MS-SSIM", "dE2000", "dE 95 %",
@@ -132,13 +176,16 @@ std::string tableOf(const std::string& title, const std::vector<pipeline::Method
                         name, score.psnrReachable, score.psnrAll, score.encodedPsnrAll, score.ssim,
                         score.multiScaleSsim, score.deltaE, score.deltaEPercentile, score.seconds);
   };
-  for (const pipeline::MethodScore& score : methods) add(nameOf(score.method), score);
-  if (blended) add("blended", *blended);
-  for (std::size_t k = 0; k < alone.size(); ++k)
-    if (alone[k].optimum) add(fmt::format("{} alone", k + 1), *alone[k].optimum);
-  for (const pipeline::RivalScore& rival : rivals) add(nameOf(rival.rival), rival.score);
-  for (std::size_t k = 0; k < alone.size(); ++k)
-    text += fmt::format("Projector {} alone reaches {:.1f} % of it.\n", k + 1, 100.0 * alone[k].reachable);
+  for (const pipeline::MethodScore& score : view.methods) add(nameOf(score.method), score);
+  if (view.blended) add("blended", *view.blended);
+  for (std::size_t k = 0; k < view.alone.size(); ++k)
+    if (view.alone[k].optimum) add(fmt::format("{} alone", k + 1), *view.alone[k].optimum);
+  for (const pipeline::RivalScore& rival : view.rivals) add(nameOf(rival.rival), rival.score);
+  for (std::size_t k = 0; k < view.perfected.size(); ++k)
+    add(k == 0 ? std::string("unperfected") : fmt::format("perfected {}", k), view.perfected[k]);
+  for (std::size_t k = 0; k < view.alone.size(); ++k)
+    text +=
+        fmt::format("Projector {} alone reaches {:.1f} % of it.\n", k + 1, 100.0 * view.alone[k].reachable);
   return text;
 }
 
@@ -148,14 +195,11 @@ std::string textOf(const pipeline::EvaluateResult& result) {
   std::string text =
       fmt::format("{}: {:.1f} % of the pictures can be reached.\n", result.venue, 100.0 * result.reachable);
   for (const pipeline::ImageScore& image : result.images) {
-    text += tableOf(image.name, image.methods, image.blended, image.alone, image.rivals);
-    for (std::size_t view = 0; view < image.others.size(); ++view) {
-      const pipeline::ViewScore& other = image.others[view];
-      text += tableOf(fmt::format("camera {}", view + 2), other.methods, other.blended, other.alone,
-                      other.rivals);
-    }
+    text += tableOf(image.name, image);
+    for (std::size_t view = 0; view < image.others.size(); ++view)
+      text += tableOf(fmt::format("camera {}", view + 2), image.others[view]);
     for (std::size_t place = 0; place < image.unseen.size(); ++place)
-      text += tableOf(fmt::format("unseen {}", place + 1), image.unseen[place].methods);
+      text += tableOf(fmt::format("unseen {}", place + 1), image.unseen[place]);
     if (image.contradiction)
       text += fmt::format("Visibly worse because of other views: {:.1f} %.\n",
                           100.0 * image.contradiction->share);

@@ -11,6 +11,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/inverse_bench.h"
+#include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
@@ -25,6 +26,8 @@ std::string textOf(const pipeline::CalibrateResult& result);
 std::string textOf(const pipeline::WrittenFiles& result);
 std::string textOf(const pipeline::VerifyResult& result);
 std::string textOf(const pipeline::ProveResult& result);
+std::string textOf(const pipeline::PerfectResult& result);
+std::string textOf(const pipeline::ForgottenPictures& result);
 std::string textOf(const pipeline::ImportResult& result);
 std::string textOf(const pipeline::CompensateResult& result);
 std::string textOf(const pipeline::EvaluateResult& result);

@@ -169,6 +169,26 @@ Compensation Compensator::byInverse(const std::function<ProjectorStack(const Cam
   return result;
 }
 
+void Compensator::takeSteps(const ConstrainedProblem& problem, const ProjectorStack& preconditioner,
+                            int rounds, Compensation& p, Progress& progress) const {
+  const std::size_t all = static_cast<std::size_t>(rounds) * settings_.steps.size();
+  for (std::size_t step = 0; step < all; ++step) {
+    progress.report(static_cast<double>(step) / static_cast<double>(all));
+    takeStep(problem, preconditioner, settings_.steps[step % settings_.steps.size()], p.projector);
+    p.clipped = finish(p.projector, problem.free);
+    ++p.iterations;
+  }
+}
+
+Compensation Compensator::goOn(const Target& target, Compensation p, int rounds, Progress& progress) const {
+  const auto [brightest, free] =
+      contentCorrespondence(venue_.transport, seesProjection(venue_), target, brightest_, settings_.direct);
+  const ConstrainedProblem problem{venue_.transport, target.asked, target.weight, free};
+  takeSteps(problem, preconditioner_.of(problem), rounds, p, progress);
+  progress.report(1.0);
+  return p;
+}
+
 Compensation Compensator::solve(Method method, const Target& target, Progress& progress) const {
   require(target.wanted.size() == venue_.black.size() && target.inside.size() == venue_.usable.size(),
           "a target of {} values for {} camera values", target.wanted.size(), venue_.black.size());
@@ -193,14 +213,7 @@ Compensation Compensator::solve(Method method, const Target& target, Progress& p
   auto apply = [](const auto& inverse) { return [&](const CameraStack& r) { return inverse.apply(r); }; };
   result = method == Method::clusters ? byInverse(apply(clusters(progress)), target, free, c, progress)
                                       : byInverse(apply(inverse_), target, free, c, progress);
-  if (method == Method::refined) {
-    for (float step : settings_.steps) {
-      progress.report(result.iterations / (settings_.steps.size() + 1.0));
-      takeStep(problem, c, step, result.projector);
-      result.clipped = finish(result.projector, free);
-      ++result.iterations;
-    }
-  }
+  if (method == Method::refined) takeSteps(problem, c, 1, result, progress);
   if (method == Method::optimum) {
     SolveResult solved = solveConstrained(problem, result.projector, settings_.optimum, progress);
     result.projector = std::move(solved.x);

@@ -72,6 +72,10 @@ class Compensator {
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
 
+  /// From p on, `rounds` times the steps of `refined`, of whatever made p.
+  /// Throws: Cancelled.
+  Compensation goOn(const Target& target, Compensation p, int rounds, Progress& progress) const;
+
   const MeasuredVenue& venue() const { return venue_; }
   const CompensatorSettings& settings() const { return settings_; }
   /// The projector pixels of the content; the others stay black.
@@ -93,6 +97,9 @@ class Compensator {
                          const Target& target, const ProjectorMask& free,
                          const ProjectorStack& preconditioner, const Progress& progress) const;
   const inverse::ClusterInverse& clusters(Progress& progress) const;
+  /// The steps of `refined`, `rounds` times. `preconditioner`: C.
+  void takeSteps(const ConstrainedProblem& problem, const ProjectorStack& preconditioner, int rounds,
+                 Compensation& p, Progress& progress) const;
 
   const MeasuredVenue& venue_;
   const inverse::WindowInverse& inverse_;

@@ -20,6 +20,7 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluation.h"
+#include "relucent/pipeline/perfecting_loop.h"
 #include "relucent/pipeline/projection.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/standard_images.h"
@@ -334,6 +335,25 @@ void judgeRivals(compensation::RivalCompensator& rivals, const std::vector<compe
   }
 }
 
+/// What becomes of `refined` by photographs of it, in all views.
+void judgePerfected(const compensation::Compensator& compensator, const compensation::Target& target,
+                    ProjectionPhotographs& photographs, int most, const CameraMask& reachable,
+                    const Judge& judge, ImageScore& score, Progress& progress) {
+  constexpr compensation::Method method = compensation::Method::refined;
+  Progress quiet;
+  const PerfectingCamera camera{[&] { return photographs.black(quiet); },
+                                [&](const ProjectorStack& drive) { return photographs.of(drive, quiet); }};
+  const auto judged = [&](const PerfectingRound&, const ProjectorStack& drive) {
+    compensation::Compensation shown;
+    shown.projector = drive;
+    const CameraStack seen = judge.seen(shown);
+    for (std::size_t view = 0; view < judge.views(); ++view)
+      if (std::optional<MethodScore> of = judge.scoreOf(method, seen, target, reachable, view))
+        (view == 0 ? score.perfected : score.others[view - 1].perfected).push_back(*of);
+  };
+  perfected(compensator, target, compensator.solve(method, target, progress), camera, most, judged, quiet);
+}
+
 }  // namespace
 
 Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings& settings,
@@ -359,7 +379,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
   Progress photographing;
   compensation::RivalCompensator rivals(
       compensator, measured.inverse,
-      [&](const ProjectorStack& linear) { return photographs.of(linear, photographing); },
+      [&](const ProjectorStack& linear) { return photographs.of(linear, photographing).radiance; },
       settings.rivalSettings);
   Progress judging = progress.part(0.7, RELUCENT_MESSAGE("stage.comparing-methods", "Comparing the methods"));
   double share = 1.0 / static_cast<double>(content.size() * methods.size());
@@ -417,6 +437,12 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
       }
     }
     judgeRivals(rivals, settings.rivals, target, reachable, judge, score, judging);
+    if (settings.perfected > 0) {
+      Progress perfecting = judging.part(
+          0.0, RELUCENT_MESSAGE("stage.perfecting", "Correcting the picture by photographs of itself"));
+      judgePerfected(compensator, target, photographs, settings.perfected, reachable, judge, score,
+                     perfecting);
+    }
     if (settings.blended) {
       Progress solving = judging.part(
           0.0, RELUCENT_ENGLISH_MESSAGE("stage.solving-separately", "{}: each projector on its own")

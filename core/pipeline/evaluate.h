@@ -29,6 +29,8 @@ struct EvaluateSettings {
   /// Whether several projectors are also compared with each of them solved on its own and blended, and with
   /// each of them alone.
   bool blended = false;
+  /// Whether every picture is also corrected by so many photographs of itself (perfecting_loop.h); 0: no.
+  int perfected = 0;
   WalkSettings walk{};  // a viewer who walks past the cameras, by the first image
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
@@ -70,6 +72,7 @@ struct ViewScore {
   std::optional<MethodScore> blended{};  // each projector's optimum on its own, under cosine ramps
   std::vector<AloneScore> alone{};       // projector after projector
   std::vector<RivalScore> rivals{};
+  std::vector<MethodScore> perfected{};  // `refined`, as it was shown for one photograph after the other
 };
 
 /// What the first camera sees, in whose view the image lies.
@@ -80,6 +83,7 @@ struct ImageScore {
   std::optional<MethodScore> blended{};  // as ViewScore
   std::vector<AloneScore> alone{};       // likewise
   std::vector<RivalScore> rivals{};      // likewise
+  std::vector<MethodScore> perfected{};  // likewise
   std::vector<ViewScore> others{};       // camera after camera
   std::vector<ViewScore> unseen{};       // what viewers see who stand where no camera does, place after place
   std::optional<ContradictionShares> contradiction{};  // of several views, as the last method has it

@@ -62,10 +62,16 @@ void addRivals(calibration::Json& json, const std::vector<RivalScore>& rivals) {
   }
 }
 
+/// Likewise.
+void addPerfected(calibration::Json& json, const std::vector<MethodScore>& rounds) {
+  for (const MethodScore& score : rounds) json["perfected"].push_back(methodToJson(score));
+}
+
 calibration::Json viewToJson(const ViewScore& view) {
   calibration::Json json{{"reachable", view.reachable}, {"methods", methodsToJson(view.methods)}};
   addApart(view, json);
   addRivals(json, view.rivals);
+  addPerfected(json, view.perfected);
   return json;
 }
 
@@ -97,6 +103,7 @@ calibration::Json scoreToJson(const ImageScore& image) {
   for (const ViewScore& view : image.unseen) json["unseen_places"].push_back(viewToJson(view));
   addApart(image, json);
   addRivals(json, image.rivals);
+  addPerfected(json, image.perfected);
   if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
   return json;
 }
@@ -189,6 +196,44 @@ calibration::Json toJson(const ProveResult& result) {
                                    {"reachable", view.reachable},
                                    {"moved", movement(view.moved)}});
   return json;
+}
+
+calibration::Json toJson(const PerfectResult& result) {
+  const auto round = [](const PerfectingRound& seen) {
+    calibration::Json json{{"error", seen.error.value},
+                           {"error_deviation", seen.error.deviation},
+                           {"surprise", seen.surprise},
+                           {"views", calibration::Json::array()}};
+    for (const PictureError& view : seen.views)
+      json["views"].push_back({{"psnr", view.psnr}, {"delta_e", view.deltaE}});
+    return json;
+  };
+  calibration::Json images = calibration::Json::array();
+  for (const PerfectedImage& image : result.images) {
+    calibration::Json& json = images.emplace_back(calibration::Json{{"image", image.image.string()}});
+    if (!image.failure.empty()) {
+      json["failure"] = sentencesOf({image.failure}).front();
+      continue;
+    }
+    json["end"] = nameOf(image.end);
+    json["kept"] = image.kept;
+    json["went_on"] = image.wentOn;
+    json["photographs"] = image.photographs;
+    json["files"] = pathsToJson(image.files);
+    json["rounds"] = calibration::Json::array();
+    for (const PerfectingRound& seen : image.rounds) json["rounds"].push_back(round(seen));
+    if (image.end == PerfectingEnd::disturbed) {
+      json["disturbance"] = sentencesOf({image.disturbance}).front();
+    } else {
+      json["before"] = round(image.before);
+      json["after"] = round(image.after);
+    }
+  }
+  return {{"images", images}, {"exposures", result.exposures}, {"seconds", result.seconds}};
+}
+
+calibration::Json toJson(const ForgottenPictures& result) {
+  return {{"forgotten", result.pictures}};
 }
 
 calibration::Json toJson(const CompensateResult& result) {

@@ -11,9 +11,10 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/inverse_bench.h"
+#include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
-#include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/scale_bench.h"
+#include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/pipeline/written_files.h"
@@ -31,6 +32,8 @@ calibration::Json toJson(const VerifyResult& result);
 calibration::Json toJson(const ImportResult& result);
 calibration::Json toJson(const CompensateResult& result);
 calibration::Json toJson(const ProveResult& result);
+calibration::Json toJson(const PerfectResult& result);
+calibration::Json toJson(const ForgottenPictures& result);
 calibration::Json toJson(const EvaluateResult& result);
 calibration::Json toJson(const WrittenFiles& result);
 calibration::Json toJson(const SeparateResult& result);

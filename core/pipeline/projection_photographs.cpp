@@ -6,7 +6,6 @@
 #include "relucent/reduction/reduced_rig.h"
 
 namespace relucent::pipeline {
-
 ProjectionPhotographs::ProjectionPhotographs(rig::Rig& whole, const MeasuredCalibration& measured,
                                              const std::string& stage)
     : measured_(measured),
@@ -14,13 +13,19 @@ ProjectionPhotographs::ProjectionPhotographs(rig::Rig& whole, const MeasuredCali
       shots_(rig_, log_, stage),
       photographer_(shots_, measured.linearization) {}
 
-CameraStack ProjectionPhotographs::of(const ProjectorStack& linear, const Progress& progress) {
+ProjectorStack ProjectionPhotographs::encoded(const ProjectorStack& linear) const {
   const Rasters& projectors = measured_.venue.transport.projectors();
-  return photographer_
-      .takeAll(ProjectorStack(image::stackFromImages(
-                   encodedDrive(linear, projectors, measured_.linearization), projectors)),
-               progress)
-      .radiance;
+  return ProjectorStack(
+      image::stackFromImages(encodedDrive(linear, projectors, measured_.linearization), projectors));
+}
+
+hdr::HdrFrame ProjectionPhotographs::of(const ProjectorStack& linear, const Progress& progress) {
+  return photographer_.takeAll(encoded(linear), progress);
+}
+
+hdr::BlackLevel ProjectionPhotographs::black(const Progress& progress) {
+  const ProjectorStack dark(3 * measured_.venue.transport.projectors().count(), 0.0f);
+  return hdr::BlackLevel(photographer_.takeAll(dark, progress));
 }
 
 }  // namespace relucent::pipeline

@@ -18,9 +18,14 @@ class ProjectionPhotographs {
 
   /// The radiance under linear drive, e included; at least so much where every exposure saturates.
   /// Throws: Error{device}; Cancelled.
-  CameraStack of(const ProjectorStack& linear, const Progress& progress);
+  hdr::HdrFrame of(const ProjectorStack& linear, const Progress& progress);
+  /// Under black projectors.
+  hdr::BlackLevel black(const Progress& progress);
+  int exposures() const { return shots_.exposures(); }
 
  private:
+  ProjectorStack encoded(const ProjectorStack& linear) const;
+
   const MeasuredCalibration& measured_;
   rig::Rig rig_;
   rig::NoShotLog log_;

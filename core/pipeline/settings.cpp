@@ -8,6 +8,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/export.h"
 #include "relucent/pipeline/import.h"
+#include "relucent/pipeline/perfecting_loop.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
 #include "relucent/pipeline/screen_devices.h"
@@ -226,6 +227,8 @@ Problems problems(const EvaluateSettings& settings) {
   checkTarget(found, settings.target);
   append(found, problems(settings.compensator));
   append(found, problems(settings.rivalSettings));
+  if (settings.perfected < 0 || settings.perfected > mostPerfectingPhotographs)
+    found.push_back(perfectingPhotographsOutOfRange());
   append(found, problems(settings.walk));
   return found;
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The whole calibration through external commands: real processes, real files.
 #include <QDir>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QTest>
+#include <cmath>
 #include <cstdlib>
 
 #include "relucent/image/picture_files.h"
@@ -90,6 +94,37 @@ class TestCommands : public QObject {
              QString::number(test::commandProjector.width), QString::number(test::commandProjector.height)});
     qInfo("%s", predicted.output.constData());
     QVERIFY2(predicted.status == 0, predicted.errors.constData());
+  }
+
+  /// A simulated venue: perfected, gone on with, forgotten; a picture that is missing is told of.
+  void perfectsPictures() {
+    QTemporaryDir folder;
+    const QString calibration = folder.filePath("calibration"), cache = folder.filePath("cache"),
+                  picture = folder.filePath("picture.png");
+    image::Image waves({64, 36}, 3);
+    for (int y = 0; y < waves.height(); ++y)
+      for (int x = 0; x < waves.width(); ++x)
+        for (int c = 0; c < 3; ++c)
+          waves.at(x, y, c) = static_cast<float>(0.5 + 0.3 * std::sin(0.1 * (c + 1) * x) * std::cos(0.2 * y));
+    image::writePng(picture.toStdString(), waves, 8);
+    const Run calibrated = runCli({"calibrate", calibration, "--venue", "glass", "--projector", "40x30",
+                                   "--camera", "28x21", "--cache", cache});
+    QVERIFY2(calibrated.status == 0, calibrated.errors.constData());
+    const auto perfect = [&](const QString& content) {
+      return runCli({"perfect", calibration, "--content", content, "--cache", cache, "--json"});
+    };
+    const Run first = perfect(picture);
+    QVERIFY2(first.status == 0, first.errors.constData());
+    const QJsonObject found = QJsonDocument::fromJson(first.output).object()["images"][0].toObject();
+    QVERIFY2(found["kept"].toBool() && !found["went_on"].toBool(), first.output.constData());
+    QVERIFY(found["after"]["error"].toDouble() < found["before"]["error"].toDouble());
+    const Run second = perfect(picture);
+    QVERIFY2(second.output.contains("\"went_on\": true"), second.output.constData());
+    const Run missing = perfect(folder.filePath("missing.png"));
+    QCOMPARE(missing.status, 1);
+    QVERIFY2(missing.output.contains("missing.png"), missing.output.constData());
+    const Run forgotten = runCli({"perfect", calibration, "--forget"});
+    QVERIFY2(forgotten.status == 0 && forgotten.output.contains("picture.png"), forgotten.output.constData());
   }
 
   /// Two projectors and two cameras, each by a script and of another size; what is measured of them is

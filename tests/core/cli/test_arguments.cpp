@@ -298,6 +298,15 @@ class TestArguments : public QObject {
     QVERIFY(prove.settings.method == Method::mix);
     QCOMPARE(prove.settings.target.blackLift, 0.02);
     QCOMPARE(prove.settings.image, std::filesystem::path("a.png"));
+    const Perfect perfect =
+        parsed<Perfect>("perfect d --content a.png --content list.playlist --canvas 640x480 --photographs 4");
+    QCOMPARE(perfect.content, (std::vector<std::filesystem::path>{"a.png", "list.playlist"}));
+    QVERIFY((perfect.settings.canvas.size == Size{640, 480}));
+    QCOMPARE(perfect.settings.photographs, 4);
+    QVERIFY(!perfect.forget);
+    QVERIFY((parsed<Perfect>("perfect d --content a").settings.canvas.size == Size{1920, 1080}));
+    QVERIFY(parsed<Perfect>("perfect d --forget").forget);
+    QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<Perfect>("perfect d"));
     QCOMPARE(parsed<Verify>("verify d --out maps").calibration, std::filesystem::path("d"));
     QCOMPARE(parsed<Verify>("verify d --out maps").settings.out, std::filesystem::path("maps"));
   }

@@ -215,6 +215,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>يتبع المشاهد خلال %1 مللي ثانية</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>حُسِّنت بالصور</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2293,6 +2297,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>⁨{}⁩: الأبيض أعتم من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩؛ أوقف توفير الطاقة وإدارة الألوان وأوضاع الصورة الديناميكية</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>شيء يبهر الكاميرا: {} من صورتها زائد التعريض</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>تحرك مجال رؤية الكاميرا {} بمقدار {} و{} بكسل منذ القياس</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>ينقص ضوء: هل العدسة مغطاة أم أن جهاز عرض في وضع السكون؟</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>ترى الكاميرا شيئًا غير المتوقع: هل وقف أحد في الضوء أم تغيّر ضوء القاعة؟</translation>
     </message>
 </context>
 <context>
@@ -5285,6 +5317,83 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 تُعرض الصورة كما كانت. حاول مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>لم تجد الصور ما هو أفضل. تُعرض الصورة كما كانت.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>يجري تحسين الصورة</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>لا صور حتى الآن. أبقِ القاعة كما هي.</numerusform>
+            <numerusform>صورة واحدة حتى الآن. أبقِ القاعة كما هي.</numerusform>
+            <numerusform>صورتان حتى الآن. أبقِ القاعة كما هي.</numerusform>
+            <numerusform>%n صور حتى الآن. أبقِ القاعة كما هي.</numerusform>
+            <numerusform>%n صورة حتى الآن. أبقِ القاعة كما هي.</numerusform>
+            <numerusform>%n صورة حتى الآن. أبقِ القاعة كما هي.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، دون صور.</numerusform>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، بصورة واحدة.</numerusform>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، بصورتين.</numerusform>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، بـ%n صور.</numerusform>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، بـ%n صورة.</numerusform>
+            <numerusform>%1: ‏%2 قبلًا، %3 الآن، بـ%n صورة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>هذه الصورة محسَّنة</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>الصورة كما كانت</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>غير محسَّنة</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>يمكن تصحيح صورة ثابتة بصور لها، نحو ثمانٍ. وتُحفظ لهذا المكان بموضعها الحالي.</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>تحسين صورة</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>تحسين هذه الصورة</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>إيقاف وحفظ الأفضل</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>عرضها كما كانت</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>يُهمل ما صححته الصور.</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>تحسينها مجددًا</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5800,6 +5909,10 @@ projector %2</source>
     <message>
         <source>How bright white is</source>
         <translation>مقدار سطوع الأبيض</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>تُعرض الصورة كما كانت.</translation>
     </message>
 </context>
 <context>
@@ -7582,6 +7695,13 @@ projector %2</source>
     <message>
         <source>Opening the devices</source>
         <translation>فتح الأجهزة</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>تصحيح الصورة بصور لها</translation>
     </message>
 </context>
 <context>

@@ -211,6 +211,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>folgt einem Betrachter binnen %1 ms</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>durch Fotos perfektioniert</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2269,6 +2273,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: Weiß ist {} % dunkler als Rot, Grün und Blau zusammen; schalten Sie Stromsparen, Farbmanagement und dynamische Bildmodi aus</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>etwas blendet die Kamera: {} ihres Bildes sind überbelichtet</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>der Ausschnitt von Kamera {} hat sich seit der Messung um {}, {} Pixel verschoben</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>es fehlt Licht: Ist das Objektiv verdeckt oder schläft ein Projektor?</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>die Kamera sieht etwas anderes als erwartet: Stand jemand im Licht, oder hat sich das Raumlicht geändert?</translation>
     </message>
 </context>
 <context>
@@ -5153,6 +5185,75 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 Das Bild wird wie zuvor gezeigt. Versuchen Sie es noch einmal.</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>Die Fotos fanden nichts Besseres. Das Bild wird wie zuvor gezeigt.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>Das Bild wird perfektioniert</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>Bisher %n Foto. Lassen Sie den Raum, wie er ist.</numerusform>
+            <numerusform>Bisher %n Fotos. Lassen Sie den Raum, wie er ist.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1: vorher %2, jetzt %3, durch %n Foto.</numerusform>
+            <numerusform>%1: vorher %2, jetzt %3, durch %n Fotos.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>Dieses Bild ist perfektioniert</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>Das Bild ist, wie es war</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>Nicht perfektioniert</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>Ein stehendes Bild lässt sich durch Fotos von sich selbst korrigieren, etwa acht. Es bleibt für diesen Ort erhalten, so platziert wie jetzt.</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>Bild perfektionieren</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>Dieses Bild perfektionieren</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>Beenden und Bestes behalten</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>Wie zuvor zeigen</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>Was die Fotos korrigiert haben, wird verworfen.</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>Noch einmal perfektionieren</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5668,6 +5769,10 @@ Projektor %2</translation>
     <message>
         <source>How bright white is</source>
         <translation>Wie hell Weiß ist</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>Das Bild wird wie zuvor gezeigt.</translation>
     </message>
 </context>
 <context>
@@ -7402,6 +7507,13 @@ Projektor %2</translation>
     <message>
         <source>Opening the devices</source>
         <translation>Öffnen der Geräte</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>Bild wird durch Fotos von sich selbst korrigiert</translation>
     </message>
 </context>
 <context>

@@ -276,6 +276,23 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>%n photograph by now. Keep the room as it is.</numerusform>
+            <numerusform>%n photographs by now. Keep the room as it is.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1: %2 before, %3 now, by %n photograph.</numerusform>
+            <numerusform>%1: %2 before, %3 now, by %n photographs.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::SettingsDialog</name>
     <message numerus="yes">
         <source>At most %n change(s) a second</source>

@@ -211,6 +211,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>sigue a un espectador en %1 ms</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>perfeccionada con fotografías</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2269,6 +2273,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: el blanco es un {} % más oscuro que el rojo, el verde y el azul juntos; desactive el ahorro de energía, la gestión de color y los modos de imagen dinámicos</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>algo deslumbra la cámara: el {} de su imagen está sobreexpuesto</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>el encuadre de la cámara {} se ha desplazado {}, {} píxeles desde la medición</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>falta luz: ¿está tapado el objetivo o hay un proyector en reposo?</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>la cámara ve algo distinto de lo esperado: ¿había alguien en la luz o cambió la luz de la sala?</translation>
     </message>
 </context>
 <context>
@@ -5153,6 +5185,75 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 La imagen se muestra como antes. Inténtelo de nuevo.</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>Las fotografías no encontraron nada mejor. La imagen se muestra como antes.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>La imagen se está perfeccionando</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>%n fotografía hasta ahora. Deje la sala como está.</numerusform>
+            <numerusform>%n fotografías hasta ahora. Deje la sala como está.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1: antes %2, ahora %3, con %n fotografía.</numerusform>
+            <numerusform>%1: antes %2, ahora %3, con %n fotografías.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>Esta imagen está perfeccionada</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>La imagen está como estaba</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>Sin perfeccionar</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>Una imagen fija puede corregirse con fotografías de sí misma, unas ocho. Se guarda para este lugar, colocada como ahora.</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>Perfeccionar una imagen</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>Perfeccionar esta imagen</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>Parar y conservar lo mejor</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>Mostrar como antes</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>Se descarta lo que corrigieron las fotografías.</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>Perfeccionar otra vez</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5668,6 +5769,10 @@ proyector %2</translation>
     <message>
         <source>How bright white is</source>
         <translation>Lo brillante que es el blanco</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>La imagen se muestra como antes.</translation>
     </message>
 </context>
 <context>
@@ -7402,6 +7507,13 @@ proyector %2</translation>
     <message>
         <source>Opening the devices</source>
         <translation>Abriendo los dispositivos</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>Corrigiendo la imagen con fotografías de sí misma</translation>
     </message>
 </context>
 <context>

@@ -211,6 +211,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>suit un spectateur en %1 ms</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>perfectionnée par des photos</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2269,6 +2273,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}&#x202f;: le blanc est plus sombre de {}&#x202f;% que le rouge, le vert et le bleu réunis&#x202f;; désactivez l’économie d’énergie, la gestion des couleurs et les modes d’image dynamiques</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>quelque chose éblouit la caméra : {} de son image sont surexposés</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>le cadrage de la caméra {} s’est déplacé de {}, {} pixels depuis la mesure</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>il manque de la lumière : l’objectif est-il couvert, ou un projecteur en veille ?</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>la caméra voit autre chose que prévu : quelqu’un était-il dans la lumière, ou l’éclairage de la salle a-t-il changé ?</translation>
     </message>
 </context>
 <context>
@@ -5153,6 +5185,75 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 L’image est affichée comme avant. Réessayez.</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>Les photos n’ont rien trouvé de mieux. L’image est affichée comme avant.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>L’image est en cours de perfectionnement</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>%n photo pour l’instant. Laissez la salle telle quelle.</numerusform>
+            <numerusform>%n photos pour l’instant. Laissez la salle telle quelle.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1 : %2 avant, %3 maintenant, par %n photo.</numerusform>
+            <numerusform>%1 : %2 avant, %3 maintenant, par %n photos.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>Cette image est perfectionnée</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>L’image est comme avant</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>Pas perfectionnée</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>Une image fixe peut être corrigée par des photos d’elle-même, huit environ. Elle est conservée pour ce lieu, placée comme maintenant.</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>Perfectionner une image</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>Perfectionner cette image</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>Arrêter et garder le meilleur</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>Afficher comme avant</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>Ce que les photos ont corrigé est abandonné.</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>Perfectionner à nouveau</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5668,6 +5769,10 @@ projecteur %2</translation>
     <message>
         <source>How bright white is</source>
         <translation>Luminosité du blanc</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>L’image est affichée comme avant.</translation>
     </message>
 </context>
 <context>
@@ -7402,6 +7507,13 @@ projecteur %2</translation>
     <message>
         <source>Opening the devices</source>
         <translation>Ouverture des appareils</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>Correction de l’image par des photos d’elle-même</translation>
     </message>
 </context>
 <context>

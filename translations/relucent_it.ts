@@ -211,6 +211,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>segue uno spettatore entro %1 ms</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>perfezionata con fotografie</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2269,6 +2273,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: il bianco è più scuro del {} % rispetto a rosso, verde e blu insieme; disattivare il risparmio energetico, la gestione del colore e le modalità immagine dinamiche</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>qualcosa abbaglia la fotocamera: {} della sua immagine è sovraesposto</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>l’inquadratura della fotocamera {} si è spostata di {}, {} pixel dalla misura</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>manca luce: l’obiettivo è coperto o un proiettore è in standby?</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>la fotocamera vede qualcosa di diverso dal previsto: c’era qualcuno nella luce o è cambiata la luce della sala?</translation>
     </message>
 </context>
 <context>
@@ -5153,6 +5185,75 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 L’immagine è mostrata come prima. Riprovare.</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>Le fotografie non hanno trovato nulla di meglio. L’immagine è mostrata come prima.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>Perfezionamento dell’immagine in corso</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>%n fotografia finora. Lasciare la sala com’è.</numerusform>
+            <numerusform>%n fotografie finora. Lasciare la sala com’è.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1: prima %2, ora %3, con %n fotografia.</numerusform>
+            <numerusform>%1: prima %2, ora %3, con %n fotografie.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>Questa immagine è perfezionata</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>L’immagine è com’era</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>Non perfezionata</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>Un’immagine fissa può essere corretta con fotografie di se stessa, circa otto. Resta per questo luogo, collocata come ora.</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>Perfezionare un’immagine</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>Perfeziona questa immagine</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>Ferma e tieni il migliore</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>Mostra come prima</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>Ciò che le fotografie hanno corretto viene scartato.</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>Perfeziona di nuovo</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5668,6 +5769,10 @@ proiettore %2</translation>
     <message>
         <source>How bright white is</source>
         <translation>Quanto è luminoso il bianco</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>L’immagine è mostrata come prima.</translation>
     </message>
 </context>
 <context>
@@ -7402,6 +7507,13 @@ proiettore %2</translation>
     <message>
         <source>Opening the devices</source>
         <translation>Apertura dei dispositivi</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>Correzione dell’immagine con fotografie di se stessa</translation>
     </message>
 </context>
 <context>

@@ -210,6 +210,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>観客に %1 ms 以内で追従</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>写真により仕上げ済み</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2263,6 +2267,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}：白は赤・緑・青の合計より {} % 暗くなっています。省電力、カラーマネジメント、ダイナミックな画質モードをオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>何かがカメラに強い光を当てています：画面の {} が露出オーバーです</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>カメラ {} の視野が測定時から {}、{} ピクセル動いています</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>光が足りません：レンズが覆われていませんか、またはプロジェクターがスリープ中ではありませんか</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>カメラに予想と違うものが写っています：誰かが光の中に立っていたか、部屋の明かりが変わりませんでしたか</translation>
     </message>
 </context>
 <context>
@@ -5120,6 +5152,73 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 画像はこれまでどおり表示されます。もう一度お試しください。</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>写真からより良いものは見つかりませんでした。画像はこれまでどおり表示されます。</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>画像を仕上げています</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>これまでに写真 %n 枚。部屋をそのままにしてください。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1：以前 %2、現在 %3、写真 %n 枚。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>この画像は仕上げ済みです</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>画像は元のままです</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>未仕上げ</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>静止画は、その画像自体の写真（8 枚ほど）で補正できます。この会場と現在の配置のために保存されます。</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>画像の仕上げ</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>この画像を仕上げる</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>止めて最良を残す</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>以前の表示に戻す</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>写真による補正は破棄されます。</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>もう一度仕上げる</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5635,6 +5734,10 @@ projector %2</source>
     <message>
         <source>How bright white is</source>
         <translation>白の明るさ</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>画像はこれまでどおり表示されます。</translation>
     </message>
 </context>
 <context>
@@ -7357,6 +7460,13 @@ projector %2</source>
     <message>
         <source>Opening the devices</source>
         <translation>機器への接続</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>画像をその写真で補正しています</translation>
     </message>
 </context>
 <context>

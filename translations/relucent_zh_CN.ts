@@ -210,6 +210,10 @@
         <source>follows a viewer within %1 ms</source>
         <translation>在 %1 ms 内跟随观众</translation>
     </message>
+    <message>
+        <source>perfected by photographs</source>
+        <translation>已由照片完善</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -2263,6 +2267,34 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}：白色比红、绿、蓝之和暗 {} %。请关闭节能、色彩管理和动态图像模式</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-blinded</name>
+    <message>
+        <source>something blinds the camera: {} of its view is overexposed</source>
+        <translation>有光线直射相机：画面的 {} 过曝</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {}, {} pixels since the venue was measured</source>
+        <translation>相机 {} 的视野自测量以来移动了 {}、{} 像素</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.light-missing</name>
+    <message>
+        <source>light is missing: is the lens covered, or a projector asleep?</source>
+        <translation>光线不足：镜头是否被遮挡，或投影机是否休眠？</translation>
+    </message>
+</context>
+<context>
+    <name>perfect.something-else</name>
+    <message>
+        <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
+        <translation>相机看到的与预期不同：是否有人站在光中，或室内光线变了？</translation>
     </message>
 </context>
 <context>
@@ -5120,6 +5152,73 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Perfecting</name>
+    <message>
+        <source>%1 The picture is shown as before. Try again.</source>
+        <translation>%1 图片仍按原样显示。请重试。</translation>
+    </message>
+    <message>
+        <source>The photographs found nothing better. The picture is shown as before.</source>
+        <translation>照片未找到更好的结果。图片仍按原样显示。</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected</source>
+        <translation>正在完善图片</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n photograph(s) by now. Keep the room as it is.</source>
+        <translation>
+            <numerusform>目前 %n 张照片。请保持室内不变。</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1: %2 before, %3 now, by %n photograph(s).</source>
+        <translation>
+            <numerusform>%1：之前 %2，现在 %3，共 %n 张照片。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>This picture is perfected</source>
+        <translation>此图片已完善</translation>
+    </message>
+    <message>
+        <source>The picture is as it was</source>
+        <translation>图片保持原样</translation>
+    </message>
+    <message>
+        <source>Not perfected</source>
+        <translation>未完善</translation>
+    </message>
+    <message>
+        <source>A picture that stands can be corrected by photographs of itself, some eight of them. It is kept for this venue, placed as it is now.</source>
+        <translation>静止图片可用其自身的照片（约八张）校正。结果按当前位置为此场地保存。</translation>
+    </message>
+    <message>
+        <source>Perfect a picture</source>
+        <translation>完善图片</translation>
+    </message>
+    <message>
+        <source>Perfect this picture</source>
+        <translation>完善此图片</translation>
+    </message>
+    <message>
+        <source>Stop and keep the best</source>
+        <translation>停止并保留最佳</translation>
+    </message>
+    <message>
+        <source>Show it as before</source>
+        <translation>恢复原来的显示</translation>
+    </message>
+    <message>
+        <source>What the photographs corrected is dropped.</source>
+        <translation>照片所作的校正将被丢弃。</translation>
+    </message>
+    <message>
+        <source>Perfect it again</source>
+        <translation>再次完善</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::PlaneView</name>
     <message>
         <source>%1 px</source>
@@ -5635,6 +5734,10 @@ projector %2</source>
     <message>
         <source>How bright white is</source>
         <translation>白色的亮度</translation>
+    </message>
+    <message>
+        <source>The picture is shown as before.</source>
+        <translation>图片仍按原样显示。</translation>
     </message>
 </context>
 <context>
@@ -7357,6 +7460,13 @@ projector %2</source>
     <message>
         <source>Opening the devices</source>
         <translation>正在打开设备</translation>
+    </message>
+</context>
+<context>
+    <name>stage.perfecting</name>
+    <message>
+        <source>Correcting the picture by photographs of itself</source>
+        <translation>正在用图片自身的照片校正</translation>
     </message>
 </context>
 <context>

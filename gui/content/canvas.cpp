@@ -12,6 +12,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/compensation/content_identity.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/picture_files.h"
 
@@ -132,6 +133,13 @@ QImage onCanvas(const QImage& picture, const Canvas& canvas) {
   return scaled.copy(QRect(QPoint((scaledSize.width() - canvas.size.width()) / 2,
                                   (scaledSize.height() - canvas.size.height()) / 2),
                            canvas.size));
+}
+
+std::string identityOf(const QString& file, QSize picture, const Canvas& canvas) {
+  QFile bytes(file);  // of the program's own too
+  if (!bytes.open(QIODevice::ReadOnly)) return {};
+  return compensation::contentIdentity(bytes.readAll().toStdString(), {picture.width(), picture.height()},
+                                       {{canvas.size.width(), canvas.size.height()}, canvas.fit});
 }
 
 QImage crossFaded(const QImage& from, const QImage& to, double share) {

@@ -3,6 +3,7 @@
 
 #include <QImage>
 #include <QString>
+#include <string>
 
 #include "relucent/compensation/placement.h"
 
@@ -23,6 +24,9 @@ QImage readContent(const QString& file);
 /// The picture scaled to the canvas; bars are black. Its format stays.
 /// Contract: neither is empty.
 QImage onCanvas(const QImage& picture, const Canvas& canvas);
+
+/// See compensation::contentIdentity(). `picture`: the file's size. Empty if the file cannot be read.
+std::string identityOf(const QString& file, QSize picture, const Canvas& canvas);
 
 /// (1 - share) from + share to, in linear light, as what projectors add is light.
 /// Contract: both of one size.  Format_RGBX8888.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace relucent::gui {
 
@@ -15,6 +16,8 @@ using ContentTime = std::chrono::microseconds;
 struct ContentPicture {
   QImage image;              // upright, opaque; sRGB in Format_RGBX8888, or linear in Format_RGBX32FPx4
   std::uint64_t number = 0;  // differs between different pictures
+  /// Of a still picture from a file, see compensation::contentIdentity(); empty: of anything else.
+  std::string identity{};
 };
 
 /// Something that can be played. All frames have the size of the canvas, whatever the files hold, so that

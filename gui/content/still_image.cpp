@@ -10,7 +10,10 @@ std::uint64_t nextFrameNumber() {
   return ++last;
 }
 
-StillImage::StillImage(const QString& file, const Canvas& canvas) : StillImage(readContent(file), canvas) {}
+StillImage::StillImage(const QString& file, const Canvas& canvas) {
+  const QImage picture = readContent(file);
+  frame_ = {onCanvas(picture, canvas), nextFrameNumber(), identityOf(file, picture.size(), canvas)};
+}
 
 StillImage::StillImage(const QImage& picture, const Canvas& canvas)
     : frame_{onCanvas(picture, canvas), nextFrameNumber()} {}

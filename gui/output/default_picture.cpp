@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "output/default_picture.h"
 
+#include <QFile>
 #include <QImage>
 
+#include "relucent/base/file.h"
+#include "relucent/base/require.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/picture_files.h"
 
@@ -10,6 +13,16 @@ namespace relucent::gui {
 
 QString defaultPicture() {
   return ":/pictures/demo.png";
+}
+
+std::filesystem::path pictureFile(const QString& picture, const std::filesystem::path& folder) {
+  if (!picture.startsWith(':')) return picture.toStdString();
+  QFile resource(picture);
+  require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
+  createFolder(folder);
+  std::filesystem::path file = folder / "Demonstration picture.png";
+  writeFileAtomically(file, resource.readAll().toStdString());
+  return file;
 }
 
 image::Image linearContentOf(const QString& file) {

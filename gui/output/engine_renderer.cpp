@@ -9,6 +9,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::gui {
@@ -71,6 +72,9 @@ EngineRenderer::EngineRenderer(const RendererSettings& wanted, Progress& progres
   // A range that follows the content is the engine's.
   if (!wanted.adaptiveRange || method != compensation::Method::refined)
     still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
+  if (still_ && settings.target.brightness == chosen.content.brightness)
+    perfected_.emplace(wanted.calibration, pipeline::fingerprintOfShown(folder),
+                       calibration_.venue.transport.projectors(), notify);
   words_.resize(calibration_.venue.transport.projectors().count());
   cards_ = CardPictures(EngineRenderer::projectors());
 }
@@ -102,20 +106,32 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
   // Brightness is the engine's.
   if (!still_ || !request.thorough || !request.compensated || request.brightness != 1.0)
     return framed(content, request);
-  Stopwatch watch;
-  if (const compensation::Compensation* solved =
-          still_->solve(content, outdated, weightsFor(request.viewer))) {
-    if (follower_) {
-      follow(request.viewer);
-      backend_->startFrom(solved->projector);
-      number_ = content.number;
-      last_ = request;
-    }
-    return encoded(*solved, watch.seconds());
-  }
+  if (std::optional<RenderedFrame> rendered = thorough(content, request, outdated))
+    return *std::move(rendered);
   RenderRequest inHaste = request;
   inHaste.thorough = false;
   return framed(content, inHaste);
+}
+
+std::optional<RenderedFrame> EngineRenderer::thorough(const ContentPicture& content,
+                                                      const RenderRequest& request,
+                                                      const Outdated& outdated) {
+  Stopwatch watch;
+  // For whoever looks from where the content is for.
+  const compensation::Compensation* solved =
+      perfected_ && !request.viewer ? perfected_->of(content) : nullptr;
+  const bool isPerfected = solved != nullptr;
+  if (!isPerfected) solved = still_->solve(content, outdated, weightsFor(request.viewer));
+  if (solved == nullptr) return std::nullopt;
+  if (follower_) {
+    follow(request.viewer);
+    backend_->startFrom(solved->projector);
+    number_ = content.number;
+    last_ = request;
+  }
+  RenderedFrame rendered = encoded(*solved, watch.seconds());
+  rendered.perfected = isPerfected;
+  return rendered;
 }
 
 void EngineRenderer::interrupt() {

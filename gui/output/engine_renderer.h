@@ -8,6 +8,7 @@
 
 #include "content/canvas.h"
 #include "output/frame_renderer.h"
+#include "output/perfected_pictures.h"
 #include "output/still_solver.h"
 #include "relucent/base/progress.h"
 #include "relucent/engine/adaptive_range.h"
@@ -38,10 +39,11 @@ class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. Placement, brightness and black
   /// level are those stored for the calibration's content; its method applies to still pictures, see
-  /// StillSolver. `notify` is called once, on the rendering thread, when a graphics card is lost or unusable
-  /// and the processor takes over. `host`: of SharedGl; with it pictures stay on the graphics card where they
-  /// are computed there. Throws: as loadCalibration(), prepareVenue() and prepareContent(); Error{input} if
-  /// the positions are not as many as the cameras.
+  /// StillSolver; pictures that were perfected are shown so. `notify` is called on the rendering thread, when
+  /// a graphics card is lost or unusable and the processor takes over, or a perfected picture cannot be read.
+  /// `host`: of SharedGl; with it pictures stay on the graphics card where they are computed there. Throws:
+  /// as loadCalibration(), prepareVenue() and prepareContent(); Error{input} if the positions are not as many
+  /// as the cameras.
   EngineRenderer(const RendererSettings& settings, Progress& progress,
                  const engine::FallbackBackend::Notify& notify = {}, const engine::MakeGlHost& host = {});
 
@@ -57,6 +59,9 @@ class EngineRenderer : public FrameRenderer {
   /// By the graphics card where it shares its textures, else through memory. Throws: Error{device}.
   std::vector<DrivePicture> computed(const engine::ContentFrame& frame, const engine::FrameRequest& request,
                                      engine::FrameReport& report);
+  /// A still picture as well as possible; none: it is outdated, or the engine's.
+  std::optional<RenderedFrame> thorough(const ContentPicture& content, const RenderRequest& request,
+                                        const Outdated& outdated);
   RenderedFrame framed(const ContentPicture& content, const RenderRequest& request);
   RenderedFrame encoded(const compensation::Compensation& solved, double seconds);
   /// How bright white is where in this frame. Whether the same frame would have the same light again.
@@ -76,6 +81,7 @@ class EngineRenderer : public FrameRenderer {
   std::optional<engine::AdaptiveRange> range_;
   std::optional<engine::FollowedBrightness> whites_;    // none: white is even
   std::chrono::steady_clock::time_point lightAsked_{};  // when range or whites were
+  std::optional<PerfectedPictures> perfected_;          // none: white is not as it was for them
   std::unique_ptr<StillSolver> still_;                  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
   CardPictures cards_{{}};

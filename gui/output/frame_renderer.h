@@ -43,7 +43,8 @@ struct RenderedFrame {
   double clipped = 0.0;              // share of drive values that were clipped
   int steps = 0;                     // of refinement
   double seconds = 0.0;
-  bool settled = true;  // false: rendering the same content again would differ slightly
+  bool settled = true;     // false: rendering the same content again would differ slightly
+  bool perfected = false;  // as photographs of it corrected it, see PerfectedPictures
 };
 
 /// Computes the projectors' pictures from content. Used by one thread at a time.

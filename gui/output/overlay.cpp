@@ -25,9 +25,10 @@ QStringList overlayLines(const OverlayState& state) {
                                       .arg(now.late)
                                       .arg(now.frames)
                                 : Overlay::tr("still picture"),
-      state.compensated ? Overlay::tr("compensated, %n step(s), %1 % out of reach", nullptr, now.steps)
-                              .arg(number(100.0 * now.clipped))
-                        : Overlay::tr("not compensated")};
+      state.compensated && now.perfected ? Overlay::tr("perfected by photographs")
+      : state.compensated ? Overlay::tr("compensated, %n step(s), %1 % out of reach", nullptr, now.steps)
+                                .arg(number(100.0 * now.clipped))
+                          : Overlay::tr("not compensated")};
   if (now.viewerSeconds > 0.0)
     lines.append(Overlay::tr("follows a viewer within %1 ms").arg(number(1e3 * now.viewerSeconds)));
   if (state.frozen) lines.append(Overlay::tr("frozen"));

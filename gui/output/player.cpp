@@ -154,6 +154,7 @@ PlayerStatistics Player::statistics() const {
   result.late = late_;
   result.clipped = last_.rendered.clipped;
   result.steps = last_.rendered.steps;
+  result.perfected = last_.rendered.perfected;
   ContentTime now = microseconds(running_);
   double seconds = 0.0;
   int count = 0, changes = 0;

@@ -16,6 +16,7 @@ struct PlayerStatistics {
   // The longest that a viewer who moved has waited for his picture, up to when windows had it, which show it
   // with their next refresh; 0: nobody has moved.
   double viewerSeconds = 0.0;
+  bool perfected = false;  // the last frame is a picture that photographs of it corrected
 };
 
 }  // namespace relucent::gui

@@ -255,6 +255,7 @@ void Show::writeHealth(ShowState state) {
                      {"viewer_milliseconds", 1e3 * statistics.viewerSeconds},
                      {"clipped", statistics.clipped},
                      {"steps", statistics.steps},
+                     {"perfected", statistics.perfected},
                      {"item", static_cast<qint64>(content.playing)},
                      {"skipped", static_cast<qint64>(skipped.size())},
                      {"failures", failures_},

@@ -11,6 +11,7 @@
 #include "wizard/devices/device_selector.h"
 #include "wizard/devices/flash_consent.h"
 #include "wizard/devices/nudge_dialog.h"
+#include "wizard/devices/perfecting_part.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
@@ -259,6 +260,9 @@ QWidget* outputInspector(OutputPage& page) {
   column->addWidget(method);
   column->addWidget(lineOf());
   column->addWidget(proofPart(page));
+  column->addWidget(lineOf());
+  column->addWidget(perfectingPart(page, page.perfecting(),
+                                   {[&page] { return page.mayProve(); }, [&page] { page.perfect(); }}));
   column->addWidget(lineOf());
   column->addWidget(handOverPart(page));
   column->addStretch(1);

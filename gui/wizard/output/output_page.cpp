@@ -28,6 +28,7 @@ double movedPixels(const sentinels::Movement& moved) {
 OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       proof_(session, stepName),
+      perfecting_(session, stepName),
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   open_ = addCommand(Icon::play, [this] { open(); });
   install_ = addCommand(Icon::power, [this] { install(); });
@@ -66,7 +67,10 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&playlist_, &OutputPlaylist::unreadable, this, [this](const QString& sentence) {
     tell({ErrorKind::format, sentence, tr("Make the list again."), sentence});
   });
-  connect(&playlist_, &OutputPlaylist::changed, this, &OutputPage::tellSettings);
+  connect(&playlist_, &OutputPlaylist::changed, this, [this] {
+    lookAtPicture();
+    tellSettings();
+  });
   connect(&proof_, &OutputProof::changed, this, &OutputPage::tellResult);
   connect(&proof_, &OutputProof::progressed, this, &OutputPage::tellProgress);
   connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
@@ -76,9 +80,15 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     QDesktopServices::openUrl(QUrl::fromLocalFile(file));
     tellResult();
   });
+  connect(&perfecting_, &Perfecting::changed, this, &OutputPage::tellResult);
+  connect(&perfecting_, &Perfecting::progressed, this, &OutputPage::tellProgress);
+  connect(&perfecting_, &Perfecting::ended, this, &OutputPage::perfectingEnded);
+  connect(&perfecting_, &Perfecting::failed, this, &OutputPage::tell);
+  connect(&projection_, &OutputProjection::progressed, this, &OutputPage::lookAtPicture);
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
     session_.setShowing(isOpen() || reopen_);
+    lookAtPicture();
     tellProgress();
     tellResult();
   });
@@ -95,11 +105,13 @@ OutputPage::~OutputPage() {
 void OutputPage::finish() {
   reopen_ = false;
   proof_.cancel();
+  perfecting_.cancel();
   close();
 }
 
 void OutputPage::enter() {
   listScreens();
+  lookAtPicture();
   detectInstalledShow();
 }
 
@@ -115,6 +127,7 @@ StepStatus OutputPage::status() const {
 QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
+  if (perfecting_.isRunning()) return perfecting_.stage();
   if (!isOpen() && !session_.areDevicesFree())
     return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
@@ -249,6 +262,7 @@ QString OutputPage::stepToReview() const {
 
 std::optional<double> OutputPage::progress() const {
   if (projection_.isOpening()) return projection_.fraction();
+  if (perfecting_.isRunning()) return perfecting_.fraction();
   return proof_.work() != OutputProof::Work::none ? std::optional(proof_.fraction()) : std::nullopt;
 }
 
@@ -344,6 +358,27 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 
 void OutputPage::verify() {
   if (mayProve()) whileClosed([this] { proof_.photograph(pictureToProve()); });
+}
+
+void OutputPage::perfect() {
+  if (mayProve()) whileClosed([this] { perfecting_.start(); });
+}
+
+/// What plays now, on the canvas that it plays on.
+void OutputPage::lookAtPicture() {
+  if (playlist_.isEmpty()) return;
+  perfecting_.lookAt(pictureToProve(), isOpen() ? projection_.canvas()
+                                                : OutputProjection::canvasFor(
+                                                      playlist_.settings(), session_.settings().content.fit));
+}
+
+/// What stands on the projectors is looked for again.
+void OutputPage::perfectingEnded(bool isOther) {
+  if (isOther && isOpen()) {
+    reopen_ = true;
+    close();
+  }
+  proofEnded();
 }
 
 void OutputPage::proofEnded() {

@@ -4,6 +4,7 @@
 #include "output/output_playlist.h"
 #include "output/output_projection.h"
 #include "wizard/devices/device_page.h"
+#include "wizard/devices/perfecting.h"
 #include "wizard/output/output_proof.h"
 #include "wizard/session/results_beside.h"
 
@@ -93,6 +94,9 @@ class OutputPage : public DevicePage {
   bool mayProve() const { return proof_.isPossible() && !playsEarlier() && !isScreenLost(); }
   /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
   void verify();
+  /// Corrects the picture that plays by photographs of itself; as verify().
+  void perfect();
+  Perfecting& perfecting() { return perfecting_; }
   void checkDrift() {
     whileClosed([this] { proof_.checkDrift(); });
   }
@@ -143,6 +147,8 @@ class OutputPage : public DevicePage {
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
   void proofEnded();
+  void lookAtPicture();
+  void perfectingEnded(bool isOther);
   QString pictureToProve() const;
   QStringList showArguments() const;
   void tell(const Failure& failure);
@@ -153,6 +159,7 @@ class OutputPage : public DevicePage {
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;
+  Perfecting perfecting_;
   std::unique_ptr<ResultsBeside> earlier_;  // what plays while it is measured again
   OutputProjection projection_;
   std::vector<OutputScreen> screens_;

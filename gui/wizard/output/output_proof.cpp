@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/output_proof.h"
 
-#include <QFile>
 #include <QStandardPaths>
 
 #include "handover/report_pdf.h"
+#include "output/default_picture.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/pipeline/verify.h"
@@ -15,17 +15,6 @@ namespace relucent::gui {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Core reads files: what lies within the program is written beside the pictures.
-fs::path fileOf(const QString& picture, const fs::path& folder) {
-  if (!picture.startsWith(':')) return picture.toStdString();
-  QFile resource(picture);
-  require(resource.open(QIODevice::ReadOnly), "the program's own picture is missing");
-  createFolder(folder);
-  fs::path file = folder / "Demonstration picture.png";
-  writeFileAtomically(file, resource.readAll().toStdString());
-  return file;
-}
 
 /// Of the show that this program installs.
 std::vector<fs::path> showLogs() {
@@ -138,7 +127,7 @@ void OutputProof::photograph(const QString& picture) {
                            shownFrom = session_.shownFrom()](Progress& progress) {
     pipeline::ProveSettings settings;
     settings.out = proofFolder(work.path);
-    settings.image = fileOf(picture, settings.out);
+    settings.image = pictureFile(picture, settings.out);
     settings.method = content.method;
     settings.target = targetOf(content);
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
@@ -180,7 +169,7 @@ void OutputProof::report(const QString& picture) {
                        logs = showLogs()](Progress& progress) {
     report::ReportSettings settings;
     settings.out = path / "report.html";
-    settings.images = {fileOf(picture, proofFolder(path))};
+    settings.images = {pictureFile(picture, proofFolder(path))};
     settings.bundle = path / "support.zip";
     settings.attachments = logs;
     settings.evaluate = false;  // what was measured, not what a simulation knows

@@ -10,6 +10,7 @@
 #include "theme/theme.h"
 #include "theme/tick.h"
 #include "views/number_text.h"
+#include "wizard/devices/perfecting_part.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/preview/views_part.h"
@@ -114,6 +115,9 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addWidget(others);
   auto* shadow = new Note(Note::Kind::information);
   column->addWidget(shadow);
+  column->addWidget(lineOf());
+  column->addWidget(perfectingPart(page, page.perfecting(),
+                                   {[&page] { return page.mayPerfect(); }, [&page] { page.perfect(); }}));
   column->addStretch(1);
 
   QObject::connect(change, &QPushButton::clicked, &page, [&page, card] {

@@ -85,7 +85,16 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           },
           [this](const Failure& failure) {
             Q_EMIT failed({failure, tr("The picture of before stays.")});
-          }) {
+          }),
+      perfecting_(session, stepName) {
+  connect(&perfecting_, &Perfecting::changed, this, [this] {
+    tellStatus();
+    tellResult();
+  });
+  connect(&perfecting_, &Perfecting::progressed, this, &PreviewPage::tellProgress);
+  connect(&perfecting_, &Perfecting::failed, this, [this](const Failure& failure) {
+    Q_EMIT failed({failure, tr("The picture is shown as before.")});
+  });
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   shine_ = addCommand(Icon::projector, [this] { isShining() ? stopShining() : shine(); });
@@ -125,11 +134,13 @@ void PreviewPage::leave() {
 
 void PreviewPage::finish() {
   stopShining();
+  perfecting_.cancel();
   job_.cancel();
 }
 
 void PreviewPage::enter() {
   looked_ = true;
+  lookAtPicture();
   // What failed is tried again when somebody comes back to it, not before.
   if (job_.state() == Job::State::failed) preparedFor_.clear();
   prepare();
@@ -201,6 +212,7 @@ void PreviewPage::adopt(const pipeline::ContentSettings& settings) {
   settings_ = settings;
   problem_.clear();
   compute();
+  if (looked_) lookAtPicture();
   tellSettings();
 }
 
@@ -259,10 +271,9 @@ void PreviewPage::refuse(const Failure& failure) {
 
 void PreviewPage::compute() {
   if (!engine_) return;
-  computing_.ask([engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
-                  settings = placedSettings()] {
-    return Predicted(settings, previewOf(*engine, settings, known));
-  });
+  computing_.ask(
+      [engine = engine_, known = contentOf_ == settings_.picture ? content_ : nullptr,
+       settings = placedSettings()] { return Predicted(settings, previewOf(*engine, settings, known)); });
   tellStatus();
 }
 
@@ -295,8 +306,7 @@ void PreviewPage::compareNext() {
       table_.size() >= comparedMethods.size())
     return;
   compensation::Method method = comparedMethods[table_.size()];
-  comparing_.ask([engine = engine_, content = content_, settings = placedSettings(), method,
-                  round = round_] {
+  comparing_.ask([engine = engine_, content = content_, settings = placedSettings(), method, round = round_] {
     return std::pair(round, methodPreviewOf(*engine, settings, *content, method));
   });
 }
@@ -340,6 +350,7 @@ QString PreviewPage::hint() const {
     return shinesCorrected_ ? tr("On the surface now: the corrected picture.")
                             : tr("On the surface now: the uncorrected picture.");
   if (job_.isRunning()) return job_.stage();
+  if (perfecting_.isRunning()) return perfecting_.stage();
   if (!engine_)
     return session_.areDevicesFree() ? tr("The preview is not prepared.")
                                      : tr("The devices are in use at %1.").arg(session_.devicesUserName());
@@ -403,19 +414,41 @@ void PreviewPage::surfaceChanged() {
 }
 
 std::optional<double> PreviewPage::progress() const {
+  if (perfecting_.isRunning()) return perfecting_.fraction();
   return job_.isRunning() ? std::optional(job_.fraction()) : std::nullopt;
 }
 
 void PreviewPage::accept() {
+  if (keepPlacement()) Q_EMIT nextWanted();
+}
+
+bool PreviewPage::keepPlacement() {
   try {
     pipeline::CalibrateSettings settings = session_.settings();
     settings.content = placedSettings();
     session_.changeSettings(settings);
     session_.decide(calibration::ContentResult{preview_->reachableShare, preview_->deltaEMean});
-    Q_EMIT nextWanted();
+    return true;
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
+    return false;
   }
+}
+
+bool PreviewPage::mayPerfect() const {
+  // Real projectors show the output: the camera would photograph that.
+  const bool isInTheWay = session_.underWay().show && !session_.isSimulated();
+  return preview_ && perfecting_.isPossible() && !isInTheWay && !isShining() &&
+         session_.whyLocked(step()).isEmpty();
+}
+
+void PreviewPage::perfect() {
+  if (mayPerfect() && keepPlacement()) perfecting_.start();
+}
+
+void PreviewPage::lookAtPicture() {
+  const QString picture = QString::fromStdString(settings_.picture);
+  perfecting_.lookAt(picture.isEmpty() ? defaultPicture() : picture, Canvas{QSize(0, 0)});
 }
 
 }  // namespace relucent::gui

@@ -6,6 +6,7 @@
 #include "output/surface_pictures.h"
 #include "wizard/devices/device_page.h"
 #include "wizard/devices/on_measurement.h"
+#include "wizard/devices/perfecting.h"
 #include "wizard/preview/content_preview.h"
 #include "wizard/session/session.h"
 
@@ -92,6 +93,10 @@ class PreviewPage : public DevicePage {
   void shine();
   void stopShining() { surface_.stop(); }
   void setShinesCorrected(bool corrected);
+  /// Accepts the placement, and corrects the picture in it by photographs of itself.
+  void perfect();
+  bool mayPerfect() const;
+  Perfecting& perfecting() { return perfecting_; }
   /// Why it cannot shine now; empty: it can, or does.
   QString whyNotShining() const;
 
@@ -114,6 +119,8 @@ class PreviewPage : public DevicePage {
   void findContradiction(const pipeline::ContentSettings& settings);
   void forgetTable();
   void accept();
+  bool keepPlacement();
+  void lookAtPicture();
   const std::vector<QImage>& sent() const;
   void surfaceChanged();
 
@@ -140,6 +147,7 @@ class PreviewPage : public DevicePage {
   bool looked_ = false;  // now
   bool shinesCorrected_ = true;
   SurfacePictures surface_;
+  Perfecting perfecting_;
 };
 
 }  // namespace relucent::gui

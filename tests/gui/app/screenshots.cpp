@@ -311,6 +311,9 @@ int main(int argc, char** argv) {
   until([&] { return !wizard.page<OutputPage>().projection().mirror().isNull(); });
   wizard.page<OutputPage>().verify();
   until([&] { return wizard.page<OutputPage>().proof().proof() != nullptr; });
+  wizard.page<OutputPage>().perfect();
+  until(
+      [&] { return wizard.page<OutputPage>().perfecting().outcome() && wizard.page<OutputPage>().isOpen(); });
   wizard.page<OutputPage>().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
   wizard.page<OutputPage>().checkDrift();
   until([&] { return wizard.page<OutputPage>().proof().drift().has_value(); });

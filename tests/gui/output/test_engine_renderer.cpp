@@ -6,12 +6,16 @@
 #include <QtTest>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "content/still_image.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/compensate.h"
+#include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/pictures.h"
+#include "relucent/pipeline/proof_record.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -167,6 +171,79 @@ class TestEngineRenderer : public QObject {
     QVERIFY(renderer.render({colours(), 1}, request, needed).drives[0].image() == best.drives[0].image());
     request.thorough = false;
     QVERIFY(renderer.render({colours(), 2}, request, needed).drives[0].image() == home.drives[0].image());
+  }
+
+  /// A picture that was perfected is shown so when it stands, and only as it was perfected.
+  void aPerfectedPictureIsShown() {
+    const QString file = QString::fromStdString((root() / "perfected.png").string());
+    colours().save(file);
+    const Canvas canvas = settingsOf("plain").canvas;
+    const ContentPicture content = StillImage(file, canvas).at({});
+    QVERIFY(!content.identity.empty());
+    std::string shownFrom;
+    {
+      const auto folder = calibration::CalibrationFolder::open(root() / "plain",
+                                                               calibration::CalibrationFolder::Access::read);
+      shownFrom = fingerprintOfShown(folder);
+    }
+    const Size projector{40, 30};
+    savePerfected(
+        {perfectedKey(shownFrom, content.identity), root() / "plain", file.toStdString(), "now", {}, {}},
+        ProjectorStack(3 * projector.count(), 0.5f), Rasters(projector));
+    const Outdated needed = [] { return false; };
+    RenderRequest request;
+    const auto isPerfected = [&](RendererSettings settings, const ContentPicture& picture) {
+      std::vector<Message> warnings;
+      Progress silent;
+      EngineRenderer renderer(settings, silent, [&](const Message& warning) { warnings.push_back(warning); });
+      const RenderedFrame frame = renderer.render(picture, request, needed);
+      const QImage drive = frame.drives[0].image();
+      const QRgb first = drive.pixel(0, 0);
+      bool even = true;  // one drive all over, but for dither
+      for (int y = 0; y < drive.height(); ++y)
+        for (int x = 0; x < drive.width(); ++x)
+          even &= std::abs(qGreen(drive.pixel(x, y)) - qGreen(first)) <= 1;
+      return frame.perfected && even && warnings.empty();
+    };
+    QVERIFY(!isPerfected(settingsOf("plain"), content));  // in haste
+    request.thorough = true;
+    QVERIFY(isPerfected(settingsOf("plain"), content));
+    QVERIFY(!isPerfected(settingsOf("corner"), content));                // another venue
+    QVERIFY(!isPerfected(settingsOf("plain"), {content.image, 1, {}}));  // another picture that looks alike
+    RendererSettings other = settingsOf("plain");
+    other.brightness = Brightness::region;
+    QVERIFY(!isPerfected(other, content));
+    other = settingsOf("plain");
+    other.adaptiveRange = true;
+    QVERIFY(!isPerfected(other, content));
+    request.compensated = false;
+    QVERIFY(!isPerfected(settingsOf("plain"), content));
+  }
+  /// One that is damaged is told of, and the picture is shown as T has it.
+  void aDamagedPerfectedPictureIsToldOf() {
+    const QString file = QString::fromStdString((root() / "damaged.png").string());
+    colours().save(file);
+    const ContentPicture content = StillImage(file, settingsOf("corner").canvas).at({});
+    {
+      const auto folder = calibration::CalibrationFolder::open(root() / "corner",
+                                                               calibration::CalibrationFolder::Access::read);
+      const fs::path record = perfectedFolder(root() / "corner") /
+                              perfectedKey(fingerprintOfShown(folder), content.identity) / "perfected.json";
+      fs::create_directories(record.parent_path());
+      std::ofstream(record) << "{";
+    }
+    std::vector<Message> warnings;
+    Progress silent;
+    EngineRenderer renderer(settingsOf("corner"), silent,
+                            [&](const Message& warning) { warnings.push_back(warning); });
+    RenderRequest request;
+    request.thorough = true;
+    for (int again = 0; again < 2; ++again) {
+      const RenderedFrame frame = renderer.render(content, request, [] { return false; });
+      QVERIFY(!frame.perfected && frame.drives.size() == 1);
+    }
+    QCOMPARE(warnings.size(), 1u);
+    QVERIFY(mentions(englishSentence(warnings.front()), "the record of a perfected picture cannot be read"));
   }
 
   void positionsOfOtherCamerasAreRefused() {

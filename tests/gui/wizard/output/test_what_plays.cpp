@@ -101,6 +101,33 @@ class TestWhatPlays : public QObject {
     QVERIFY(!page_->banner());
   }
 
+  /// Law: what photographs of the picture have made better is what plays from then on, until it is to be
+  /// shown as before, or in another way.
+  void aPerfectedPicturePlays() {
+    Perfecting& perfecting = page_->perfecting();
+    const auto settled = [&] { return page_->isOpen() && page_->projection().statistics().steps >= 0; };
+    const auto plays = [&](bool perfected) {
+      return settled() && page_->projection().statistics().perfected == perfected;
+    };
+    openOutput();
+    QVERIFY(!perfecting.known() && page_->mayProve());
+    page_->perfect();
+    QVERIFY(perfecting.isRunning() && !page_->mayProve());
+    QTRY_VERIFY_WITH_TIMEOUT(!perfecting.isRunning(), patience);
+    QVERIFY(perfecting.outcome() && perfecting.outcome()->kept);
+    QVERIFY(perfecting.photographs() > 1);
+    QTRY_VERIFY_WITH_TIMEOUT(perfecting.known().has_value(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(plays(true), patience);
+    // Another white is another picture.
+    change([](pipeline::CalibrateSettings& s) { s.content.blackLift = 0.1; });
+    QTRY_VERIFY_WITH_TIMEOUT(!perfecting.known(), patience);
+    change([](pipeline::CalibrateSettings& s) { s.content.blackLift.reset(); });
+    QTRY_VERIFY_WITH_TIMEOUT(perfecting.known().has_value(), patience);
+    perfecting.forget();
+    QVERIFY(!perfecting.known());
+    QTRY_VERIFY_WITH_TIMEOUT(plays(false) && page_->projection().statistics().frames > 1, patience);
+  }
+
   /// Law: the new measurement's correction is not the earlier one's, and only its own photograph proves it.
   void aNewMeasurementMakesItEarlier() {
     openOutput();

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "content/canvas.h"
+#include "jobs/job.h"
+#include "jobs/latest.h"
+#include "relucent/pipeline/perfect.h"
+#include "wizard/session/session.h"
+
+namespace relucent::gui {
+
+/// Corrects a still picture by photographs of itself, for a page: one at a time, on another thread. Knows of
+/// the picture that it was told of last whether it is corrected so.
+class Perfecting : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `step`: that the devices are used by.
+  Perfecting(Session& session, const StepName& step, QObject* parent = nullptr);
+  ~Perfecting() override { job_.cancel(); }
+
+  /// The picture that the page shows, a file or resource, and the canvas that it is shown on. Looks on the
+  /// disk, on another thread; changed() tells.
+  void lookAt(const QString& picture, const Canvas& canvas);
+
+  bool isRunning() const { return job_.isRunning(); }
+  /// Devices and light transport are free.
+  bool isPossible() const { return session_.isOpen() && !isRunning() && session_.areDevicesFree(); }
+  QString stage() const { return job_.stage(); }
+  double fraction() const { return job_.fraction(); }
+  /// Photographs of the picture by now.
+  int photographs() const { return photographs_; }
+
+  /// How the picture was corrected; none: it is shown as T has it.
+  const std::optional<pipeline::PerfectedPicture>& known() const { return known_; }
+  /// What became of the picture when it was last tried here; none: it was not.
+  const std::optional<pipeline::PerfectedImage>& outcome() const { return outcome_; }
+
+  void start();
+  /// What is best by now is kept.
+  void stopAndKeep() { job_.stopAndKeep(); }
+  void cancel() { job_.cancel(); }
+  /// The picture is shown as T has it again.
+  void forget();
+
+ Q_SIGNALS:
+  void changed();
+  void progressed();
+  /// In any way. `isOther`: the picture is shown in another way now.
+  void ended(bool isOther);
+  void failed(const gui::Failure& failure);
+
+ private:
+  struct Found;
+  std::string keyOfPicture() const;
+  void look();
+  void finished();
+
+  Session& session_;
+  StepName step_;
+  DeviceLease lease_;
+  Job job_;
+  QString picture_;
+  Canvas canvas_;
+  std::optional<pipeline::PerfectedPicture> known_;
+  std::optional<pipeline::PerfectedImage> outcome_;
+  int photographs_ = 0;
+  std::shared_ptr<Found> found_;  // by the job
+  Latest<std::optional<pipeline::PerfectedPicture>> looking_;
+};
+
+}  // namespace relucent::gui

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/devices/perfecting_part.h"
+
+#include <QDateTime>
+#include <QLocale>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "text/message_text.h"
+#include "theme/controls.h"
+#include "theme/theme.h"
+#include "views/number_text.h"
+#include "wizard/frame/page_view.h"
+
+namespace relucent::gui {
+namespace {
+
+/// Camera after camera.
+QString figures(const std::vector<pipeline::PictureError>& views) {
+  QStringList errors;
+  for (const pipeline::PictureError& view : views) errors << decimalText(view.deltaE, 1);
+  return isolated(QString::fromUtf8("ΔE %1").arg(errors.join(", ")));
+}
+
+QString dateText(const std::string& iso) {
+  const QDateTime when = QDateTime::fromString(QString::fromStdString(iso), Qt::ISODate).toLocalTime();
+  return QLocale().toString(when, QLocale::ShortFormat);
+}
+
+/// What the last try came to, where it changed nothing; empty: it did, or there was none.
+QString vainText(const Perfecting& perfecting) {
+  const auto& outcome = perfecting.outcome();
+  if (!outcome || outcome->kept) return {};
+  if (!outcome->failure.empty()) return fullSentence(outcome->failure);
+  if (outcome->end == pipeline::PerfectingEnd::disturbed)
+    return Perfecting::tr("%1 The picture is shown as before. Try again.")
+        .arg(fullSentence(outcome->disturbance));
+  return Perfecting::tr("The photographs found nothing better. The picture is shown as before.");
+}
+
+void showState(Remark& remark, const Perfecting& perfecting) {
+  const QString vain = vainText(perfecting);
+  if (perfecting.isRunning())
+    return remark.show(Remark::Kind::watch, Perfecting::tr("The picture is being perfected"),
+                       Perfecting::tr("%n photograph(s) by now. Keep the room as it is.", nullptr,
+                                      perfecting.photographs()));
+  if (const auto& known = perfecting.known()) {
+    const QString better =
+        Perfecting::tr("%1: %2 before, %3 now, by %n photograph(s).", nullptr, known->figures.photographs)
+            .arg(dateText(known->perfected), figures(known->figures.before), figures(known->figures.after));
+    return remark.show(Remark::Kind::good, Perfecting::tr("This picture is perfected"),
+                       vain.isEmpty() ? better : better + '\n' + vain);
+  }
+  if (!vain.isEmpty())
+    return remark.show(perfecting.outcome()->end == pipeline::PerfectingEnd::disturbed ||
+                               !perfecting.outcome()->failure.empty()
+                           ? Remark::Kind::warning
+                           : Remark::Kind::good,
+                       Perfecting::tr("The picture is as it was"), vain);
+  remark.show(Remark::Kind::watch, Perfecting::tr("Not perfected"),
+              Perfecting::tr(
+                  "A picture that stands can be corrected by photographs of itself, some eight of them. It "
+                  "is kept for this venue, placed as it is now."));
+}
+
+}  // namespace
+
+QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const PerfectingActions& actions) {
+  auto* part = new QWidget;
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(labelOf(Perfecting::tr("Perfect a picture"), "section"));
+  auto* state = new Remark;
+  state->setObjectName("perfect-remark");
+  column->addWidget(state);
+  QPushButton* perfect = buttonOf(Perfecting::tr("Perfect this picture"));
+  perfect->setObjectName("perfect");
+  column->addWidget(perfect);
+  QPushButton* stop = buttonOf(Perfecting::tr("Stop and keep the best"));
+  stop->setObjectName("perfect-stop");
+  column->addWidget(stop);
+  QPushButton* forget = buttonOf(Perfecting::tr("Show it as before"));
+  forget->setObjectName("perfect-forget");
+  forget->setToolTip(Perfecting::tr("What the photographs corrected is dropped."));
+  column->addWidget(forget);
+  QObject::connect(perfect, &QPushButton::clicked, &perfecting, actions.start);
+  QObject::connect(stop, &QPushButton::clicked, &perfecting, &Perfecting::stopAndKeep);
+  QObject::connect(forget, &QPushButton::clicked, &perfecting, &Perfecting::forget);
+  auto refresh = [=, &perfecting] {
+    showState(*state, perfecting);
+    perfect->setVisible(!perfecting.isRunning());
+    perfect->setText(perfecting.known() ? Perfecting::tr("Perfect it again")
+                                        : Perfecting::tr("Perfect this picture"));
+    perfect->setEnabled(perfecting.isPossible() && actions.isPossible());
+    perfect->setIcon(iconOf(Icon::camera, perfect->isEnabled() ? colours().text : colours().disabled));
+    stop->setVisible(perfecting.isRunning());
+    forget->setVisible(perfecting.known().has_value() && !perfecting.isRunning());
+  };
+  refreshOn(page, part, refresh, &DevicePage::settingsChanged, &DevicePage::resultChanged);
+  QObject::connect(&perfecting, &Perfecting::changed, part, refresh);
+  QObject::connect(&perfecting, &Perfecting::progressed, part, refresh);
+  QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
+  return part;
+}
+
+}  // namespace relucent::gui

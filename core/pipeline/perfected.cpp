@@ -51,6 +51,11 @@ PerfectedPicture recordFrom(const fs::path& calibration, const std::string& key)
   const fs::path file = recordOf(calibration, key);
   try {
     const calibration::Json json = calibration::Json::parse(readFile(file));
+    if (json.value("version", recordVersion) > recordVersion)
+      throw Error(ErrorKind::format,
+                  RELUCENT_ENGLISH_MESSAGE("perfect.of-newer-version",
+                                           "a newer Relucent perfected this picture, for shows of its own"),
+                  RELUCENT_ENGLISH_MESSAGE("perfect.again", "perfect the picture again"), file.string());
     PerfectedPicture picture;
     picture.key = key;
     picture.folder = calibration;

@@ -66,7 +66,7 @@ Perfecting::Perfecting(Session& session, const StepName& step, QObject* parent)
 
 void Perfecting::lookAt(const QString& picture, const Canvas& canvas) {
   const bool isSame = picture == picture_ && canvas.size == canvas_.size && canvas.fit == canvas_.fit;
-  if (isSame) return;
+  if (isSame || isRunning()) return;
   if (picture != picture_) outcome_.reset();
   picture_ = picture;
   canvas_ = canvas;

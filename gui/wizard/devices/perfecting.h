@@ -22,7 +22,7 @@ class Perfecting : public QObject {
   ~Perfecting() override { job_.cancel(); }
 
   /// The picture that the page shows, a file or resource, and the canvas that it is shown on. Looks on the
-  /// disk, on another thread; changed() tells.
+  /// disk, on another thread; changed() tells. While one is being perfected it is that one.
   void lookAt(const QString& picture, const Canvas& canvas);
 
   bool isRunning() const { return job_.isRunning(); }

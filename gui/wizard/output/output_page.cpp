@@ -357,19 +357,26 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 }
 
 void OutputPage::verify() {
-  if (mayProve()) whileClosed([this] { proof_.photograph(pictureToProve()); });
+  // What plays now: once the output is closed nothing does.
+  if (mayProve()) whileClosed([this, picture = pictureToProve()] { proof_.photograph(picture); });
 }
 
 void OutputPage::perfect() {
-  if (mayProve()) whileClosed([this] { perfecting_.start(); });
+  if (!mayProve()) return;
+  whileClosed([this, picture = pictureToProve(), canvas = canvasOfPicture()] {
+    perfecting_.lookAt(picture, canvas);
+    perfecting_.start();
+  });
 }
 
 /// What plays now, on the canvas that it plays on.
 void OutputPage::lookAtPicture() {
-  if (playlist_.isEmpty()) return;
-  perfecting_.lookAt(pictureToProve(), isOpen() ? projection_.canvas()
-                                                : OutputProjection::canvasFor(
-                                                      playlist_.settings(), session_.settings().content.fit));
+  if (!playlist_.isEmpty()) perfecting_.lookAt(pictureToProve(), canvasOfPicture());
+}
+
+Canvas OutputPage::canvasOfPicture() const {
+  return isOpen() ? projection_.canvas()
+                  : OutputProjection::canvasFor(playlist_.settings(), session_.settings().content.fit);
 }
 
 /// What stands on the projectors is looked for again.

@@ -148,6 +148,7 @@ class OutputPage : public DevicePage {
   void whileClosed(const std::function<void()>& work);
   void proofEnded();
   void lookAtPicture();
+  Canvas canvasOfPicture() const;
   void perfectingEnded(bool isOther);
   QString pictureToProve() const;
   QStringList showArguments() const;

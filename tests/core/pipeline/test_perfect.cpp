@@ -250,6 +250,9 @@ class TestPerfect : public QObject {
     QTest::addColumn<QByteArray>("record");
     QTest::newRow("nothing") << QByteArray();
     QTest::newRow("no JSON") << QByteArray("{");
+    QTest::newRow("of a newer version")
+        << QByteArray(R"({"version": 2, "picture": "a", "perfected": "b", "before": [], "after": [],
+                          "photographs": 7, "files": []})");
     QTest::newRow("lacks its files") << QByteArray(R"({"picture": "a", "perfected": "b"})");
     QTest::newRow("names a file elsewhere")
         << QByteArray(R"({"picture": "a", "perfected": "b", "before": [], "after": [], "photographs": 7,

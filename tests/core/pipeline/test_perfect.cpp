@@ -173,6 +173,53 @@ class TestPerfect : public QObject {
     QVERIFY2(after < before, qPrintable(QString("%1 is not below %2").arg(after).arg(before)));
   }
 
+  void theLastPairDecides_data() {
+    QTest::addColumn<double>("spoiled");  // of the best picture's light, when it is photographed last
+    QTest::addColumn<bool>("better");
+    QTest::newRow("seen to be better") << 0.0 << true;
+    QTest::newRow("not seen again") << 0.015 << false;
+  }
+  /// What the loop has seen counts for nothing if it is not seen again beside the picture that there was.
+  void theLastPairDecides() {
+    QFETCH(double, spoiled);
+    QFETCH(bool, better);
+    const MeasuredCalibration measured =
+        loadCalibration(CalibrationFolder::open(root() / "corner", CalibrationFolder::Access::read), quiet);
+    const MeasuredVenue& venue = measured.venue;
+    const Compensator compensator(venue, measured.inverse);
+    const Target target = fitTarget(readLinearContent(picture()), venue, {});
+    const Compensation start = compensator.solve(Method::refined, target, quiet);
+    const auto frameOf = [&](CameraStack radiance) {
+      hdr::HdrFrame frame;
+      frame.variance.assign(radiance.size(), 0.0f);
+      frame.valid.assign(radiance.size(), 1);
+      frame.radiance = std::move(radiance);
+      return frame;
+    };
+    int blacks = 0;
+    const PerfectingCamera camera{[&] {
+                                    ++blacks;
+                                    return hdr::BlackLevel(frameOf(venue.black));
+                                  },
+                                  [&](const ProjectorStack& drive) {
+                                    CameraStack seen = venue.transport.apply(drive);
+                                    const bool isSpoiled = blacks == 2 && drive != start.projector;
+                                    for (std::size_t i = 0; i < seen.size(); ++i) {
+                                      // Up and down, pixel by pixel: no change of brightness takes it for the
+                                      // better.
+                                      const double sign = i / 3 % 2 == 0 ? 1.0 : -1.0;
+                                      if (isSpoiled) seen[i] *= static_cast<float>(1.0 + sign * spoiled);
+                                      seen[i] += venue.black[i];
+                                    }
+                                    return frameOf(std::move(seen));
+                                  }};
+    const PerfectingResult result = perfected(compensator, target, start, camera, 4, {}, quiet);
+    QVERIFY(result.end != PerfectingEnd::disturbed);
+    QCOMPARE(blacks, 2);
+    QCOMPARE(result.better, better);
+    QCOMPARE(result.picture.projector == start.projector, !better);
+  }
+
   /// A second time it goes on from there, and keeps what it has unless it finds better.
   void goesOn() {
     const fs::path folder = copyOf("corner", "goes-on");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/sentinels/movement.h"
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -46,7 +48,112 @@ cv::Mat moved(const cv::Mat& first, cv::Point2d shift, double turn) {
   return result;
 }
 
+/// Of several pictures: how far they are apart after a movement (x, y, pixels; angle), and the steps that
+/// bring them nearer.
+class Registration {
+ public:
+  explicit Registration(const std::vector<ViewPair>& views) {
+    for (const ViewPair& view : views) {
+      first_.push_back(matOf(view.first));
+      now_.push_back(matOf(view.now));
+    }
+    const cv::Size size = first_.front().size();
+    const int margin = std::max(2, std::min(size.width, size.height) / 16);
+    inside_ = cv::Rect(margin, margin, size.width - 2 * margin, size.height - 2 * margin);
+    // Turning by one unit moves what lies halfway to the border by one pixel.
+    angle_ = 4.0 / std::max(1, std::min(size.width, size.height));
+  }
+
+  double apart(const Eigen::Vector3d& movement) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < first_.size(); ++i) sum += residual(i, movement).squaredNorm();
+    return sum;
+  }
+
+  Eigen::Vector3d improved(Eigen::Vector3d movement) const {
+    constexpr int mostSteps = 12;
+    constexpr double enough = 1e-3;  // pixels
+    double now = apart(movement);
+    for (int step = 0; step < mostSteps; ++step) {
+      Eigen::Vector3d by = newtonStep(movement);
+      double after = apart(movement + by);
+      for (int half = 0; half < 4 && !(after < now); ++half) after = apart(movement + (by *= 0.5));
+      if (!(after < now)) break;
+      movement += by;
+      now = after;
+      if (by.norm() < enough) break;
+    }
+    return movement;
+  }
+
+  Movement movement(const Eigen::Vector3d& of) const {
+    return {of.x(), of.y(), of.z() * angle_ * 180.0 / std::numbers::pi, false};
+  }
+  Eigen::Vector3d parameters(const Movement& movement) const {
+    return {movement.x, movement.y, movement.degrees * std::numbers::pi / 180.0 / angle_};
+  }
+
+ private:
+  Eigen::VectorXd residual(std::size_t i, const Eigen::Vector3d& by) const {
+    const cv::Mat there = moved(first_[i], {by.x(), by.y()}, by.z() * angle_)(inside_),
+                  here = now_[i](inside_);
+    const double whole = cv::norm(here), square = there.dot(there);
+    if (!(whole > 0.0)) return Eigen::VectorXd::Zero(1);
+    const double gain = square > 0.0 ? there.dot(here) / square : 0.0;
+    const cv::Mat difference = (here - gain * there) / whole;
+    Eigen::VectorXd values(difference.total());
+    std::copy(difference.begin<float>(), difference.end<float>(), values.begin());
+    return values;
+  }
+
+  Eigen::Vector3d newtonStep(const Eigen::Vector3d& at) const {
+    constexpr double h = 0.25;  // pixels, within which bilinear interpolation is smooth enough
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      const Eigen::VectorXd here = residual(i, at);
+      Eigen::MatrixXd jacobian(here.size(), 3);
+      for (int k = 0; k < 3; ++k)
+        jacobian.col(k) = (residual(i, at + h * Eigen::Vector3d::Unit(k)) -
+                           residual(i, at - h * Eigen::Vector3d::Unit(k))) /
+                          (2.0 * h);
+      squares += jacobian.transpose() * jacobian;
+      slope += jacobian.transpose() * here;
+    }
+    return -squares.completeOrthogonalDecomposition().solve(slope);
+  }
+
+  std::vector<cv::Mat> first_, now_;
+  cv::Rect inside_;
+  double angle_ = 1.0;
+};
+
 }  // namespace
+
+Movement movementBetween(const std::vector<ViewPair>& views) {
+  require(!views.empty(), "no views to compare");
+  std::vector<Movement> found{Movement()};
+  for (const ViewPair& view : views) {
+    require(view.first.size() == views.front().first.size(), "views of several sizes");
+    found.push_back(movementBetween(view.first, view.now));
+  }
+  const Size size = views.front().first.size();
+  if (size.width < 8 || size.height < 8) return {};
+  const Registration registration(views);
+  const double before = registration.apart(Eigen::Vector3d::Zero());
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  double least = before;
+  for (const Movement& start : found) {
+    const Eigen::Vector3d end = registration.improved(registration.parameters(start));
+    const double apart = registration.apart(end);
+    if (!(apart < least)) continue;
+    least = apart;
+    best = end;
+  }
+  Movement movement = registration.movement(best);
+  movement.explains = least < 0.5 * before;
+  return movement;
+}
 
 Movement movementBetween(const image::Image& first, const image::Image& now) {
   require(first.size() == now.size() && first.channels() == 1 && now.channels() == 1,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "relucent/image/image.h"
 
 namespace relucent::sentinels {
@@ -16,5 +18,15 @@ struct Movement {
 /// the four quarters against each other.  Shapes: one channel each, the same size. Source: Kuglin & Hines
 /// 1975, as cv::phaseCorrelate.
 Movement movementBetween(const image::Image& first, const image::Image& now);
+
+/// Two pictures of one view, one channel each.
+struct ViewPair {
+  image::Image first, now;
+};
+/// The one rigid movement that takes all first pictures to those of now, each as bright as it may be: from
+/// what is found of each pair, the least sum of
+///   min over g |now - g moved(first)|^2 / |now|^2
+/// by Gauss and Newton's steps, the pictures' borders left out.  Shapes: all pairs' the same, not empty.
+Movement movementBetween(const std::vector<ViewPair>& views);
 
 }  // namespace relucent::sentinels

@@ -8,17 +8,14 @@
 #include <utility>
 
 #include "relucent/base/error.h"
-#include "relucent/base/parallel.h"
 #include "relucent/rig/device_given_up.h"
+#include "relucent/sentinels/black_following.h"
 
 namespace relucent::sentinels {
 namespace {
 
 // Total light of equal patterns may differ by this much from round to round, drift taken out.
 constexpr double roundsLimit = 0.01;
-// Mean squared deviation of a new black from e in units of both variances, above which e has changed; noise
-// models are right to 10 or 20 %.
-constexpr double changedBlack = 1.4;
 
 ProjectorStack black(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 0.0f);
@@ -26,15 +23,6 @@ ProjectorStack black(const Rasters& projectors) {
 
 ProjectorStack white(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 1.0f);
-}
-
-double deviation(const hdr::BlackLevel& a, const hdr::BlackLevel& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-    double apart = static_cast<double>(a.radiance[i] - b.radiance[i]);
-    sum += apart * apart / std::max(1e-30, static_cast<double>(a.variance[i] + b.variance[i]));
-  }
-  return sum / static_cast<double>(std::max<std::size_t>(1, a.radiance.size()));
 }
 
 Alarm flickerAlarm(double apart, const Message& safe) {
@@ -52,17 +40,6 @@ constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-t
                                                       "every photograph before the light transport is safe");
 constexpr auto safeBeforeCheck =
     RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the previous check is safe");
-
-/// The mean of two estimates of the same, weighted by their variances.
-void join(hdr::BlackLevel& into, const hdr::BlackLevel& other) {
-  parallelFor(0, into.radiance.size(), 4096, [&](std::size_t i) {
-    float sum = into.variance[i] + other.variance[i];
-    if (!(sum > 0.0f) || !other.valid[i]) return;
-    float weight = into.variance[i] / sum;
-    into.radiance[i] += weight * (other.radiance[i] - into.radiance[i]);
-    into.variance[i] *= 1.0f - weight;
-  });
-}
 
 }  // namespace
 
@@ -228,7 +205,7 @@ double Watch::power() const {
 }
 
 void Watch::follow(const Check& check) {
-  if (deviation(check.black, black_) > changedBlack)
+  if (hasChanged(check.black, black_))
     black_ = check.black;
   else
     join(black_, check.black);

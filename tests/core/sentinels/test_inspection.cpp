@@ -81,6 +81,24 @@ class TestInspection : public QObject {
     QVERIFY2(std::abs(movement.degrees - degrees) < 1.0, qPrintable(found));
   }
 
+  void severalPicturesTellAMovementFinely_data() { movementsAreFound_data(); }
+  /// A tenth of a pixel, of pictures that are interpolated bilinearly, one of them half as bright as it was.
+  void severalPicturesTellAMovementFinely() {
+    QFETCH(double, x);
+    QFETCH(double, y);
+    QFETCH(double, degrees);
+    Image dimmed = movedView(x, y, degrees), mirrored = movedView(0, 0, 0);
+    for (float& value : dimmed.data()) value *= 0.5f;
+    const Movement movement =
+        movementBetween({{movedView(0, 0, 0), movedView(x, y, degrees)}, {mirrored, dimmed}});
+    QString found = QString("%1, %2, %3 degrees").arg(movement.x).arg(movement.y).arg(movement.degrees);
+    QVERIFY2(movement.explains, qPrintable(found));
+    QVERIFY2(std::abs(movement.x - x) < 0.1 && std::abs(movement.y - y) < 0.1, qPrintable(found));
+    QVERIFY2(std::abs(movement.degrees - degrees) < 0.3, qPrintable(found));
+    const Movement none = movementBetween({{movedView(0, 0, 0), movedView(0, 0, 0)}});
+    QVERIFY(!none.explains && none.x == 0.0 && none.y == 0.0 && none.degrees == 0.0);
+  }
+
   void whatIsNoMovementIsNotExplainedByOne() {
     Image before = movedView(0, 0, 0), after = before;
     for (int y = 10; y < 25; ++y)

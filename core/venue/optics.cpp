@@ -2,9 +2,11 @@
 #include "relucent/venue/optics.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "relucent/venue/pi.h"
+#include "relucent/venue/texture.h"
 
 namespace relucent::venue {
 
@@ -47,7 +49,13 @@ float ProjectorOptics::strength(const Vector2f& tangents) const {
   float corner = 0.25f * (1.0f + aspect * aspect) / (throwRatio * throwRatio);
   float squared = tangents.squaredNorm();
   float cosineSquared = 1.0f / (1.0f + squared);
-  return focus * focus * (1.0f - vignetting * squared / corner) / (cosineSquared * cosineSquared);
+  const float clear =
+      focus * focus * (1.0f - vignetting * squared / corner) / (cosineSquared * cosineSquared);
+  if (dust == 0.0f) return clear;
+  // Out of focus: blotches of about a sixth of the picture.
+  const Vector3f blotches(6.0f * throwRatio * tangents.x(), 6.0f * throwRatio * tangents.y(), 0.5f);
+  const float thick = std::clamp(3.0f * smoothNoise(blotches) - 1.5f, 0.0f, 1.0f);
+  return clear * (1.0f - dust * thick);
 }
 
 std::optional<LensConnection> ProjectorOptics::connect(const Vector3f& point, const Vector2f& lens) const {

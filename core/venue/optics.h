@@ -6,6 +6,7 @@
 
 #include "relucent/base/raster.h"
 #include "relucent/venue/ray_caster.h"
+#include "relucent/venue/spectra.h"
 
 namespace relucent::venue {
 
@@ -24,7 +25,8 @@ struct Pose {
 struct CameraOptics {
   Size raster;
   Pose pose;
-  float throwRatio = 1.5f;  // distance : width of the picture
+  float throwRatio = 1.5f;                   // distance : width of the picture
+  Spectrum transmission = Spectrum::Ones();  // of what is before its lens
 
   /// The ray through a position on the raster (pixels; pixel x covers [x, x + 1)).
   Ray ray(const Eigen::Vector2f& place) const;
@@ -52,10 +54,12 @@ struct Emission {
 struct ProjectorOptics {
   Size raster;
   Pose pose;
-  float throwRatio = 1.6f;  // distance : width of the picture
-  float focus = 2.5f;       // m
-  float aperture = 0.02f;   // diameter of the lens, m
-  float vignetting = 0.0f;  // loss of light in the corners
+  float throwRatio = 1.6f;                   // distance : width of the picture
+  float focus = 2.5f;                        // m
+  float aperture = 0.02f;                    // diameter of the lens, m
+  float vignetting = 0.0f;                   // loss of light in the corners
+  float dust = 0.0f;                         // share of light that the thickest of it takes, in blotches
+  Spectrum transmission = Spectrum::Ones();  // of what is left of the lamp's light
 
   /// Width of one pixel on the focal plane, m.
   float pixelPitch() const { return focus / (throwRatio * static_cast<float>(raster.width)); }

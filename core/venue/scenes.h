@@ -7,7 +7,7 @@
 namespace relucent::venue {
 
 /// The scene of an available venue (see venues()), with devices of the settings' sizes.
-/// Contract: the name is one of venues().
+/// Changes since it was measured are not made. Contract: the name is one of venues().
 Scene buildScene(const VenueSettings& settings);
 
 /// A projector and a camera in a typical position in front of a wall at z = 0: projector at 2.4 m, a little

@@ -173,12 +173,10 @@ TracedTransport traceTransport(const Scene& scene, const TracerSettings& setting
   return assembled(tracer, std::move(lines), factor);
 }
 
-TracedTransport traceHidden(const Scene& scene, const TracerSettings& settings, const CameraStack& flood,
-                            Progress& progress) {
-  const float factor = unitsOf(Tracer(scene, settings), settings, flood);
-  Scene fromThere = scene;
-  fromThere.cameras = scene.hidden;
-  const Tracer tracer(fromThere, settings);
+TracedTransport traceInUnitsOf(const Scene& known, const CameraStack& flood, const Scene& scene,
+                               const TracerSettings& settings, Progress& progress) {
+  const float factor = unitsOf(Tracer(known, settings), settings, flood);
+  const Tracer tracer(scene, settings);
   return assembled(tracer, traceLines(tracer, settings, progress), factor);
 }
 

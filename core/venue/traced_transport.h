@@ -24,9 +24,9 @@ struct TracedTransport {
 TracedTransport traceTransport(const Scene& scene, const TracerSettings& settings, double brightSignal,
                                Progress& progress);
 
-/// The same of the scene's hidden places, in the units in which its cameras' flood image is given.
+/// The same in the units in which the cameras of another scene, `known`, have the flood image `flood`.
 /// Throws: Cancelled.
-TracedTransport traceHidden(const Scene& scene, const TracerSettings& settings, const CameraStack& flood,
-                            Progress& progress);
+TracedTransport traceInUnitsOf(const Scene& known, const CameraStack& flood, const Scene& scene,
+                               const TracerSettings& settings, Progress& progress);
 
 }  // namespace relucent::venue

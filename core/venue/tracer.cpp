@@ -88,10 +88,10 @@ Spectrum Tracer::trace(std::size_t cameraPixel, TransportRow& row) const {
     Vector2f within = samples_.point(sample, path.pair++, shift);
     Vector2f blur = cameraBlur * (samples_.point(sample, path.pair++, shift) - Vector2f(0.5f, 0.5f));
     path.ray = camera.ray(Vector2f(static_cast<float>(pixel.x), static_cast<float>(pixel.y)) + within + blur);
-    path.throughput.setConstant(weight * pi);
+    path.throughput = weight * pi * camera.transmission;
     path.scattering.diffuse.setZero();
     followPath(path, row);
-    seen += weight * path.scattering.diffuse;
+    seen += weight * path.scattering.diffuse * camera.transmission;
   }
   return seen;
 }
@@ -130,10 +130,10 @@ void Tracer::connect(const Path& path, TransportRow& row) const {
 
     float arrival = std::abs(path.scattering.geometricNormal.dot(path.scattering.outgoing));
     float area = path.sinceBounce * path.sinceBounce * path.spread / std::max(arrival, 0.1f);
-    addTransport(
-        path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
-        path.throughput * path.scattering.brdf(connection->direction) * (cosine * connection->irradiance),
-        row);
+    addTransport(path, static_cast<int>(i), connection->place, area * cosine / connection->pixelArea,
+                 path.throughput * path.scattering.brdf(connection->direction) *
+                     scene_.projectors[i].transmission * (cosine * connection->irradiance),
+                 row);
   }
 }
 
@@ -142,7 +142,8 @@ void Tracer::gatherCaustics(const Path& path, TransportRow& row) const {
   caustics_->gather(path.point.position, scattering.geometricNormal,
                     [&](const Caustics::Photon& photon, float irradiance) {
                       row.add({photon.projector, 0, photon.x, photon.y},
-                              path.throughput * scattering.brdf(-photon.direction) * irradiance);
+                              path.throughput * scattering.brdf(-photon.direction) *
+                                  scene_.projectors[photon.projector].transmission * irradiance);
                     });
 }
 

@@ -37,17 +37,46 @@ void checkRange(const char* name, double value, double low, double high, std::ve
                         .with(name, value, low, high));
 }
 
+void add(const SeenPlace& place, Fingerprint& fingerprint) {
+  fingerprint.add(place.x).add(place.y);
+}
+
+void add(const Changes& changes, Fingerprint& fingerprint) {
+  for (const auto* devices : {&changes.cameras, &changes.projectors}) {
+    fingerprint.add(devices->size());
+    for (const Turned& turned : *devices)
+      fingerprint.add(turned.device).add(turned.x).add(turned.y).add(turned.degrees);
+  }
+  for (const auto* shares : {&changes.lamps, &changes.filter})
+    for (double share : *shares) fingerprint.add(share);
+  fingerprint.add(changes.dust).add(changes.painted.size()).add(changes.moved.size());
+  for (const Painted& painted : changes.painted) {
+    add(painted.place, fingerprint);
+    fingerprint.add(painted.radius);
+    for (double share : painted.colour) fingerprint.add(share);
+  }
+  for (const Moved& moved : changes.moved) {
+    add(moved.place, fingerprint);
+    fingerprint.add(moved.distance);
+  }
+  for (const Added& added : changes.added) {
+    add(added.place, fingerprint);
+    fingerprint.add(added.diameter);
+  }
+}
+
 std::string traceFingerprint(const VenueSettings& settings) {
-  return Fingerprint()
-      .add(settings.name)
+  Fingerprint fingerprint;
+  fingerprint.add(settings.name)
       .add(traceVersion)
       .add(settings.projector.width)
       .add(settings.projector.height)
       .add(settings.camera.width)
       .add(settings.camera.height)
       .add(settings.pathsPerPixel)
-      .add(settings.devices.vignetting)
-      .hex();
+      .add(settings.devices.vignetting);
+  if (settings.changes.ofTransport()) add(settings.changes, fingerprint);
+  return fingerprint.hex();
 }
 
 /// What `trace` gives, or gave before.
@@ -73,9 +102,31 @@ TracedTransport tracedOrCached(const VenueSettings& settings, const std::string&
   return traced;
 }
 
-std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const std::filesystem::path& cache,
+Scene sceneOf(const VenueSettings& settings) {
+  Scene scene = buildScene(settings);
+  apply(settings.changes, scene);
+  return scene;
+}
+
+/// The light before and after what has changed, in the same units and under the same room light.
+std::shared_ptr<const VenueLight> changedLightOf(const VenueSettings& settings, const VenueLight& before,
+                                                 const std::filesystem::path& cache, Progress& progress) {
+  TracedTransport traced =
+      tracedOrCached(settings, settings.name + "-changed", before.layout().count(), before.cameras().count(),
+                     cache, progress, [&](const TracerSettings& tracer, Progress& part) {
+                       return traceInUnitsOf(buildScene(settings), before.transport().floodlight(),
+                                             sceneOf(settings), tracer, part);
+                     });
+  return std::make_shared<VenueLight>(settings, before.layout(), before.cameras(), std::move(traced),
+                                      before.roomLight());
+}
+
+std::shared_ptr<const VenueLight> lightOf(const VenueSettings& asked, const std::filesystem::path& cache,
                                           Progress& progress) {
-  std::vector<Message> found = problems(settings);
+  VenueSettings settings = asked;
+  settings.changes = {};
+  settings.devices.ambient = asked.changes.ambient.value_or(settings.devices.ambient);
+  std::vector<Message> found = problems(asked);
   if (!found.empty())
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("venue.change-setting", "change the setting, then try again"),
@@ -88,7 +139,10 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
                                           progress, [&](const TracerSettings& tracer, Progress& part) {
                                             return traceTransport(scene, tracer, brightSignalPerSecond, part);
                                           });
-  return std::make_shared<VenueLight>(settings, std::move(layout), std::move(cameras), std::move(traced));
+  auto light =
+      std::make_shared<VenueLight>(settings, std::move(layout), std::move(cameras), std::move(traced));
+  if (!asked.changes.ofTransport()) return light;
+  return changedLightOf(asked, *light, cache, progress);
 }
 
 }  // namespace
@@ -96,9 +150,10 @@ std::shared_ptr<const VenueLight> lightOf(const VenueSettings& settings, const s
 std::vector<Message> problems(const VenueSettings& settings) {
   std::vector<Message> found;
   auto named = [&](const VenueDescription& venue) { return venue.name == settings.name; };
-  if (std::none_of(venues().begin(), venues().end(), named)) {
+  const auto venue = std::find_if(venues().begin(), venues().end(), named);
+  if (venue == venues().end()) {
     std::string names;
-    for (const VenueDescription& venue : venues()) names += (names.empty() ? "" : ", ") + venue.name;
+    for (const VenueDescription& each : venues()) names += (names.empty() ? "" : ", ") + each.name;
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("venue.unknown", "there is no simulated venue \"{}\"; there are {}")
             .with(settings.name, names));
@@ -118,6 +173,15 @@ std::vector<Message> problems(const VenueSettings& settings) {
   checkRange("the lamp's drift", devices.drift, -1.0, 1.0, found);
   checkRange("the lamp's flicker", devices.flicker, 0.0, 0.5, found);
   checkRange("the camera's gamma", devices.cameraGamma, 0.2, 5.0, found);
+  for (Message& problem : problems(settings.changes)) found.push_back(std::move(problem));
+  if (venue == venues().end()) return found;
+  const auto checkDevices = [&](const std::vector<Turned>& turned, int count) {
+    for (const Turned& one : turned)
+      checkRange("the number of a device that is turned", static_cast<double>(one.device) + 1.0, 1, count,
+                 found);
+  };
+  checkDevices(settings.changes.cameras, venue->cameras);
+  checkDevices(settings.changes.projectors, venue->projectors);
   return found;
 }
 
@@ -162,14 +226,16 @@ CameraStack SimulatedVenue::trueRadiance(const std::vector<image::Image>& encode
 
 std::optional<SimulatedVenue> SimulatedVenue::fromHiddenPlaces(Progress& progress) const {
   const VenueSettings& settings = this->settings();
-  const Scene scene = buildScene(settings);
+  const Scene scene = sceneOf(settings);
   if (scene.hidden.empty()) return std::nullopt;
+  Scene fromThere = scene;
+  fromThere.cameras = scene.hidden;
   Rasters cameras(std::vector<Size>(scene.hidden.size(), settings.camera));
-  TracedTransport traced =
-      tracedOrCached(settings, settings.name + "-hidden", light_->layout().count(), cameras.count(), cache_,
-                     progress, [&](const TracerSettings& tracer, Progress& part) {
-                       return traceHidden(scene, tracer, light_->transport().floodlight(), part);
-                     });
+  TracedTransport traced = tracedOrCached(
+      settings, settings.name + "-hidden", light_->layout().count(), cameras.count(), cache_, progress,
+      [&](const TracerSettings& tracer, Progress& part) {
+        return traceInUnitsOf(scene, light_->transport().floodlight(), fromThere, tracer, part);
+      });
   return SimulatedVenue(std::make_shared<VenueLight>(settings, light_->layout(), std::move(cameras),
                                                      std::move(traced), light_->roomLight()),
                         cache_);

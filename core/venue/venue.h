@@ -12,6 +12,7 @@
 #include "relucent/base/progress.h"
 #include "relucent/rig/rig.h"
 #include "relucent/transport/transport_matrix.h"
+#include "relucent/venue/changes.h"
 
 namespace relucent::venue {
 
@@ -52,6 +53,7 @@ struct VenueSettings {
   std::uint64_t seed = 1;    // of the devices' noise; the scene does not depend on it
   int pathsPerPixel = 256;   // of the light tracer
   DeviceModelSettings devices{};
+  Changes changes{};  // since it was built: its light is in the units that it had before
 };
 std::vector<Message> problems(const VenueSettings& settings);
 

@@ -204,6 +204,41 @@ BlockSparse BlockSparse::withRowsScaled(const Stack& factor) const {
   return result;
 }
 
+BlockSparse BlockSparse::withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const {
+  BlockSparse result = *this;
+  if (sharedColours()) {
+    std::vector<std::uint32_t> kindOf(kinds_.count, 0);
+    for (std::size_t i = 0; i < kinds_.ranges.size(); ++i)
+      kindOf[kinds_.ranges[i].kind] = kinds.kindOf(i == 0 ? 0 : kinds_.ranges[i - 1].end);
+    parallelFor(0, rows(), 256, [&](std::size_t row) {
+      const std::span<ColourBlock> mixing(&result.mixing_[row * kinds_.count], kinds_.count);
+      for (std::size_t kind = 0; kind < mixing.size(); ++kind)
+        mixing[kind] = mixing[kind].cwiseProduct(factor(row, kindOf[kind]));
+      result.scale_[row] = stepOf(mixing);
+    });
+    return result;
+  }
+  parallelFor(0, rows(), 256, [&](std::size_t row) {
+    std::vector<ColourBlock> factors;
+    float largest = 0.0f;
+    for (std::size_t kind = 0; kind < kinds.count; ++kind) {
+      factors.push_back(factor(row, kind));
+      largest = std::max(largest, factors.back().cwiseAbs().maxCoeff());
+    }
+    // The largest factor goes into the row's scale, so codes only ever shrink.
+    result.scale_[row] = scale_[row] * largest;
+    for (std::size_t entry = rowStart_[row]; entry < rowStart_[row + 1]; ++entry) {
+      const ColourBlock& of = factors[kinds.kindOf(column_[entry])];
+      for (std::size_t i = 0; i < 9; ++i)
+        result.code_[entry][i] = largest == 0.0f
+                                     ? std::int16_t{0}
+                                     : static_cast<std::int16_t>(std::lround(
+                                           static_cast<float>(code_[entry][i]) * (of.data()[i] / largest)));
+    }
+  });
+  return result;
+}
+
 BlockSparse BlockSparse::filtered(const std::function<bool(std::size_t row, std::size_t entry)>& keep) const {
   std::vector<std::uint8_t> kept(blocks());
   parallelFor(0, rows(), 256, [&](std::size_t row) {

@@ -91,6 +91,11 @@ class BlockSparse {
   BlockSparse transposed() const;
   /// Row r times the factor of each camera channel: block(r) <- diag(factor[3r..3r+2]) block(r).
   BlockSparse withRowsScaled(const Stack& factor) const;
+  /// Every block times factor(row, kind of its column), value by value. Called for each row and kind, from
+  /// several threads. Contract: of shared colours, all columns of one of their kinds are of one of `kinds`'s
+  /// that have the same factor.
+  using BlockFactor = std::function<ColourBlock(std::size_t row, std::size_t kind)>;
+  BlockSparse withBlocksScaled(const ColumnKinds& kinds, const BlockFactor& factor) const;
   /// Only the entries that are marked.  Shape: blocks().
   /// Throws: std::logic_error if the shape differs.
   BlockSparse filtered(const std::vector<std::uint8_t>& keep) const;

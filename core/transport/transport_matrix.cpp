@@ -91,6 +91,12 @@ TransportMatrix TransportMatrix::withRowsScaled(const Stack& factor) const {
   return {cameras_, projectors(), own_.withRowsScaled(factor), groups_};
 }
 
+TransportMatrix TransportMatrix::withLightScaled(const LightFactor& factor) const {
+  const ColumnKinds ofProjector = nearAndFar(layout_, 1);
+  const auto ofKind = [&](std::size_t pixel, std::size_t kind) { return factor(pixel, kind / 2); };
+  return {cameras_, projectors(), own_.withBlocksScaled(ofProjector, ofKind), groups_};
+}
+
 bool TransportMatrix::operator==(const TransportMatrix& other) const {
   return cameras_ == other.cameras_ && projectors() == other.projectors() && own_ == other.own_ &&
          groups_ == other.groups_;

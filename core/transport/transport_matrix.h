@@ -51,6 +51,10 @@ class TransportMatrix {
   TransportMatrix filtered(const KeepLeaves& keep) const;
   /// Row r times the factor of each camera channel.
   TransportMatrix withRowsScaled(const Stack& factor) const;
+  /// Every block of a camera pixel and a projector times `factor` of the two, value by value: its nine values
+  /// are how each of the projector's channels arrives in each of the camera's.
+  using LightFactor = std::function<ColourBlock(std::size_t pixel, std::size_t projector)>;
+  TransportMatrix withLightScaled(const LightFactor& factor) const;
 
   bool operator==(const TransportMatrix& other) const;
 

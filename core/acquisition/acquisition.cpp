@@ -129,8 +129,8 @@ class Measurement {
     MeasuredTransport measured;
     std::optional<sentinels::Interruption> dropped =
         run_.settings.scheme == AcquisitionScheme::multiplexed
-            ? measureMultiplexed(measured, context, photographer_, run_.settings, interrupted.has_value(),
-                                 treePart)
+            ? measureMultiplexed(measured, context, references, photographer_, run_.settings,
+                                 interrupted.has_value(), treePart)
             : measureTree(measured, context, interrupted.has_value(), treePart);
     if (dropped == sentinels::Interruption::beginAgain) return *dropped;
 

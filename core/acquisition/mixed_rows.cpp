@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/acquisition/mixed_rows.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "relucent/base/require.h"
+#include "relucent/base/signed_codes.h"
 #include "relucent/transport/shared_colours.h"
 
 namespace relucent::acquisition {
@@ -28,21 +33,51 @@ transport::BlockSparse mixedSharing(const transport::BlockSparse& first, const t
   return writer.build();
 }
 
+/// The step of a row's codes.
+float stepOf(const transport::BlockSparse& of, std::size_t row) {
+  if (!of.sharedColours()) return of.scale(row);
+  float largest = 0.0f;
+  for (std::size_t entry = of.rowBegin(row); entry < of.rowBegin(row + 1); ++entry)
+    largest = std::max(largest, of.sizeOf(row, entry).largest);
+  return largest / largestCode;
+}
+
+transport::BlockSparse mixedOwn(const transport::BlockSparse& first, const transport::BlockSparse& second,
+                                const std::vector<std::uint8_t>& chosen) {
+  std::vector<std::size_t> rowStart{0};
+  LargeVector<std::uint32_t> column;
+  LargeVector<transport::BlockSparseWriter::Code> code;
+  std::vector<float> scale;
+  column.reserve(first.blocks());
+  code.reserve(first.blocks());
+  for (std::size_t row = 0; row < first.rows(); ++row) {
+    const transport::BlockSparse& from = chosen[row] ? second : first;
+    scale.push_back(stepOf(from, row));
+    for (std::size_t entry = from.rowBegin(row); entry < from.rowBegin(row + 1); ++entry) {
+      column.push_back(from.column(entry));
+      code.push_back(from.sharedColours() ? transport::codeOf(from.block(row, entry), scale.back())
+                                          : from.code(entry));
+    }
+    rowStart.push_back(column.size());
+  }
+  return transport::BlockSparse::assembled(first.columns(), std::move(rowStart), std::move(column),
+                                           std::move(code), std::move(scale));
+}
+
 }  // namespace
 
 transport::BlockSparse mixedRows(const transport::BlockSparse& first, const transport::BlockSparse& second,
-                                 const std::vector<std::uint8_t>& chosen,
-                                 const std::vector<float>& fullScale) {
-  if (const transport::ColumnKinds* kinds = first.sharedColours())
-    return mixedSharing(first, second, chosen, *kinds);
-  transport::BlockSparseWriter writer(first.columns(), fullScale, first.blocks());
-  for (std::size_t row = 0; row < first.rows(); ++row) {
-    const transport::BlockSparse& from = chosen[row] ? second : first;
-    for (std::size_t entry = from.rowBegin(row); entry < from.rowBegin(row + 1); ++entry)
-      writer.add(from.column(entry), from.code(entry));
-    writer.endRow();
-  }
-  return writer.build();
+                                 const std::vector<std::uint8_t>& chosen) {
+  const transport::ColumnKinds* kinds = first.sharedColours();
+  return kinds ? mixedSharing(first, second, chosen, *kinds) : mixedOwn(first, second, chosen);
+}
+
+transport::TransportMatrix mixedRows(const transport::TransportMatrix& first,
+                                     const transport::TransportMatrix& second,
+                                     const std::vector<std::uint8_t>& chosen) {
+  require(second.groups().empty(), "rows of a T with groups");
+  return {first.cameras(), first.projectors(), mixedRows(first.ownLeaves(), second.ownLeaves(), chosen),
+          first.groups().without(chosen)};
 }
 
 }  // namespace relucent::acquisition

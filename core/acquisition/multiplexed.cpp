@@ -38,10 +38,10 @@ struct Photographed {
 /// photographed: first as many as each has, then as many as the rows that were solved without them ask for.
 class Measurement {
  public:
-  Measurement(const TreeContext& context, const photography::Photographer& photographer,
-              const AcquisitionSettings& settings)
+  Measurement(const TreeContext& context, const photography::References& references,
+              const photography::Photographer& photographer, const AcquisitionSettings& settings)
       : context_(context),
-        references_(context.references()),
+        references_(references),
         settings_(settings),
         cycle_(exposureCycle(references_, photographer)),
         rows_(references_, settings) {}
@@ -245,10 +245,11 @@ std::optional<sentinels::Interruption> Measurement::settle(const std::vector<std
 
 std::optional<sentinels::Interruption> measureMultiplexed(MeasuredTransport& measured,
                                                           const TreeContext& context,
+                                                          const photography::References& references,
                                                           const photography::Photographer& photographer,
                                                           const AcquisitionSettings& settings, bool rootsOnly,
                                                           Progress& progress) {
-  Measurement measurement(context, photographer, settings);
+  Measurement measurement(context, references, photographer, settings);
   std::optional<sentinels::Interruption> interrupted;
   if (rootsOnly)
     measurement.beginWithRoots();

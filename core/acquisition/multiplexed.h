@@ -16,10 +16,12 @@ namespace relucent::acquisition {
 ///  3. leaves that matter are divided for the next level, those that do not are joined;
 ///  4. at the finest level eight patterns more at a time, which are predicted before they are used, until the
 ///     prediction is as fine as asked for beyond its noise, gets no better, or patterns run out.
+/// `references`: whose usable camera pixels are measured; those of the context, or some of them.
 /// `rootsOnly`: no patterns, T is what the floods say. Stop and keep, or an interruption: T is what the
 /// levels before say. Source: core/multiplexing/README.md.  Throws: as Watch::check().
 [[nodiscard]] std::optional<sentinels::Interruption> measureMultiplexed(
-    MeasuredTransport& measured, const TreeContext& context, const photography::Photographer& photographer,
-    const AcquisitionSettings& settings, bool rootsOnly, Progress& progress);
+    MeasuredTransport& measured, const TreeContext& context, const photography::References& references,
+    const photography::Photographer& photographer, const AcquisitionSettings& settings, bool rootsOnly,
+    Progress& progress);
 
 }  // namespace relucent::acquisition

@@ -81,10 +81,8 @@ class Repair {
   transport::TransportMatrix with(const transport::BlockSparse& again,
                                   const std::vector<std::uint8_t>& chosen) const {
     const photography::References& references = context_.references();
-    return transport::TransportMatrix(
-        references.cameras, references.projectors,
-        mixedRows(verified_.transport.ownLeaves(), again, chosen, references.fullScale),
-        verified_.transport.groups().without(chosen));
+    return mixedRows(verified_.transport,
+                     transport::TransportMatrix(references.cameras, references.projectors, again), chosen);
   }
 
   void adopt(const Verification& after, const std::vector<std::uint8_t>& better) {

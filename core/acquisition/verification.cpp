@@ -71,7 +71,7 @@ std::vector<Residual> compared(const hdr::LampLight& seen, const std::vector<Pre
       residual[row].add(
           {difference * difference,
            static_cast<double>(seen.variance[at]) * (1.0 + static_cast<double>(predicted[row].leafNoise)),
-           light * light, expected * expected});
+           light * light, expected * expected, static_cast<double>(seen.variance[at])});
       map[at] += static_cast<float>(difference * difference);
     }
   });
@@ -107,6 +107,7 @@ void Residual::add(const Residual& other) {
   variance += other.variance;
   light += other.light;
   predicted += other.predicted;
+  noise += other.noise;
 }
 
 sentinels::Interruptible<Verification> verify(const Expectation& expected, const LightSource& light,

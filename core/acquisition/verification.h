@@ -18,6 +18,7 @@ struct Residual {
   double variance = 0.0;   // expected of that, from noise alone
   double light = 0.0;      // squared, of measured - e
   double predicted = 0.0;  // squared, of T p
+  double noise = 0.0;      // the photographs' part of `variance`
 
   double relative() const { return light > 0.0 ? std::sqrt(squared / light) : 0.0; }
   /// (measured - e) * T p, summed.

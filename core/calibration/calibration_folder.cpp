@@ -9,6 +9,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/results_json.h"
 #include "relucent/platform/files.h"
 
 #ifndef RELUCENT_VERSION
@@ -237,9 +238,20 @@ void CalibrationFolder::setRig(Json rig) {
 }
 
 void CalibrationFolder::takeAsCurrent(Stage stage, const std::string& inputs) {
-  if (entriesOf(stage) == nullptr) return;
+  changeLatest(stage, [&](Json& entry) { entry["inputs"] = inputs; });
+}
+
+void CalibrationFolder::setLatestAside(Stage stage) {
+  changeLatest(stage, [](Json& entry) { entry[setAsideKey] = true; });
+}
+
+void CalibrationFolder::changeLatest(Stage stage, const std::function<void(Json& entry)>& change) {
   Json manifest = *manifest_;
-  manifest["results"][std::string(nameOf(stage))].back()["inputs"] = inputs;
+  auto entries = manifest["results"].find(std::string(nameOf(stage)));
+  if (entries == manifest["results"].end()) return;
+  const auto latest = std::find_if_not(entries->rbegin(), entries->rend(), isSetAside);
+  if (latest == entries->rend()) return;
+  change(*latest);
   replaceManifest(std::move(manifest));
 }
 
@@ -307,22 +319,26 @@ StageResult CalibrationFolder::resultFrom(Stage stage, const Json& entry) const 
   return result;
 }
 
-const Json* CalibrationFolder::entriesOf(Stage stage) const {
+std::vector<const Json*> CalibrationFolder::entriesOf(Stage stage) const {
   const Json& results = manifest_->at("results");
-  auto entries = results.find(std::string(nameOf(stage)));
-  return entries != results.end() && !entries->empty() ? &*entries : nullptr;
+  const auto entries = results.find(std::string(nameOf(stage)));
+  std::vector<const Json*> found;
+  if (entries == results.end()) return found;
+  for (const Json& entry : *entries)
+    if (!isSetAside(entry)) found.push_back(&entry);
+  return found;
 }
 
 std::optional<StageResult> CalibrationFolder::find(Stage stage, const std::string& inputs) const {
-  if (const Json* entries = entriesOf(stage))
-    for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry)
-      if (entry->at("inputs") == inputs) return resultFrom(stage, *entry);
+  const std::vector<const Json*> entries = entriesOf(stage);
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+    if ((*entry)->at("inputs") == inputs) return resultFrom(stage, **entry);
   return std::nullopt;
 }
 
 std::optional<StageResult> CalibrationFolder::latest(Stage stage) const {
-  if (const Json* entries = entriesOf(stage)) return resultFrom(stage, entries->back());
-  return std::nullopt;
+  const std::vector<const Json*> entries = entriesOf(stage);
+  return entries.empty() ? std::nullopt : std::optional(resultFrom(stage, *entries.back()));
 }
 
 bool CalibrationFolder::isCurrent(Stage stage, const std::string& inputs) const {

@@ -73,6 +73,10 @@ class CalibrationFolder {
   StageResult store(Stage stage, const std::string& inputs, Json values,
                     const std::function<void(const std::filesystem::path& folder)>& writeFiles = {});
 
+  /// The newest result of a stage is not found any more, as if there were only those before it. It stays on
+  /// the disk until `tidy` removes it. None: nothing happens.
+  void setLatestAside(Stage stage);
+
   /// The newest result of a stage counts as one for these inputs from now on, whatever it was made of. None:
   /// nothing happens. For copies of a manifest alone: the calibration itself never forgets.
   void takeAsCurrent(Stage stage, const std::string& inputs);
@@ -87,8 +91,10 @@ class CalibrationFolder {
   CalibrationFolder(std::filesystem::path path, platform::FolderLock lock, Access access, Json manifest);
   void writeManifest(const Json& manifest) const;
   void replaceManifest(Json manifest);
+  void changeLatest(Stage stage, const std::function<void(Json& entry)>& change);
   StageResult resultFrom(Stage stage, const Json& entry) const;
-  const Json* entriesOf(Stage stage) const;
+  /// Oldest first, without those that are set aside.
+  std::vector<const Json*> entriesOf(Stage stage) const;
 
   std::filesystem::path path_;
   platform::FolderLock lock_;

@@ -7,6 +7,7 @@
 
 #include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/results_json.h"
 #include "relucent/calibration/shot_journal.h"
 
 namespace relucent::calibration {
@@ -54,9 +55,14 @@ std::vector<fs::path> replacedResults(const CalibrationFolder& folder) {
   std::set<std::string> found, replaced;
   for (const Json& entries : resultsIn(folder)) {
     std::set<std::string> inputs;
+    std::string repaired;  // there is a way back to
     for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-      const bool isNewest = inputs.insert(entry->at("inputs").get<std::string>()).second;
-      (isNewest ? found : replaced).insert(entry->at("folder").get<std::string>());
+      const auto name = entry->at("folder").get<std::string>();
+      const bool isNewest =
+          !isSetAside(*entry) && inputs.insert(entry->at("inputs").get<std::string>()).second;
+      (isNewest || name == repaired ? found : replaced).insert(name);
+      if (isNewest)
+        if (const std::optional<RepairNote> repair = repairFrom(entry->at("values"))) repaired = repair->of;
     }
   }
   std::vector<fs::path> folders;

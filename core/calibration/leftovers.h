@@ -13,8 +13,9 @@ namespace relucent::calibration {
 std::vector<std::filesystem::path> leftovers(const CalibrationFolder& folder);
 
 /// Folders of results that nothing can find again, because a newer one was stored for the very same inputs:
-/// of a measurement that was stopped and kept, once it has gone on. Results for other settings are none of
-/// them: they are current again when the settings are set back.
+/// of a measurement that was stopped and kept, once it has gone on; or because they were set aside. Results
+/// for other settings are none of them: they are current again when the settings are set back. Nor is what
+/// the present one was repaired from: there is a way back to it.
 std::vector<std::filesystem::path> replacedResults(const CalibrationFolder& folder);
 
 }  // namespace relucent::calibration

@@ -199,7 +199,8 @@ linearization::Linearization loadLinearization(const StageResult& result) {
 }
 
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const transport::Acquisition& acquisition, const StageCost& cost) {
+                             const transport::Acquisition& acquisition, const StageCost& cost,
+                             const std::optional<RepairNote>& repair) {
   const Rasters& cameras = acquisition.transport.cameras();
   Json values{{"cameras", toJson(cameras)},
               {"projectors", toJson(acquisition.transport.projectors())},
@@ -212,6 +213,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"findings", acquisition.findings},
               {"cost", toJson(cost)}};
   if (acquisition.expected) values["expected_quality"] = toJson(*acquisition.expected);
+  if (repair) values["repair"] = toJson(*repair);
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
     transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
     image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);

@@ -17,9 +17,11 @@ StageResult storeLinearization(CalibrationFolder& folder, const std::string& inp
 linearization::Linearization loadLinearization(const StageResult& result);
 
 /// transport.npz (the leaves, see transport/files.h), and per camera black, flood, their variances and the
-/// flags as OpenEXR; figures and findings in the manifest.
+/// flags as OpenEXR; figures and findings in the manifest. `repair`: what it was made from, which then stays
+/// among the results, to go back to.
 StageResult storeAcquisition(CalibrationFolder& folder, const std::string& inputs,
-                             const transport::Acquisition& acquisition, const StageCost& cost);
+                             const transport::Acquisition& acquisition, const StageCost& cost,
+                             const std::optional<RepairNote>& repair = {});
 transport::Acquisition loadAcquisition(const StageResult& result);
 
 /// Keeps how the inverse is made, for the settings as they are.

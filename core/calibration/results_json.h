@@ -10,6 +10,12 @@
 /// What the files of this folder that turn results into JSON and back have in common.
 namespace relucent::calibration {
 
+/// Of a manifest's entry, true: a result that is not found any more.
+inline constexpr const char* setAsideKey = "set_aside";
+inline bool isSetAside(const Json& entry) {
+  return entry.value(setAsideKey, false);
+}
+
 inline constexpr auto damagedAdvice = RELUCENT_ENGLISH_MESSAGE(
     "calibration.restore-or-calibrate-again", "restore the calibration from a copy, or calibrate again");
 
@@ -29,6 +35,9 @@ auto readingJson(const StageResult& result, const Read& read) {
 }
 
 Json toJson(const StageCost& cost);
+Json toJson(const RepairNote& repair);
+/// None: it was not repaired.
+std::optional<RepairNote> repairFrom(const Json& values);
 Json toJson(const transport::ExpectedQuality& expected);
 /// None: the document has none, as those of earlier versions.
 std::optional<transport::ExpectedQuality> expectedFrom(const Json& values);

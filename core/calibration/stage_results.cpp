@@ -57,6 +57,30 @@ Json toJson(const StageCost& cost) {
   return json;
 }
 
+Json toJson(const RepairNote& repair) {
+  return {{"of", repair.of},
+          {"what", repair.what},
+          {"delta_e_before", repair.deltaEBefore},
+          {"delta_e_after", repair.deltaEAfter},
+          {"psnr_before", repair.psnrBefore},
+          {"psnr_after", repair.psnrAfter},
+          {"cost", toJson(repair.cost)}};
+}
+
+std::optional<RepairNote> repairFrom(const Json& values) {
+  if (!values.contains("repair")) return std::nullopt;
+  const Json& stored = values.at("repair");
+  RepairNote repair;
+  take(stored, "of", repair.of);
+  take(stored, "what", repair.what);
+  take(stored, "delta_e_before", repair.deltaEBefore);
+  take(stored, "delta_e_after", repair.deltaEAfter);
+  take(stored, "psnr_before", repair.psnrBefore);
+  take(stored, "psnr_after", repair.psnrAfter);
+  if (std::optional<StageCost> cost; take(stored, cost), cost) repair.cost = *std::move(cost);
+  return repair;
+}
+
 Json toJson(const transport::ExpectedQuality& expected) {
   return {{"now", expected.now},
           {"whole", expected.whole},
@@ -141,6 +165,7 @@ void read(const StageResult& stored, AcquisitionResult& result) {
     result.expected = expectedFrom(values);
     take(values, "findings", result.findings);
     take(values, result.cost);
+    result.repair = repairFrom(values);
   });
 }
 

@@ -45,15 +45,28 @@ struct LinearizationResult {
   std::optional<StageCost> cost;
 };
 
+/// That a measurement was made to fit what the venue had become, and of what.
+struct RepairNote {
+  std::string of;             // name of the folder of the result that it was made from, which stays
+  std::vector<Message> what;  // had changed
+  // Of a picture by photograph, in the view where it gained least: as the former measurement had it and as
+  // this one has it.
+  double deltaEBefore = 0.0, deltaEAfter = 0.0;  // mean CIEDE2000
+  double psnrBefore = 0.0, psnrAfter = 0.0;      // dB
+  StageCost cost;
+};
+
 /// The light transport itself: loadAcquisition().
 struct AcquisitionResult {
   std::vector<Size> projectors;
   std::vector<Size> cameras;
   std::optional<double> verificationError;  // on held-out patterns, relative
-  int stoppedAt = 0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
+  int stoppedAt =
+      0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
   std::optional<transport::ExpectedQuality> expected;  // when it ended; of dense patterns
   std::vector<Message> findings;
-  std::optional<StageCost> cost;
+  std::optional<StageCost> cost;     // of the measurement; of a repaired one that of the first
+  std::optional<RepairNote> repair;  // none: it was measured, and nothing else
 };
 
 struct ThresholdResult {

@@ -237,6 +237,22 @@ class TestCalibrationFolder : public QObject {
     QCOMPARE(readFile(fileOf(*folder.find(Stage::acquisition, "f"), "t")), std::string("2"));
   }
 
+  /// What is set aside is as if it had never been: the one before is found, and then none.
+  void aResultThatIsSetAsideIsNotFound() {
+    CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
+    folder.setLatestAside(Stage::acquisition);  // nothing happens
+    for (int n : {1, 2}) folder.store(Stage::acquisition, "f", {{"n", n}});
+    folder.store(Stage::threshold, "f", {{"n", 3}});
+    for (int n : {2, 1}) {
+      QCOMPARE(folder.find(Stage::acquisition, "f")->values->at("n").get<int>(), n);
+      folder.setLatestAside(Stage::acquisition);
+    }
+    QVERIFY(!folder.find(Stage::acquisition, "f") && !folder.latest(Stage::acquisition));
+    QVERIFY(folder.find(Stage::threshold, "f"));
+    folder.store(Stage::acquisition, "f", {{"n", 4}});
+    QCOMPARE(folder.latest(Stage::acquisition)->values->at("n").get<int>(), 4);
+  }
+
   void numbersSurviveToTheLastBit() {
     std::vector<double> numbers{0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -2.5e-17};
     { CalibrationFolder::create(root_ / "c", {}, {}).store(Stage::threshold, "f", {{"numbers", numbers}}); }

@@ -42,6 +42,8 @@ constexpr Subcommand subcommands[] = {
     {"verify", "Photograph test patterns and decide whether a calibration is still valid", addVerifyOptions},
     {"prove", "Project a picture, photograph it, and compare it with target and prediction", addProveOptions},
     {"perfect", "Correct still pictures by photographs of themselves, for shows of them", addPerfectOptions},
+    {"repair", "Make a calibration fit what has become of its venue, or go back to what it was",
+     addRepairOptions},
     {"import", "Make a calibration from patterns and photographs taken elsewhere", addImportOptions},
     {"plan", "Write patterns to photograph without a connection, for import", addPlanOptions},
     {"compensate", "Compute the pattern that makes the surface look like an image", addCompensateOptions},

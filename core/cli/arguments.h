@@ -21,6 +21,7 @@
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
+#include "relucent/pipeline/repair.h"
 #include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/storage.h"
@@ -65,18 +66,28 @@ struct Resume {
 struct Verify {
   std::filesystem::path calibration;
   pipeline::VerifySettings settings;
+  venue::Changes changes;  // of a simulated venue, to rehearse
   std::filesystem::path cache;
 };
 struct Prove {
   std::filesystem::path calibration;
   pipeline::ProveSettings settings;
+  venue::Changes changes;  // of a simulated venue, to rehearse
   std::filesystem::path cache;
 };
 struct Perfect {
   std::filesystem::path calibration;
   std::vector<std::filesystem::path> content;  // pictures, folders, playlists
   pipeline::PerfectSettings settings;
-  bool forget = false;  // what was perfected, instead
+  venue::Changes changes;  // of a simulated venue, to rehearse
+  bool forget = false;     // what was perfected, instead
+  std::filesystem::path cache;
+};
+struct Repair {
+  std::filesystem::path calibration;
+  pipeline::RepairSettings settings;
+  venue::Changes changes;  // of a simulated venue, to rehearse
+  bool undo = false;       // the last repair, instead
   std::filesystem::path cache;
 };
 struct ImportPictures {
@@ -94,6 +105,7 @@ struct Compensate {
 struct Evaluate {
   std::filesystem::path calibration;
   pipeline::EvaluateSettings settings;
+  venue::Changes changes;  // of a simulated venue, to rehearse
   std::filesystem::path cache;
 };
 struct Export {
@@ -142,8 +154,8 @@ struct Bench {
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
-                             Perfect, ImportPictures, Plan, Compensate, Evaluate, Export, Relight, Separate,
-                             Difference, Report, Tidy, Bench>;
+                             Repair, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export, Relight,
+                             Separate, Difference, Report, Tidy, Bench>;
 
 struct Arguments {
   Command command;

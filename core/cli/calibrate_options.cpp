@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "relucent/cli/device_choices.h"
+#include "relucent/cli/change_options.h"
 #include "relucent/cli/options.h"
 #include "relucent/pipeline/command_devices.h"
 
@@ -126,6 +127,7 @@ void addSimulatedDevices(CLI::App* sub, DeviceOptions& devices) {
   simulate("--drift", model.drift, "Relative change of the lamp over 1000 photographs");
   simulate("--flicker", model.flicker, "Relative standard deviation of the lamp between photographs");
   simulate("--camera-gamma", model.cameraGamma, "Response of the camera; 1 is linear");
+  addChanges(simulated, devices.venue.changes);
   simulated->add_flag("--white-segment", model.whiteSegment, "White is brighter than red + green + blue");
 }
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "relucent/cli/device_choices.h"
+#include "relucent/cli/change_options.h"
 #include "relucent/cli/options.h"
 #include "relucent/devices/camera_registry.h"
 
@@ -70,6 +71,7 @@ std::function<Command()> addVerifyOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration");
   sub->add_option("--out", command->settings.out, "Folder for maps of what has changed, OpenEXR; created")
       ->type_name("DIR");
+  addChanges(sub, command->changes);
   addCache(sub, command->cache);
   sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as usual.");
   return [command] { return Command(*command); };

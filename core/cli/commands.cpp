@@ -16,6 +16,7 @@
 #include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
 #include "relucent/pipeline/stills.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/acquisition_chart.h"
 
 namespace relucent::cli {
@@ -43,6 +44,15 @@ int statusOf(acquisition::Verdict verdict) {
       return startAgain;
   }
   return failed;
+}
+
+/// The calibration's venue as it has become; none: as it was.
+std::optional<pipeline::RigSettings> rehearsedRig(const std::filesystem::path& calibration,
+                                                  const venue::Changes& changes) {
+  if (!changes.any()) return std::nullopt;
+  const calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(calibration, calibration::CalibrationFolder::Access::read);
+  return pipeline::changedRig(pipeline::settingsOf(folder).rig, changes);
 }
 
 template <typename Result>
@@ -90,8 +100,10 @@ struct Executor {
 
   CommandResult operator()(const Verify& command) const {
     refuse(problems(command.settings));
+    pipeline::VerifySettings settings = command.settings;
+    settings.rig = rehearsedRig(command.calibration, command.changes);
     pipeline::VerifyResult result =
-        pipeline::verifyCalibration(command.calibration, command.settings, command.cache, progress);
+        pipeline::verifyCalibration(command.calibration, settings, command.cache, progress);
     CommandResult outcome = outcomeOf(result);
     outcome.status = statusOf(result.judgement.verdict);
     return outcome;
@@ -99,8 +111,9 @@ struct Executor {
 
   CommandResult operator()(const Prove& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(
-        pipeline::proveCalibration(command.calibration, command.settings, command.cache, progress));
+    pipeline::ProveSettings settings = command.settings;
+    settings.rig = rehearsedRig(command.calibration, command.changes);
+    return outcomeOf(pipeline::proveCalibration(command.calibration, settings, command.cache, progress));
   }
 
   CommandResult operator()(const Perfect& command) const {
@@ -111,10 +124,22 @@ struct Executor {
     if (command.forget)
       return outcomeOf(pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas));
     refuse(problems(settings));
+    settings.rig = rehearsedRig(command.calibration, command.changes);
     const pipeline::PerfectResult result =
         pipeline::perfectPictures(command.calibration, settings, command.cache, {}, progress);
     CommandResult outcome = outcomeOf(result);
     if (!isPerfect(result)) outcome.status = failed;
+    return outcome;
+  }
+
+  CommandResult operator()(const Repair& command) const {
+    if (command.undo) return outcomeOf(pipeline::undoRepair(command.calibration));
+    pipeline::RepairSettings settings = command.settings;
+    settings.rig = rehearsedRig(command.calibration, command.changes);
+    const pipeline::RepairResult result =
+        pipeline::repairCalibration(command.calibration, settings, command.cache, progress);
+    CommandResult outcome = outcomeOf(result);
+    if (result.end == pipeline::RepairEnd::notBetter) outcome.status = remeasure;
     return outcome;
   }
 
@@ -135,7 +160,9 @@ struct Executor {
 
   CommandResult operator()(const Evaluate& command) const {
     refuse(problems(command.settings));
-    return outcomeOf(evaluate(command.calibration, command.settings, command.cache, progress));
+    pipeline::EvaluateSettings settings = command.settings;
+    settings.rig = rehearsedRig(command.calibration, command.changes);
+    return outcomeOf(evaluate(command.calibration, settings, command.cache, progress));
   }
 
   CommandResult operator()(const Export& command) const {

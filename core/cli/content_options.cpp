@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "relucent/cli/change_options.h"
 #include "relucent/cli/options.h"
 
 namespace relucent::cli {
@@ -182,6 +183,7 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
       ->type_name("DIR")
       ->required();
   addTarget(sub, settings.target);
+  addChanges(sub, command->changes);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };
 }
@@ -204,6 +206,7 @@ std::function<Command()> addPerfectOptions(CLI::App* sub) {
       ->capture_default_str();
   sub->add_flag("--forget", command->forget,
                 "Show these pictures as before; without --content all of them. Takes no photographs");
+  addChanges(sub, command->changes);
   addCache(sub, command->cache);
   sub->footer(
       "Stop the show first: the camera must see the pictures that are perfected.\n"
@@ -240,6 +243,7 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
                   "Folder for what all views see meanwhile, side by side, as numbered pictures")
       ->type_name("DIR");
   addTarget(sub, command->settings.target);
+  addChanges(sub, command->changes);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };
 }

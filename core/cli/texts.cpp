@@ -57,6 +57,49 @@ std::string textOf(const pipeline::VerifyResult& result) {
   return text + textOf(pipeline::WrittenFiles{result.files});
 }
 
+namespace {
+
+std::string figuresOf(const std::vector<pipeline::PictureError>& views) {
+  std::string text;
+  for (const pipeline::PictureError& view : views)
+    text += fmt::format("{}{:.2f} ({:.1f} dB)", text.empty() ? "" : ", ", view.deltaE, view.psnr);
+  return text;
+}
+
+std::string outcomeOf(const pipeline::RepairResult& result) {
+  switch (result.end) {
+    case pipeline::RepairEnd::nothingToDo:
+      return "The venue is as it was measured: nothing to repair.\n";
+    case pipeline::RepairEnd::repaired:
+      return "Repaired: from now on the calibration is used as it is now; --undo goes back.\n";
+    case pipeline::RepairEnd::notBetter:
+      return "Not repaired: no better picture came of it, and the calibration is as it was. If the picture "
+             "is "
+             "not good enough, measure the light transport again.\n";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string textOf(const pipeline::RepairResult& result) {
+  std::string text = outcomeOf(result);
+  for (const Message& what : result.what) text += fmt::format("  {}\n", what);
+  text += fmt::format(
+      "Error of test patterns: {:.1f} % -> {:.1f} % ({:.1f} % when it was measured); {:.1f} % of "
+      "the camera pixels were measured again.\n",
+      100.0 * result.errorBefore, 100.0 * result.errorAfter, 100.0 * result.errorThen,
+      100.0 * result.measured);
+  if (!result.after.empty())
+    text += fmt::format("Colour error of a picture: {} -> {}.\n", figuresOf(result.before),
+                        figuresOf(result.after));
+  return text + fmt::format("{} photographs in {:.0f} s.\n", result.exposures, result.seconds);
+}
+
+std::string textOf(const pipeline::UndoneRepair& result) {
+  return fmt::format("The measurement of {} is used again.\n", result.stored);
+}
+
 std::string textOf(const pipeline::ProveResult& result) {
   auto line = [](const char* name, const pipeline::ProvedProjection& proved) {
     return fmt::format(
@@ -88,10 +131,7 @@ std::string textOf(const pipeline::ProveResult& result) {
 namespace {
 
 std::string figuresOf(const pipeline::PerfectingRound& round) {
-  std::string text;
-  for (const pipeline::PictureError& view : round.views)
-    text += fmt::format("{}{:.2f} ({:.1f} dB)", text.empty() ? "" : ", ", view.deltaE, view.psnr);
-  return text;
+  return figuresOf(round.views);
 }
 
 std::string linesOf(const pipeline::PerfectedImage& image) {

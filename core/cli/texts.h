@@ -25,6 +25,8 @@ namespace relucent::cli {
 std::string textOf(const pipeline::CalibrateResult& result);
 std::string textOf(const pipeline::WrittenFiles& result);
 std::string textOf(const pipeline::VerifyResult& result);
+std::string textOf(const pipeline::RepairResult& result);
+std::string textOf(const pipeline::UndoneRepair& result);
 std::string textOf(const pipeline::ProveResult& result);
 std::string textOf(const pipeline::PerfectResult& result);
 std::string textOf(const pipeline::ForgottenPictures& result);

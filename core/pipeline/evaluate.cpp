@@ -506,6 +506,7 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
   Progress loading =
       progress.part(0.2, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
+  if (settings.rig) measured.rig = *settings.rig;
   Progress evaluating = progress.part(0.8, RELUCENT_MESSAGE("stage.evaluating", "Evaluating"));
   return evaluated(measured, settings, cache, evaluating).result;
 }

@@ -31,6 +31,8 @@ struct EvaluateSettings {
   bool blended = false;
   /// Whether every picture is also corrected by so many photographs of itself (perfecting_loop.h); 0: no.
   int perfected = 0;
+  /// The venue as it has become since it was measured; none: the calibration's own.
+  std::optional<RigSettings> rig{};
   WalkSettings walk{};  // a viewer who walks past the cameras, by the first image
 };
 std::vector<Message> problems(const EvaluateSettings& settings);

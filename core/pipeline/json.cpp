@@ -174,6 +174,49 @@ calibration::Json toJson(const VerifyResult& result) {
           {"files", pathsToJson(result.files)}};
 }
 
+calibration::Json toJson(const RepairResult& result) {
+  const auto movements = [](const std::vector<sentinels::Movement>& all) {
+    calibration::Json json = calibration::Json::array();
+    for (const sentinels::Movement& of : all)
+      json.push_back({{"x", of.x}, {"y", of.y}, {"degrees", of.degrees}});
+    return json;
+  };
+  calibration::Json light = calibration::Json::array();
+  for (const transport::ColourBlock& of : result.change.light) {
+    calibration::Json rows = calibration::Json::array();
+    for (Eigen::Index row = 0; row < 3; ++row) rows.push_back({of(row, 0), of(row, 1), of(row, 2)});
+    light.push_back(std::move(rows));
+  }
+  const auto views = [](const std::vector<PictureError>& errors) {
+    calibration::Json json = calibration::Json::array();
+    for (const PictureError& error : errors)
+      json.push_back({{"psnr", error.psnr}, {"delta_e", error.deltaE}});
+    return json;
+  };
+  return {{"outcome", nameOf(result.end)},
+          {"what", sentencesOf(result.what)},
+          {"moved", movements(result.change.moved)},
+          {"pictures_moved", movements(result.change.pictures)},
+          {"light_left", light},
+          {"ambient", result.change.ambient},
+          {"wrong_share", result.change.wrong},
+          {"scaled_share", result.change.scaled},
+          {"unknown_share", result.change.unknown},
+          {"measured_share", result.measured},
+          {"error_then", result.errorThen},
+          {"error_before", result.errorBefore},
+          {"error_adapted", result.errorAdapted},
+          {"error_after", result.errorAfter},
+          {"before", views(result.before)},
+          {"after", views(result.after)},
+          {"exposures", result.exposures},
+          {"seconds", result.seconds}};
+}
+
+calibration::Json toJson(const UndoneRepair& result) {
+  return {{"measurement", result.stored}};
+}
+
 calibration::Json toJson(const ProveResult& result) {
   auto projection = [](const ProvedProjection& proved) {
     return calibration::Json{{"psnr_predicted", proved.predicted.psnr},

@@ -13,6 +13,7 @@
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/repair.h"
 #include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/tidy.h"
@@ -34,6 +35,8 @@ calibration::Json toJson(const CompensateResult& result);
 calibration::Json toJson(const ProveResult& result);
 calibration::Json toJson(const PerfectResult& result);
 calibration::Json toJson(const ForgottenPictures& result);
+calibration::Json toJson(const RepairResult& result);
+calibration::Json toJson(const UndoneRepair& result);
 calibration::Json toJson(const EvaluateResult& result);
 calibration::Json toJson(const WrittenFiles& result);
 calibration::Json toJson(const SeparateResult& result);

@@ -38,8 +38,8 @@ struct CommandRigSettings {
     Size size;
     bool operator==(const Projector&) const = default;
   };
-  /// A camera beside the first one: by its command, or by its address. Exposures are those that all cameras can
-  /// take.
+  /// A camera beside the first one: by its command, or by its address. Exposures are those that all cameras
+  /// can take.
   struct Camera {
     std::string command;
     std::string address{};
@@ -108,5 +108,9 @@ struct ImportedRigSettings {
 /// at all.
 using RigSettings = std::variant<venue::VenueSettings, CommandRigSettings, ImportedRigSettings,
                                  ReplayRigSettings, ScreenRigSettings>;
+
+/// The same venue as it has become since: simulated ones only.
+/// Throws: Error{input} if another rig is to have changed.
+RigSettings changedRig(RigSettings rig, const venue::Changes& changes);
 
 }  // namespace relucent::pipeline

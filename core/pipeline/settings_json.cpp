@@ -49,6 +49,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(DeviceModelSettings, projectorBi
                                                 whiteSegment, flicker, cameraGamma)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(VenueSettings, name, projector, camera, seed, pathsPerPixel,
                                                 devices)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Turned, device, x, y, degrees)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(SeenPlace, x, y)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Painted, place, radius, colour)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Moved, place, distance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Added, place, diameter)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Changes, cameras, projectors, lamps, filter, dust, painted,
+                                                moved, added)
 }  // namespace relucent::venue
 
 namespace relucent::pipeline {
@@ -298,12 +305,25 @@ ImportedRigSettings importedRigFromJson(const Sorted& json) {
   return settings;
 }
 
+venue::VenueSettings venueFromJson(const Sorted& rig) {
+  auto venue = rig.at("venue").get<venue::VenueSettings>();
+  const auto changes = rig.find("changes");
+  if (changes == rig.end()) return venue;
+  venue.changes = changes->get<venue::Changes>();
+  if (changes->contains("ambient")) venue.changes.ambient = changes->at("ambient").get<double>();
+  return venue;
+}
+
 }  // namespace
 
 calibration::Json rigToJson(const RigSettings& settings) {
   struct Writer {
     Sorted operator()(const venue::VenueSettings& venue) const {
-      return {{"kind", RigKind::simulated}, {"venue", venue}};
+      Sorted json{{"kind", RigKind::simulated}, {"venue", venue}};
+      // Venues that have not changed are written as before there were changes, so that fingerprints stay.
+      if (venue.changes.any()) json["changes"] = venue.changes;
+      if (venue.changes.ambient) json["changes"]["ambient"] = *venue.changes.ambient;
+      return json;
     }
     Sorted operator()(const ImportedRigSettings& imported) const {
       return {{"kind", RigKind::imported}, {"imported", importedRigToJson(imported)}};
@@ -326,7 +346,7 @@ RigSettings rigFromJson(const calibration::Json& json) {
     Sorted sorted(json);
     switch (sorted.at("kind").get<RigKind>()) {
       case RigKind::simulated:
-        return sorted.at("venue").get<venue::VenueSettings>();
+        return venueFromJson(sorted);
       case RigKind::replay:
         return ReplayRigSettings{sorted.at("folder")};
       case RigKind::screen:

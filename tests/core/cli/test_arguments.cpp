@@ -307,6 +307,30 @@ class TestArguments : public QObject {
     QVERIFY((parsed<Perfect>("perfect d --content a").settings.canvas.size == Size{1920, 1080}));
     QVERIFY(parsed<Perfect>("perfect d --forget").forget);
     QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<Perfect>("perfect d"));
+  }
+
+  void repairsAndChanges() {
+    QVERIFY(parsed<Repair>("repair d --undo").undo);
+    QCOMPARE(parsed<Repair>("repair d --image p.png").settings.image, std::filesystem::path("p.png"));
+    QVERIFY(!parsed<Repair>("repair d").changes.any());
+    const venue::Changes changes =
+        parsed<Repair>(
+            "repair d --change camera:1.5,-2,0.25,2 --change painted:0.4,0.6,0.1 --change lamps:1,0.9,0.8 "
+            "--change ambient:0.01")
+            .changes;
+    QCOMPARE(changes.cameras.size(), 1);
+    QCOMPARE(changes.cameras[0].device, 1);
+    QCOMPARE(changes.cameras[0].y, -2.0);
+    QCOMPARE(changes.painted[0].radius, 0.1);
+    QCOMPARE(changes.lamps[2], 0.8);
+    QCOMPARE(*changes.ambient, 0.01);
+    for (const char* command :
+         {"verify d", "prove d --image a --out o", "perfect d --content a", "evaluate d"})
+      QVERIFY_THROWS_EXCEPTION(WrongUsage, parseArguments(words(QByteArray(command) + " --change eaten:1")));
+    for (const char* wrong : {"", "camera", "camera:1", "camera:1,2,x", "camera:1,2,3,0", "camera:1,2,3,-5",
+                              "dust:0.1,0.2", "lamps:", "camera:1,2,3,1e30"})
+      QVERIFY_THROWS_EXCEPTION(WrongUsage, parseArguments(words(QByteArray("repair d --change ") + wrong)));
+    QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<Repair>("repair d --undo --image p.png"));
     QCOMPARE(parsed<Verify>("verify d --out maps").calibration, std::filesystem::path("d"));
     QCOMPARE(parsed<Verify>("verify d --out maps").settings.out, std::filesystem::path("maps"));
   }

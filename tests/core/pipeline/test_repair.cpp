@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// Calibrations of venues that have changed since, and what becomes of them.
+#include "relucent/pipeline/repair.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+#include <cmath>
+#include <map>
+
+#include "relucent/base/error.h"
+#include "relucent/calibration/leftovers.h"
+#include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/venue/device_faults.h"
+#include "support/sanitized.h"
+#include "support/sentences.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
+namespace fs = std::filesystem;
+
+namespace {
+
+Progress quiet;
+
+VenueSettings venueNamed(const std::string& name, const Changes& changes = {}) {
+  VenueSettings venue;
+  venue.name = name;
+  venue.projector = {40, 30};
+  venue.camera = {40, 30};
+  venue.pathsPerPixel = 32;
+  venue.changes = changes;
+  return venue;
+}
+
+Changes changesNamed(const QString& name) {
+  Changes changes;
+  if (name.contains("bumped")) changes.cameras.push_back({0, 0.9, -0.6, 0.3});
+  if (name.contains("nudged")) changes.cameras.push_back({0, 0.12, 0.08, 0.0});
+  if (name.contains("knocked")) changes.projectors.push_back({0, -1.2, 0.7, 0.0});
+  if (name.contains("aged")) changes.lamps = {0.9, 0.85, 0.75};
+  if (name.contains("filtered")) changes.filter = {1.0, 0.85, 0.6};
+  if (name.contains("painted")) changes.painted.push_back({{0.45, 0.5}, 0.12});
+  if (name.contains("moved")) changes.moved.push_back({{0.4, 0.55}, 0.04});
+  if (name.contains("added")) changes.added.push_back({{0.6, 0.5}, 0.15});
+  if (name.contains("dusty")) changes.dust = 0.3;
+  if (name.contains("brighter room")) changes.ambient = 0.012;
+  return changes;
+}
+
+CalibrateSettings settingsFor(const std::string& venue, acquisition::AcquisitionMode mode,
+                              const Changes& changes = {}) {
+  CalibrateSettings settings;
+  settings.rig = venueNamed(venue, changes);
+  settings.linearization.levels = 9;
+  settings.acquisition = acquisition::settingsOf(mode);
+  return settings;
+}
+
+/// Of pictures that three standard images make in the venue as it has become, by its true light transport.
+struct Quality {
+  double psnr = 0.0, deltaE = 0.0;  // dB, encoded, of reachable pixels; mean CIEDE2000
+};
+
+}  // namespace
+
+class TestRepair : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const { return root() / "cache"; }
+
+  /// A copy of a calibration, measured once.
+  fs::path copyOf(const std::string& venue, acquisition::AcquisitionMode mode, const char* name) {
+    const fs::path once = root() / fmt::format("{}-{}", venue, nameOf(mode));
+    if (!fs::exists(once)) calibrate(once, settingsFor(venue, mode), cache(), quiet);
+    fs::path copy = root() / fmt::format("{}-{}-{}", venue, nameOf(mode), name);
+    fs::remove_all(copy);
+    fs::copy(once, copy, fs::copy_options::recursive);
+    return copy;
+  }
+
+  Quality qualityOf(const fs::path& folder, const std::string& venue, const Changes& changes) {
+    EvaluateSettings settings;
+    settings.fewImages = true;
+    settings.methods = {compensation::Method::refined};
+    settings.rig = venueNamed(venue, changes);
+    Quality quality;
+    const EvaluateResult result = evaluate(folder, settings, cache(), quiet);
+    for (const ImageScore& image : result.images) {
+      quality.psnr += image.methods.front().encodedPsnrReachable / static_cast<double>(result.images.size());
+      quality.deltaE += image.methods.front().deltaE / static_cast<double>(result.images.size());
+    }
+    return quality;
+  }
+
+  RepairResult repairedAs(const fs::path& folder, const std::string& venue, const Changes& changes) {
+    RepairSettings settings;
+    settings.rig = venueNamed(venue, changes);
+    return repairCalibration(folder, settings, cache(), quiet);
+  }
+  static std::string correctionOf(const fs::path& folder) {
+    return fingerprintOfCorrection(CalibrationFolder::open(folder, CalibrationFolder::Access::read));
+  }
+
+ private slots:
+  void asGoodAsMeasuredAnew_data() {
+    QTest::addColumn<QString>("venue");
+    QTest::addColumn<QString>("change");
+    QTest::addColumn<int>("mode");
+    using Mode = acquisition::AcquisitionMode;
+    const auto row = [](const char* venue, const char* change, Mode mode = Mode::multiplexed) {
+      QTest::addRow("%s, %s, %s", venue, change, std::string(nameOf(mode)).c_str())
+          << venue << change << static_cast<int>(mode);
+    };
+    for (const char* change : {"bumped", "nudged", "knocked", "aged", "filtered", "painted", "moved", "added",
+                               "dusty", "brighter room", "painted, aged, brighter room"}) {
+      row("corner", change);
+      if (isSanitized) break;
+    }
+    row("depth", "moved");
+    if (isSanitized) return;
+    row("glass", "bumped");
+    row("dome", "painted, aged");
+    row("statue3", "painted, bumped");
+    row("corner", "painted", Mode::adaptive);
+    row("corner", "aged, moved", Mode::fast);
+  }
+  /// Within half a decibel of a new measurement by the true light transport, and not worse than before.
+  void asGoodAsMeasuredAnew() {
+    QFETCH(QString, venue);
+    QFETCH(QString, change);
+    QFETCH(int, mode);
+    const auto how = static_cast<acquisition::AcquisitionMode>(mode);
+    const std::string name = venue.toStdString();
+    const Changes changes = changesNamed(change);
+    const fs::path folder = copyOf(name, how, "repaired"), fresh = root() / "fresh";
+    fs::remove_all(fresh);
+    calibrate(fresh, settingsFor(name, how, changes), cache(), quiet);
+    const Quality before = qualityOf(folder, name, changes), anew = qualityOf(fresh, name, changes);
+    const std::string correction = correctionOf(folder);
+    const RepairResult result = repairedAs(folder, name, changes);
+    const Quality after = qualityOf(folder, name, changes);
+    const QString figures = QString("%1: %2 -> %3 dB, anew %4; %5 -> %6, anew %7; measured %8")
+                                .arg(QString::fromStdString(std::string(nameOf(result.end))))
+                                .arg(before.psnr)
+                                .arg(after.psnr)
+                                .arg(anew.psnr)
+                                .arg(before.deltaE)
+                                .arg(after.deltaE)
+                                .arg(anew.deltaE)
+                                .arg(result.measured);
+    qInfo().noquote() << figures;
+    QVERIFY2(after.psnr > anew.psnr - 0.5, qPrintable(figures));
+    QVERIFY2(after.deltaE < 1.05 * anew.deltaE, qPrintable(figures));
+    // Each is held against a white of its own: a tenth of a decibel is no loss.
+    QVERIFY2(after.psnr > std::min(before.psnr, anew.psnr) - 0.1, qPrintable(figures));
+    QVERIFY2(after.deltaE < 1.02 * before.deltaE, qPrintable(figures));
+    QCOMPARE(correctionOf(folder) != correction, result.end == RepairEnd::repaired);
+    for (const Message& what : result.what) QVERIFY(!english(what).empty());
+  }
+
+  void whatIsAsItWasIsLeft() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "same");
+    const std::string correction = correctionOf(folder);
+    const RepairResult result = repairedAs(folder, "corner", {});
+    QCOMPARE(result.end, RepairEnd::nothingToDo);
+    QVERIFY(result.what.empty() && result.before.empty());
+    QCOMPARE(result.measured, 0.0);
+    QCOMPARE(correctionOf(folder), correction);
+    QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
+  }
+
+  /// There and back: the very measurement from before, which `tidy` has left, and its proofs with it.
+  void theWayBack() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "back");
+    const std::string correction = correctionOf(folder);
+    QCOMPARE(repairedAs(folder, "corner", changesNamed("painted")).end, RepairEnd::repaired);
+    QVERIFY(correctionOf(folder) != correction);
+    {
+      const CalibrationFolder repaired = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
+      QVERIFY(replacedResults(repaired).empty());
+      const auto note = resultFrom<Stage::acquisition>(*currentResultOf(repaired, Stage::acquisition)).repair;
+      QVERIFY(note && !note->what.empty() && note->deltaEAfter < note->deltaEBefore);
+      for (Stage stage : {Stage::threshold, Stage::inverse}) {
+        const bool wasDone = repaired.latest(stage).has_value();
+        QVERIFY(!wasDone || progressOf(repaired, stage) == StageProgress::done);
+      }
+    }
+    undoRepair(folder);
+    QCOMPARE(correctionOf(folder), correction);
+    QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
+    const CalibrationFolder back = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
+    QCOMPARE(replacedResults(back).size(), 1);  // the repaired one
+  }
+
+  void twoRepairsLeaveOneWayBack() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "twice");
+    QCOMPARE(repairedAs(folder, "corner", changesNamed("painted")).end, RepairEnd::repaired);
+    const std::string once = correctionOf(folder);
+    QCOMPARE(repairedAs(folder, "corner", changesNamed("painted, aged, added")).end, RepairEnd::repaired);
+    {
+      const CalibrationFolder twice = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
+      const std::vector<fs::path> replaced = replacedResults(twice);
+      QCOMPARE(replaced.size(), 1);  // the first measurement
+      for (const fs::path& result : replaced) fs::remove_all(result);
+    }
+    undoRepair(folder);
+    QCOMPARE(correctionOf(folder), once);
+    QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));  // what it was made from is gone
+    QCOMPARE(correctionOf(folder), once);
+  }
+
+  void disturbancesLeaveItAsItWas_data() {
+    QTest::addColumn<int>("fault");
+    QTest::addColumn<double>("amount");
+    QTest::newRow("covered") << static_cast<int>(FaultKind::coveredLens) << 0.0;
+    QTest::newRow("asleep") << static_cast<int>(FaultKind::asleepProjector) << 0.0;
+    QTest::newRow("unplugged") << static_cast<int>(FaultKind::unplugged) << 0.0;
+    QTest::newRow("flicker") << static_cast<int>(FaultKind::flicker) << 0.2;
+  }
+  void disturbancesLeaveItAsItWas() {
+    QFETCH(int, fault);
+    QFETCH(double, amount);
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "disturbed");
+    const std::string correction = correctionOf(folder);
+    SimulatedVenue venue(venueNamed("corner", changesNamed("painted")), cache(), quiet);
+    const auto schedule = std::make_shared<FaultSchedule>();
+    schedule->faults.push_back({static_cast<FaultKind>(fault), "repair", 0, 100000, amount});
+    rig::Rig rig = venue.rig(schedule);
+    try {
+      repairCalibration(folder, {}, rig, quiet);
+      QFAIL("nothing was said");
+    } catch (const Error& error) {
+      QVERIFY2(error.kind() == ErrorKind::device, error.what());
+      QVERIFY(!english(error.sentence()).empty());
+    }
+    QCOMPARE(correctionOf(folder), correction);
+  }
+  /// Somebody walks by: what was disturbed is photographed again.
+  void whoWalksByIsWaitedFor() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "visited");
+    SimulatedVenue venue(venueNamed("corner", changesNamed("painted")), cache(), quiet);
+    const auto schedule = std::make_shared<FaultSchedule>();
+    DeviceFault hand{FaultKind::hand, "repair", 18, 30};
+    hand.x0 = 0.2, hand.x1 = 0.7, hand.y0 = 0.3, hand.y1 = 0.9;
+    schedule->faults.push_back(hand);
+    rig::Rig rig = venue.rig(schedule);
+    const Changes changes = changesNamed("painted");
+    const Quality before = qualityOf(folder, "corner", changes);
+    try {
+      repairCalibration(folder, {}, rig, quiet);
+    } catch (const Error& error) {  // or somebody is told that it was too much
+      QVERIFY2(error.kind() == ErrorKind::device, error.what());
+    }
+    QVERIFY(qualityOf(folder, "corner", changes).psnr > before.psnr - 0.05);
+  }
+
+  void onlyOneMayChangeIt() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "shared");
+    const std::string correction = correctionOf(folder);
+    const CalibrationFolder reader = CalibrationFolder::open(folder, CalibrationFolder::Access::read);
+    QVERIFY_THROWS_EXCEPTION(Error, repairedAs(folder, "corner", changesNamed("painted")));
+    QCOMPARE(correctionOf(folder), correction);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRepair)
+#include "test_repair.moc"

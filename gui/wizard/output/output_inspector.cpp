@@ -15,6 +15,7 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
+#include "wizard/output/repair_part.h"
 
 namespace relucent::gui {
 namespace {
@@ -127,8 +128,7 @@ void showDrift(Remark& remark, const std::optional<pipeline::DriftRecord>& drift
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
       return remark.show(Remark::Kind::warning,
-                         OutputPage::tr("Something has changed. Measure the light transport again."),
-                         meaning);
+                         OutputPage::tr("Something has changed. Repair the calibration."), meaning);
     case acquisition::Verdict::startAgain:
       return remark.show(Remark::Kind::failed,
                          OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),
@@ -155,6 +155,7 @@ QWidget* proofPart(OutputPage& page) {
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
+  column->addWidget(repairPart(page));
   QPushButton* push = buttonOf(OutputPage::tr("Put the camera back"));
   push->setObjectName("push-back");
   push->setToolTip(

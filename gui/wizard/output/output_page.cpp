@@ -39,6 +39,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   close_ = addCommand(Icon::stop, [this] { close(); });
   prove_ = addCommand(Icon::camera, [this] { verify(); });
   checkDrift_ = addCommand(Icon::drift, [this] { checkDrift(); });
+  repair_ = addCommand(Icon::retry, [this] { repair(); });
   pushBack_ = addCommand(Icon::camera, [this] { pushBack(); });
   measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
@@ -73,7 +74,9 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   });
   connect(&proof_, &OutputProof::changed, this, &OutputPage::tellResult);
   connect(&proof_, &OutputProof::progressed, this, &OutputPage::tellProgress);
-  connect(&proof_, &OutputProof::ended, this, &OutputPage::proofEnded);
+  connect(&proof_, &OutputProof::ended, this, [this](OutputProof::Work work) {
+    work == OutputProof::Work::repair ? repairEnded() : proofEnded();
+  });
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
     reportFile_ = file;
@@ -148,6 +151,10 @@ QString OutputPage::hint() const {
       case OutputProof::Next::pushBack:
         return tr("The camera's view has moved by %1 px. Put it back, then photograph again.")
             .arg(decimalText(movedPixels(proof_.proof()->figures.moved), 1));
+      case OutputProof::Next::repair:
+        return needsConsent() ? tr("Confirm that the room is clear.")
+                              : tr("Something has changed since it was measured. Repair the calibration: "
+                                   "only that is measured again.");
       case OutputProof::Next::measureAgain:
         return tr("Something has changed since it was measured. Measure again, then install.");
       case OutputProof::Next::aimAgain:
@@ -185,6 +192,7 @@ void OutputPage::updateCommands() {
   review_->show(tr("Look at it first"));
   prove_->show(tr("Take verification photograph"), mayProve());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
+  repair_->show(tr("Repair the calibration"), proof_.isPossible() && proof_.mayFlash());
   pushBack_->show(tr("Put the camera back"), proof_.isPossible());
   measureAgain_->show(tr("Measure again"));
   aimAgain_->show(tr("Aim again"));
@@ -206,6 +214,8 @@ PageCommand* OutputPage::primary() const {
     case OutputProof::Next::pushBack:
     case OutputProof::Next::aimAgain:
       return pushBack_;
+    case OutputProof::Next::repair:
+      return repair_;
     case OutputProof::Next::measureAgain:
       return measureAgain_;
     case OutputProof::Next::install:
@@ -228,7 +238,9 @@ std::vector<PageCommand*> OutputPage::secondary() const {
 }
 
 bool OutputPage::needsConsent() const {
-  return isOpen() && proof_.next() == OutputProof::Next::checkDrift && !proof_.mayFlash();
+  const OutputProof::Next next = proof_.next();
+  return isOpen() && (next == OutputProof::Next::checkDrift || next == OutputProof::Next::repair) &&
+         !proof_.mayFlash();
 }
 
 std::optional<Banner> OutputPage::banner() const {
@@ -359,6 +371,17 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 void OutputPage::verify() {
   // What plays now: once the output is closed nothing does.
   if (mayProve()) whileClosed([this, picture = pictureToProve()] { proof_.photograph(picture); });
+}
+
+void OutputPage::repair() {
+  if (!proof_.isPossible() || !proof_.mayFlash()) return;
+  whileClosed([this, picture = pictureToProve()] { proof_.startRepair(picture); });
+}
+
+/// What was repaired is shown at once: it was photographed, and is better.
+void OutputPage::repairEnded() {
+  if (playsEarlier() && proof_.repair() && proof_.repair()->end == pipeline::RepairEnd::repaired) renew();
+  proofEnded();
 }
 
 void OutputPage::perfect() {

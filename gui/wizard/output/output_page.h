@@ -100,6 +100,10 @@ class OutputPage : public DevicePage {
   void checkDrift() {
     whileClosed([this] { proof_.checkDrift(); });
   }
+  /// Makes the calibration fit what the venue has become. Real devices have the output closed meanwhile.
+  void repair();
+  /// The measurement from before the repair is used again.
+  void undoRepair() { proof_.undoRepair(); }
   /// Shows full light and looks, until pushedBack(): nudgeWanted() asks for what shows that.
   void pushBack();
   /// What the devices were looked at with is gone. `atItsPlace`: the camera looks where it looked.
@@ -147,6 +151,7 @@ class OutputPage : public DevicePage {
   void setPlaylist(const PlaylistSettings& settings);
   void whileClosed(const std::function<void()>& work);
   void proofEnded();
+  void repairEnded();
   void lookAtPicture();
   Canvas canvasOfPicture() const;
   void perfectingEnded(bool isOther);
@@ -155,7 +160,8 @@ class OutputPage : public DevicePage {
   void tell(const Failure& failure);
 
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
-  PageCommand *prove_, *checkDrift_, *pushBack_, *measureAgain_, *aimAgain_;  // what comes before installing
+  PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_,
+      *aimAgain_;  // what comes before installing
   PageCommand* renew_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;

@@ -41,6 +41,7 @@ std::shared_ptr<Proof> proofOf(pipeline::ProveResult figures, const fs::path& fo
 struct OutputProof::Found {
   std::shared_ptr<const Proof> proof;
   std::optional<pipeline::DriftRecord> drift;
+  std::optional<pipeline::RepairResult> repair;
   QString report;
 };
 
@@ -49,6 +50,7 @@ OutputProof::OutputProof(Session& session, const StepName& step, QObject* parent
   connect(&session_, &Session::opened, this, [this] {
     job_.cancel();
     recall();
+    repair_.reset();
     found_ = nullptr;
     pushedBack_ = false;
     Q_EMIT changed();
@@ -75,8 +77,10 @@ void OutputProof::look() {
   if (!session_.isOpen()) return;
   const bool isDriftOld = drift_ && drift_->measurement != measurementOf(session_);
   if (isDriftOld) drift_.reset();
+  const bool isRepairOld = repair_ && repairOf_ != measurementOf(session_);
+  if (isRepairOld) repair_.reset();
   const bool wasOutOfDate = std::exchange(wasOutOfDate_, isOutOfDate());
-  if (isDriftOld || wasOutOfDate != wasOutOfDate_) Q_EMIT changed();
+  if (isDriftOld || isRepairOld || wasOutOfDate != wasOutOfDate_) Q_EMIT changed();
 }
 
 /// A photograph that was taken later says more.
@@ -92,7 +96,8 @@ OutputProof::Next OutputProof::next() const {
   if (pushedBack_) return Next::photograph;
   const pipeline::DriftRecord* drift = newestDrift();
   if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
-  if (drift != nullptr && drift->verdict == Verdict::remeasure) return Next::measureAgain;
+  if (drift != nullptr && drift->verdict == Verdict::remeasure)
+    return isBeyondRepair() ? Next::measureAgain : Next::repair;
   const Proof* proof = current();
   if (proof == nullptr) return Next::photograph;
   if (proof->isAsPredicted()) return Next::install;
@@ -162,6 +167,42 @@ void OutputProof::checkDrift() {
   });
 }
 
+void OutputProof::startRepair(const QString& picture) {
+  if (!isPossible() || !mayFlash()) return;
+  found_ = std::make_shared<Found>();
+  start(Work::repair, [found = found_, work = workOf(session_), picture](Progress& progress) {
+    Progress opening = progress.part(0.1, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+    rig::Rig& rig = work.devices->open(opening);
+    pipeline::RepairSettings settings;
+    settings.image = pictureFile(picture, proofFolder(work.path));
+    Progress repairing =
+        progress.part(0.9, RELUCENT_MESSAGE("stage.looking-for-changes", "Looking for what has changed"));
+    found->repair = pipeline::repairCalibration(work.path, settings, rig, repairing);
+  });
+}
+
+void OutputProof::undoRepair() {
+  if (!isPossible() || !repairNote()) return;
+  try {
+    pipeline::undoRepair(session_.path());
+    repair_.reset();
+    session_.reload();
+  } catch (...) {
+    Q_EMIT failed(failureOf(std::current_exception()));
+    return;
+  }
+  Q_EMIT changed();
+}
+
+std::optional<calibration::RepairNote> OutputProof::repairNote() const {
+  const auto& measured = session_.figures<calibration::Stage::acquisition>();
+  return measured ? measured->repair : std::nullopt;
+}
+
+std::string OutputProof::repairedAt() const {
+  return measurementOf(session_);
+}
+
 void OutputProof::report(const QString& picture) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
@@ -187,6 +228,12 @@ void OutputProof::finished() {
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
   if (done && found->drift) drift_ = std::move(found->drift);
+  if (done && found->repair) {
+    // What was found before of the former measurement goes with it.
+    if (found->repair->end == pipeline::RepairEnd::repaired) session_.reload();
+    repair_ = std::move(found->repair);
+    repairOf_ = measurementOf(session_);
+  }
   if (done && (found->proof || found->drift)) pushedBack_ = false;
   Q_EMIT changed();
   Q_EMIT ended(work_);

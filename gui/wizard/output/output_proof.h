@@ -10,6 +10,7 @@
 #include "jobs/job.h"
 #include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/repair.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -38,12 +39,12 @@ struct Proof {
 };
 
 /// What can be proved of a venue: by a photograph of the content, by photographs of the test patterns, and on
-/// paper. One at a time, on another thread.
+/// paper; and what is done where it no longer is as it was measured. One at a time, on another thread.
 class OutputProof : public QObject {
   Q_OBJECT
 
  public:
-  enum class Work { none, photograph, drift, report };
+  enum class Work { none, photograph, drift, repair, report };
 
   /// `step`: that the devices are used by.
   OutputProof(Session& session, const StepName& step, QObject* parent = nullptr);
@@ -62,8 +63,14 @@ class OutputProof : public QObject {
   /// There is one, of something else than is shown now.
   bool isOutOfDate() const { return proof_ && !holds(*proof_); }
   const std::optional<pipeline::DriftRecord>& drift() const { return drift_; }
+  /// What the last repair here came to; none: there was none since the calibration was opened or changed.
+  const std::optional<pipeline::RepairResult>& repair() const { return repair_; }
+  /// What is used was repaired: of what, and what that gained. None: it was measured so.
+  std::optional<calibration::RepairNote> repairNote() const;
+  /// When that was, ISO 8601, UTC.
+  std::string repairedAt() const;
   /// What is to be done next to prove the venue, or about what was found.
-  enum class Next { photograph, install, pushBack, checkDrift, measureAgain, aimAgain };
+  enum class Next { photograph, install, pushBack, checkDrift, repair, measureAgain, aimAgain };
   Next next() const;
   /// Where it looks as it did, the camera was pushed back: what was found before that holds no more.
   void cameraPushedBack();
@@ -71,6 +78,10 @@ class OutputProof : public QObject {
   /// `picture`: a file or resource.
   void photograph(const QString& picture);
   void checkDrift();
+  /// Makes the calibration fit what the venue has become; `picture`, a file or resource, proves it.
+  void startRepair(const QString& picture);
+  /// The measurement from before the repair is used again.
+  void undoRepair();
   /// Written into the calibration's folder as report.html and report.pdf, and support.zip for whoever helps;
   /// reported() names the first.
   void report(const QString& picture);
@@ -93,6 +104,8 @@ class OutputProof : public QObject {
   const Proof* current() const { return proof_ && holds(*proof_) ? proof_.get() : nullptr; }
   void look();
   const pipeline::DriftRecord* newestDrift() const;
+  /// It was tried in vain.
+  bool isBeyondRepair() const { return repair_ && repair_->end == pipeline::RepairEnd::notBetter; }
 
   Session& session_;
   StepName step_;
@@ -101,6 +114,8 @@ class OutputProof : public QObject {
   Work work_ = Work::none;
   std::shared_ptr<const Proof> proof_;
   std::optional<pipeline::DriftRecord> drift_;
+  std::optional<pipeline::RepairResult> repair_;
+  std::string repairOf_;  // the measurement that `repair_` left
   bool wasOutOfDate_ = false;
   bool pushedBack_ = false;  // since the last photograph
   struct Found;

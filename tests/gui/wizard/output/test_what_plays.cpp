@@ -7,9 +7,11 @@
 #include "gui/output/two_screens.h"
 #include "gui/wizard/simulated_session.h"
 #include "output/default_picture.h"
+#include "relucent/calibration/json.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/measured_again.h"
+#include "relucent/pipeline/settings_json.h"
 #include "wizard/output/output_page.h"
 
 using namespace relucent;
@@ -34,6 +36,21 @@ class TestWhatPlays : public QObject {
   }
   bool offersProof() const {
     return page_->mayProve() && page_->primary()->text() == OutputPage::tr("Take verification photograph");
+  }
+  bool isIdle() const { return page_->proof().work() == OutputProof::Work::none; }
+  /// The venue, after it was measured: its results stay those of the venue as it was.
+  void becomes(const std::function<void(venue::Changes&)>& change) {
+    const std::filesystem::path path = session().path();
+    session().close();
+    {
+      CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+      auto rig = std::get<venue::VenueSettings>(pipeline::settingsOf(folder).rig);
+      change(rig.changes);
+      folder.setRig(pipeline::rigToJson(rig));
+      for (Stage stage : allValues<Stage>()) folder.takeAsCurrent(stage, fingerprintOf(folder, stage));
+    }
+    session().open(path);
+    page_->choose(screen("DUMMY1"));
   }
   template <typename Change>
   void change(Change apply) {
@@ -126,6 +143,41 @@ class TestWhatPlays : public QObject {
     perfecting.forget();
     QVERIFY(!perfecting.known());
     QTRY_VERIFY_WITH_TIMEOUT(plays(false) && page_->projection().statistics().frames > 1, patience);
+  }
+
+  /// Law: a check that finds a change leads to the repair, which is photographed, shown at once, and taken
+  /// back by one button. What is measured again is not what was proved before.
+  void aVenueThatChangedIsRepaired() {
+    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
+    openOutput();
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
+    QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
+    QCOMPARE(page_->primary()->text(), OutputPage::tr("Repair the calibration"));
+    QVERIFY(page_->primary()->isEnabled() && !page_->proof().repairNote());
+    const std::string before = session().correction();
+    page_->primary()->trigger();
+    QCOMPARE(page_->proof().work(), OutputProof::Work::repair);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
+    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::repaired);
+    QVERIFY(session().correction() != before && page_->proof().repairNote());
+    QVERIFY(!page_->proof().drift() && page_->proof().isOutOfDate());
+    QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen() && !page_->playsEarlier(), patience);
+    QCOMPARE(page_->proof().next(), OutputProof::Next::photograph);
+    page_->undoRepair();
+    QCOMPARE(session().correction(), before);
+    QVERIFY(!page_->proof().repairNote() && page_->playsEarlier() && !page_->proof().isOutOfDate());
+  }
+
+  /// Law: where nothing is better by it, measuring again is what is left.
+  void whatCannotBeRepairedIsMeasuredAgain() {
+    openOutput();
+    page_->repair();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
+    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::nothingToDo);
+    QVERIFY(page_->isOpen() && !page_->playsEarlier() && !page_->proof().repairNote());
   }
 
   /// Law: the new measurement's correction is not the earlier one's, and only its own photograph proves it.

@@ -43,6 +43,15 @@ DensePhotographs::DensePhotographs(const photography::References& references)
   }
 }
 
+std::vector<float> DensePhotographs::floodShares(std::size_t row) const {
+  std::vector<float> shares;
+  float all = 0.0f;
+  for (const std::vector<transport::ColourBlock>& root : references_.root)
+    all += shares.emplace_back(std::max(root[row].sum(), std::numeric_limits<float>::min()));
+  for (float& share : shares) share /= all;
+  return shares;
+}
+
 std::vector<transport::ColourBlock> DensePhotographs::floodMixing(std::size_t row) const {
   std::vector<transport::ColourBlock> mixings;
   for (const std::vector<transport::ColourBlock>& root : references_.root) {

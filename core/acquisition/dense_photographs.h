@@ -27,6 +27,8 @@ class DensePhotographs {
 
   /// F of a camera pixel; where it is next to nothing, what counts as that.
   Eigen::Array3f flood(std::size_t row) const { return Eigen::Map<const Eigen::Array3f>(&flood_[3 * row]); }
+  /// The share of a camera pixel's light that each projector gives in its floods.
+  std::vector<float> floodShares(std::size_t row) const;
   /// How a projector's light is divided in a camera pixel's floods, see multiplexing::Row::mixing.
   std::vector<transport::ColourBlock> floodMixing(std::size_t row) const;
 

@@ -27,6 +27,8 @@ constexpr float rootSpread = 1.0f;
 // Equations for each unknown that a level adds, in all but some camera pixels.
 constexpr double equationsPerLeaf = 2.0;
 constexpr double served = 0.9;
+// Of a camera pixel's light, of a projector whose blocks count: what a dimmer one's are off by is not seen.
+constexpr float leastShare = 0.15f;
 constexpr int mostPatterns = 64;
 // As long as leaves are to be divided, few of them need colours of their own.
 constexpr int fewDetails = 4;
@@ -117,8 +119,10 @@ void DenseRows::beginWith(int level, float spread) {
 
 int DenseRows::patternsNeeded() const {
   return patternsFor([&](std::size_t number) {
+    const std::vector<float> shares = photographs_.floodShares(number);
     return static_cast<std::size_t>(std::ranges::count_if(rows_.leavesOf(number), [&](const Leaf& leaf) {
-      return means_.layout().node(leaf.node).level == level_;
+      const transport::Node node = means_.layout().node(leaf.node);
+      return node.level == level_ && shares[static_cast<std::size_t>(node.projector)] >= leastShare;
     }));
   });
 }

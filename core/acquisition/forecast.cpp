@@ -144,7 +144,8 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
 
   // Everything that is not the tree: references, the first look, the test patterns.
   double orientation = projectorCount > 1.0 ? projectorCount : 0.0;  // the only one's shows in the check
-  double references = settings.references * (1.0 + 3.0 * projectorCount) + 3.0 + orientation;
+  const photography::ReferenceRounds rounds = referenceRounds(settings, projectors.devices());
+  double references = rounds.black + rounds.floods * 3.0 * projectorCount + 3.0 + orientation;
   double testing =
       settings.verificationPatterns + checksWithin(settings.verificationPatterns, settings.checkInterval);
   constexpr double pair = 2.0;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "relucent/base/error.h"
 
 namespace relucent::acquisition {
@@ -72,6 +74,13 @@ AcquisitionSettings settingsOf(AcquisitionMode mode) {
       break;
   }
   return settings;
+}
+
+photography::ReferenceRounds referenceRounds(const AcquisitionSettings& settings, std::size_t projectors) {
+  const bool dense = settings.scheme == AcquisitionScheme::multiplexed;
+  const int shared =
+      std::max(1, settings.references / static_cast<int>(std::max<std::size_t>(1, projectors)));
+  return {settings.references, dense ? shared : settings.references};
 }
 
 }  // namespace relucent::acquisition

@@ -7,6 +7,7 @@
 
 #include "relucent/base/enum_names.h"
 #include "relucent/base/message.h"
+#include "relucent/photography/references.h"
 
 namespace relucent::acquisition {
 
@@ -63,5 +64,9 @@ constexpr EnumNames<AcquisitionMode> namesOf(AcquisitionMode) {
   return {"acquisition mode", acquisitionModeNames};
 }
 AcquisitionSettings settingsOf(AcquisitionMode mode);
+
+/// How often black and floods are photographed. Of several projectors the floods of a dense measurement share
+/// these rounds: its patterns tell T 1 better than they do, and show all projectors at once.
+photography::ReferenceRounds referenceRounds(const AcquisitionSettings& settings, std::size_t projectors);
 
 }  // namespace relucent::acquisition

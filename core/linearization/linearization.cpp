@@ -11,6 +11,7 @@
 #include "relucent/linearization/camera_response.h"
 #include "relucent/linearization/exposure_choice.h"
 #include "relucent/linearization/mosaic_evaluation.h"
+#include "relucent/linearization/mosaic_photographs.h"
 #include "relucent/linearization/mosaic_photography.h"
 #include "relucent/linearization/test_light.h"
 #include "relucent/linearization/thinning.h"
@@ -217,12 +218,12 @@ Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& sett
 }
 
 int usualShots(const LinearizationSettings& settings, std::size_t projectors) {
-  constexpr int ofAll = 8;    // exposures; a group of all in white; white and black at the end
-  constexpr int ofEach = 10;  // white, the lights of a mosaic
-  constexpr int levels = 8;   // in a mosaic
+  constexpr int ofAll = 8;  // exposures; a group of all in white; white and black at the end
+  const MosaicOrder order{projectors};
+  const int levels = static_cast<int>(order.lights()) - 1;  // in a mosaic
   const int mosaics = (3 * (settings.levels - 2) + levels - 1) / levels;
   const int known = projectors == 1 ? 1 : 0;  // white of one alone: the exposures took it
-  return ofAll + static_cast<int>(projectors) * ofEach + mosaics - known;
+  return ofAll + static_cast<int>(projectors * order.own()) + mosaics - known;
 }
 
 }  // namespace relucent::linearization

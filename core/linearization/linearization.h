@@ -71,15 +71,14 @@ struct Linearization {
 ///     what is dim; both within what the cameras can do;
 ///  2. cameras: saturation, response (linear unless white at these exposures shows otherwise), true exposure
 ///     times; noise at the end, from pairs of equal shots;
-///  3. projectors: mosaics that show nine levels at once, those of all projectors in the same photographs,
-///     and each of their nine lights alone; the responses that explain all of them, with the lamps' drift and
+///  3. projectors: mosaics that show many levels at once, those of all projectors in the same photographs,
+///     and each of its lights alone; the responses that explain all of them, with the lamps' drift and
 ///     flicker, by regression; isotonic regression, monotone cubic;
 ///  4. from the same shots: white against red + green + blue, the whole against its parts, the response of
 ///     parts of the picture against that of the whole.
-/// Some 30 photographs for one projector and a linear camera, 10 more for each further projector.
-/// Source: core/linearization/README.md.
-/// Throws: Error{input} if a camera sees no difference between black and white, or no camera sees a
-/// projector's channel; Error{device, disk}; Cancelled.
+/// Some 30 photographs for one projector and a linear camera, 10 more for a second projector, 7 for each
+/// further one. Source: core/linearization/README.md. Throws: Error{input} if a camera sees no difference
+/// between black and white, or no camera sees a projector's channel; Error{device, disk}; Cancelled.
 Linearization linearize(rig::ShotTaker& shots, const LinearizationSettings& settings, Progress& progress);
 
 /// Patterns that linearize() usually shows: for what people are told before.

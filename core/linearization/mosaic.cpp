@@ -2,7 +2,6 @@
 #include "relucent/linearization/mosaic.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace relucent::linearization {
 namespace {
@@ -12,14 +11,14 @@ constexpr int cellsAcross = 12;
 
 }  // namespace
 
-Mosaic::Mosaic(Size projector, Random random, bool darkCells) : size_(projector) {
+Mosaic::Mosaic(Size projector, Random random, bool darkCells, std::size_t groups) : size_(projector) {
   side_ = std::max(1, std::min(size_.width, size_.height) / cellsAcross);
   across_ = (size_.width + side_ - 1) / side_;
   groupOfCell_.resize(static_cast<std::size_t>(across_ * ((size_.height + side_ - 1) / side_)));
   // Neighbours share out the groups, in random order: far light is then nearly the same for all of them.
-  std::vector<std::size_t> order(mosaicGroups);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  if (darkCells) order = {0, 1, 2, 0, 1, 2, mosaicGroups};
+  std::vector<std::size_t> order(darkCells ? 6 : groups);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i % groups;
+  if (darkCells) order.push_back(mosaicGroups);
   for (std::size_t cell = 0; cell < groupOfCell_.size(); ++cell) {
     if (cell % order.size() == 0)
       for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);

@@ -23,7 +23,7 @@ class Additivities {
  public:
   Additivities(const MosaicPhotographs& photographs, const PhotographedLight& lights,
                const std::vector<ResponseFit>& fits)
-      : photographs_(photographs), lights_(lights), fits_(fits) {}
+      : photographs_(photographs), order_(photographs.order()), lights_(lights), fits_(fits) {}
 
   /// White where each projector shines; its first group where that is the brightest of all first groups.
   std::vector<Additivity> run() const {
@@ -34,7 +34,7 @@ class Additivities {
     std::vector<Additivity> result;
     for (std::size_t p = 0; p < fits_.size(); ++p) {
       const auto sums = sumsOf(lights_, [&](std::size_t i) { return lights_.lit[p][i]; });
-      result.push_back(additivityOf(inUnits(sums, p, whitePhotograph(p)), sumOfLights(sums, p, mosaicLights),
+      result.push_back(additivityOf(inUnits(sums, p, order_.white(p)), sumOfLights(sums, p, order_.lights()),
                                     groups[p].inWhite, groups[p].lights[p]));
     }
     return result;
@@ -49,7 +49,7 @@ class Additivities {
 
   double lampIn(std::size_t projector, std::size_t shot) const {
     return 1.0 + fits_[projector].drift *
-                     (photographs_.what[shot].time - photographs_.what[whitePhotograph(projector)].time);
+                     (photographs_.what[shot].time - photographs_.what[order_.white(projector)].time);
   }
   ChannelSums inUnits(const std::vector<ChannelSums>& sums, std::size_t projector, std::size_t shot) const {
     ChannelSums result = sums[shot];
@@ -60,7 +60,7 @@ class Additivities {
                           std::size_t count) const {
     ChannelSums result{};
     for (std::size_t q = 0; q < count; ++q) {
-      const ChannelSums light = inUnits(sums, projector, lightPhotograph(projector, q));
+      const ChannelSums light = inUnits(sums, projector, order_.light(projector, q));
       for (std::size_t c = 0; c < 3; ++c) result[c] += light[c];
     }
     return result;
@@ -71,14 +71,14 @@ class Additivities {
     for (std::size_t i = 0; i < lights_.at.size(); ++i) {
       std::vector<double> light(fits_.size(), 0.0);
       for (std::size_t p = 0; p < light.size(); ++p)
-        for (std::size_t q = 0; q < 3; ++q) light[p] += lights_.light[lightPhotograph(p, q)][i];
+        for (std::size_t q = 0; q < 3; ++q) light[p] += lights_.light[order_.light(p, q)][i];
       brightest.push_back(static_cast<std::size_t>(std::ranges::max_element(light) - light.begin()));
     }
     return brightest;
   }
 
   Groups groupsAt(std::size_t projector, const std::vector<std::size_t>& brightest) const {
-    const std::size_t shot = groupsPhotograph(fits_.size());
+    const std::size_t shot = order_.groupsInWhite();
     const auto sums = sumsOf(
         lights_, [&](std::size_t i) { return brightest[i] == projector && lights_.lit[projector][i]; });
     Groups groups{inUnits(sums, projector, shot), {}};
@@ -109,6 +109,7 @@ class Additivities {
   }
 
   const MosaicPhotographs& photographs_;
+  MosaicOrder order_;
   const PhotographedLight& lights_;
   const std::vector<ResponseFit>& fits_;
 };

@@ -52,7 +52,7 @@ std::vector<RegionLight> regionLights(const PhotographedLight& lights, std::size
   std::vector<RegionLight> regions(thinning.regions());
   for (std::size_t i = 0; i < lights.at.size(); ++i) {
     RegionLight& region = regions[thinning.regionOf(lights.at[i] / 3)];
-    region.light += lights.light[whitePhotograph(projector)][i];
+    region.light += lights.light[lights.order.white(projector)][i];
     if (lights.lit[projector][i]) region.values += 1.0;
   }
   return regions;

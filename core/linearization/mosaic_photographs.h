@@ -9,32 +9,28 @@
 
 namespace relucent::linearization {
 
+/// Which of the photographs of mosaics shows what: of one projector after the other white and its lights;
+/// then of all together the first groups in white, the levels and, of a single one, white again.
+struct MosaicOrder {
+  std::size_t projectors = 1;
+
+  std::size_t lights() const { return 3 * mosaicGroupsOf(projectors); }  // of each
+  std::size_t own() const { return 1 + lights(); }                       // of one projector alone
+  std::size_t white(std::size_t projector) const { return projector * own(); }
+  std::size_t light(std::size_t projector, std::size_t number) const { return white(projector) + 1 + number; }
+  std::size_t groupsInWhite() const { return projectors * own(); }
+};
+
 /// All projectors' mosaics as they were photographed, thinned.
 struct MosaicPhotographs {
   std::vector<std::vector<double>> drives;  // of each projector's levels, ascending, the last full
-  /// Of one projector after the other white and the nine lights; then of all together the first groups in
-  /// white, the levels and, of a single one, white again.
-  std::vector<MosaicShot> what;
+  std::vector<MosaicShot> what;             // in the order of order()
   std::vector<rig::Shot> shots;
   ShotPair white;  // all pictures of all projectors
   rig::Shot blackBefore, blackAfter;
+
+  MosaicOrder order() const { return {drives.size()}; }
 };
-
-/// Of one projector alone: white and its nine lights.
-inline constexpr std::size_t ownPhotographs = 1 + mosaicLights;
-
-/// Which of MosaicPhotographs::what shows a projector's white, ...
-constexpr std::size_t whitePhotograph(std::size_t projector) {
-  return projector * ownPhotographs;
-}
-/// ... one of its lights, ...
-constexpr std::size_t lightPhotograph(std::size_t projector, std::size_t light) {
-  return whitePhotograph(projector) + 1 + light;
-}
-/// ... and the first groups of all in white.
-constexpr std::size_t groupsPhotograph(std::size_t projectors) {
-  return projectors * ownPhotographs;
-}
 
 /// The levels that photographs show, and the photographs in terms of these alone.
 struct ShownLevels {

@@ -34,21 +34,27 @@ class Photographer {
  public:
   Photographer(rig::ShotTaker& shots, const std::vector<hdr::CameraModel>& cameras,
                const ExposureChoice& choice, const LinearizationSettings& settings)
-      : shots_(shots), cameras_(cameras), choice_(choice), thinning_(shots.rig().cameraRasters()) {
+      : shots_(shots),
+        cameras_(cameras),
+        choice_(choice),
+        thinning_(shots.rig().cameraRasters()),
+        order_{shots.rig().projectors.size()} {
     const rig::Rig& rig = shots.rig();
+    const std::size_t groups = mosaicGroupsOf(count());
     for (std::size_t p = 0; p < rig.projectors.size(); ++p) {
       result_.drives.push_back(rampLevels(settings, rig.projectors[p]->bits()));
-      projectors_.push_back({Mosaic(rig.projectors[p]->size(), Random{settings.seed, 7, p}, count() > 1),
-                             LevelQueue(result_.drives.back().size(), Random{settings.seed, 8, p}),
-                             std::nullopt});
+      projectors_.push_back(
+          {Mosaic(rig.projectors[p]->size(), Random{settings.seed, 7, p}, count() > 1, groups),
+           LevelQueue(result_.drives.back().size(), groups, Random{settings.seed, 8, p}), std::nullopt});
     }
   }
 
   MosaicPhotographs run(rig::Shot blackBefore, Progress& progress) {
     result_.blackBefore = std::move(blackBefore);
     // Each projector's own; groups in white; the levels; white and black.
-    const double ownShare = static_cast<double>(ownPhotographs),
-                 together = 3.0 + std::ceil(static_cast<double>(mostLevels()) / 2.75),
+    const double ownShare = static_cast<double>(order_.own()),
+                 together = 3.0 + std::ceil(3.0 * static_cast<double>(mostLevels()) /
+                                            (static_cast<double>(order_.lights()) - 0.75)),
                  all = ownShare * static_cast<double>(count()) + together;
     for (std::size_t p = 0; p < count(); ++p) {
       const std::string name = shots_.rig().projectors[p]->name();
@@ -82,7 +88,7 @@ class Photographer {
   MosaicShot dark() const { return {std::vector<MosaicLevels>(count(), MosaicLevels{}), 0.0}; }
   MosaicShot white(std::size_t projector) const {
     MosaicShot shot = dark();
-    shot.level[projector].fill(full(projector));
+    std::fill_n(shot.level[projector].begin(), order_.lights(), full(projector));
     return shot;
   }
 
@@ -111,8 +117,8 @@ class Photographer {
 
   void photographLights(std::size_t projector, Progress& progress) {
     auto report = [&] {
-      progress.report(static_cast<double>(result_.what.size() - whitePhotograph(projector)) /
-                      static_cast<double>(ownPhotographs));
+      progress.report(static_cast<double>(result_.what.size() - order_.white(projector)) /
+                      static_cast<double>(order_.own()));
     };
     // Of one projector alone, the cells make up all of white.
     if (count() == 1)
@@ -126,7 +132,7 @@ class Photographer {
     std::vector<double> floodAndDim = choice_.dim;
     for (double seconds : choice_.flood)
       if (std::ranges::count(floodAndDim, seconds) == 0) floodAndDim.push_back(seconds);
-    for (std::size_t q = 0; q < mosaicLights; ++q) {
+    for (std::size_t q = 0; q < order_.lights(); ++q) {
       MosaicShot light = dark();
       light.level[projector][q] = full(projector);
       take(light, coarse ? floodAndDim : choice_.flood, progress);
@@ -153,7 +159,7 @@ class Photographer {
     Progress reading = progress.part(0.0, progress.stage());
     const PhotographedLight lights = photographedLight(result_, cameras_, thinning_.rasters(), reading);
     const std::vector<bool>& lit = lights.lit[projector];
-    if (static_cast<double>(std::ranges::count(lit, true)) < 3.0 * static_cast<double>(mosaicLights))
+    if (static_cast<double>(std::ranges::count(lit, true)) < 3.0 * static_cast<double>(order_.lights()))
       throw Error(
           ErrorKind::input,
           RELUCENT_ENGLISH_MESSAGE("linearization.white-not-measurable",
@@ -165,10 +171,10 @@ class Photographer {
     std::array<double, 3> light{}, variance{};
     for (std::size_t i = 0; i < lights.at.size(); ++i) {
       if (!lit[i]) continue;
-      double weight = 1.0 / lights.variance[whitePhotograph(projector)][i];
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
-        light[q % 3] += weight * lights.light[lightPhotograph(projector, q)][i];
-        variance[q % 3] += weight * weight * lights.variance[lightPhotograph(projector, q)][i];
+      double weight = 1.0 / lights.variance[order_.white(projector)][i];
+      for (std::size_t q = 0; q < order_.lights(); ++q) {
+        light[q % 3] += weight * lights.light[order_.light(projector, q)][i];
+        variance[q % 3] += weight * weight * lights.variance[order_.light(projector, q)][i];
       }
     }
     const double all = light[0] + light[1] + light[2];
@@ -213,7 +219,7 @@ class Photographer {
   /// The projectors' own, the groups in white, and the last two mosaics.
   MosaicPhotographs lastPhotographs() const {
     constexpr std::size_t last = 2;
-    const std::size_t first = groupsPhotograph(count()) + 1;
+    const std::size_t first = order_.groupsInWhite() + 1;
     MosaicPhotographs result{result_.drives, {}, {}, {}, result_.blackBefore, {}};
     for (std::size_t m = 0; m < result_.what.size(); ++m) {
       if (m >= first && m + last < result_.what.size()) continue;
@@ -268,6 +274,7 @@ class Photographer {
   const std::vector<hdr::CameraModel>& cameras_;
   const ExposureChoice& choice_;
   Thinning thinning_;
+  MosaicOrder order_;
   std::vector<Measured> projectors_;
   MosaicPhotographs result_;
 };

@@ -10,9 +10,9 @@
 namespace relucent::linearization {
 
 /// Shows the projectors' mosaics:
-///  1. of each projector white and each of its nine lights alone; of all at once one group in white;
-///  2. the levels of all projectors in the same photographs, of each projector three of each channel or two
-///     and a full one that tells the lamp's power, from the highest down: with the exposures for flood
+///  1. of each projector white and each of its lights alone; of all at once one group in white;
+///  2. the levels of all projectors in the same photographs, of each projector one for every light, of which
+///     one may be full, which tells the lamp's power, from the highest down: with the exposures for flood
 ///     images, and with those for dim ones as soon as what has been photographed says that all are that dim;
 ///  3. white and black again.
 /// `cameras` as far as they are known; `choice` from chooseExposures(), its photographs thinned;

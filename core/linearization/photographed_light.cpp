@@ -28,7 +28,7 @@ std::vector<bool> litBy(const hdr::HdrFrame& white, const hdr::HdrFrame& black) 
 
 double PhotographedLight::whiteVariance(std::size_t value) const {
   double sum = 0.0;
-  for (std::size_t p = 0; p < lit.size(); ++p) sum += variance[whitePhotograph(p)][value];
+  for (std::size_t p = 0; p < lit.size(); ++p) sum += variance[order.white(p)][value];
   return sum;
 }
 
@@ -47,12 +47,13 @@ PhotographedLight photographedLight(const MosaicPhotographs& photographs,
   const double begin = photographs.blackBefore.id.number,
                end = std::max<double>(begin + 1.0, photographs.blackAfter.id.number);
 
+  const MosaicOrder order = photographs.order();
   // While they are being taken, some projectors' own are still missing.
-  const std::size_t projectors = std::min(photographs.drives.size(), frames.size() / ownPhotographs);
+  const std::size_t projectors = std::min(photographs.drives.size(), frames.size() / order.own());
   std::vector<std::vector<bool>> lit;
-  for (std::size_t p = 0; p < projectors; ++p) lit.push_back(litBy(frames[whitePhotograph(p)], before));
+  for (std::size_t p = 0; p < projectors; ++p) lit.push_back(litBy(frames[order.white(p)], before));
 
-  PhotographedLight lights;
+  PhotographedLight lights{order, {}, {}, {}, {}};
   lights.lit.resize(projectors);
   for (std::size_t i = 0; i < before.valid.size(); ++i) {
     bool usable = before.valid[i] != 0;

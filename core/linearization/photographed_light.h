@@ -14,6 +14,7 @@ namespace relucent::linearization {
 
 /// Photographs of mosaics less black, at the values that all of them show and a projector lights.
 struct PhotographedLight {
+  MosaicOrder order;
   std::vector<std::size_t> at;                       // which values of the cameras' rasters
   std::vector<std::vector<double>> light, variance;  // [photograph][value]
   std::vector<std::vector<bool>> lit;                // [projector][value]: by more than noise could

@@ -18,7 +18,8 @@ std::vector<double> rampLevels(const LinearizationSettings& settings, int bits) 
   return levels;
 }
 
-LevelQueue::LevelQueue(std::size_t levels, Random random) : random_(random) {
+LevelQueue::LevelQueue(std::size_t levels, std::size_t groups, Random random)
+    : groups_(groups), random_(random) {
   for (std::deque<std::size_t>& channel : open_)
     for (std::size_t level = levels; level-- > 1;) channel.push_back(level);
 }
@@ -29,7 +30,7 @@ bool LevelQueue::isOpen() const {
 
 void LevelQueue::show(MosaicLevels& levels, std::size_t channel, bool reference, std::size_t full,
                       const std::function<bool(std::size_t)>& wanted) {
-  std::array<std::size_t, mosaicGroups> groups{};
+  std::vector<std::size_t> groups(groups_);
   for (std::size_t i = 0; i < groups.size(); ++i) groups[i] = i;
   for (std::size_t i = groups.size(); i > 1; --i) std::swap(groups[i - 1], groups[random_.below(i)]);
   for (std::size_t i = 0; i < groups.size(); ++i) {

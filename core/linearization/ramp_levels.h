@@ -20,7 +20,7 @@ std::vector<double> rampLevels(const LinearizationSettings& settings, int bits);
 /// full one. A level is counted from 1 as in MosaicLevels.
 class LevelQueue {
  public:
-  LevelQueue(std::size_t levels, Random random);
+  LevelQueue(std::size_t levels, std::size_t groups, Random random);
 
   bool isOpen() const;
   /// The highest of a channel that is still open; 0: none.
@@ -34,6 +34,7 @@ class LevelQueue {
 
  private:
   std::array<std::deque<std::size_t>, 3> open_;
+  std::size_t groups_;  // of the mosaics
   Random random_;
 };
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr float brightest = 0.97f;
 constexpr std::size_t pixels = 3000;  // of a photograph that are enough
-constexpr std::size_t places = 16;    // of a light that are enough to know a pattern by
+// Of the mosaics of many projectors; no level is shown before all of them are known.
+constexpr std::size_t fewestLights = 3 * mosaicGroupsOf(mosaicLights);
+constexpr std::size_t places = 16;  // of a light that are enough to know a pattern by
 
 /// The only channel that a pattern shows, full wherever it is not dark.
 std::optional<std::size_t> singleChannel(const image::Image& pattern) {
@@ -90,12 +92,14 @@ void RampPreview::addKnown(Measured& projector, Known known) {
     return;
   }
   // Another mosaic begins.
-  if (projector.known.size() == mosaicLights) projector = {};
+  const bool hasShownLevels =
+      std::ranges::any_of(projector.levels, [](const auto& own) { return !own.empty(); });
+  if (projector.known.size() == mosaicLights || hasShownLevels) projector = {};
   projector.known.push_back(std::move(known));
 }
 
 std::vector<RampPreview::Shown> RampPreview::shownBy(Measured& projector, const image::Image& pattern) {
-  if (projector.known.size() < mosaicLights) return {};
+  if (projector.known.size() < fewestLights) return {};
   std::vector<double> drives;
   for (const Known& known : projector.known) {
     const float drive = pattern.pixel(known.places.front())[known.channel];
@@ -104,7 +108,7 @@ std::vector<RampPreview::Shown> RampPreview::shownBy(Measured& projector, const 
     drives.push_back(static_cast<double>(drive));
   }
   std::vector<Shown> shown;
-  for (std::size_t q = 0; q < mosaicLights; ++q) {
+  for (std::size_t q = 0; q < drives.size(); ++q) {
     const Known& known = projector.known[q];
     shown.push_back({&known, &projector.levels[known.channel][drives[q]]});
   }

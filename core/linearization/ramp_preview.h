@@ -13,7 +13,7 @@ namespace relucent::linearization {
 /// noise and the smoothness of the fit. For display only.
 class RampPreview {
  public:
-  /// Adds one photograph of what all projectors show: black, one of the nine lights of one projector's mosaic
+  /// Adds one photograph of what all projectors show: black, one of the lights of one projector's mosaic
   /// at full, or, once these and black are known, mosaics of one or more. Least squares over pixels tell how
   /// much of each light it shows. Other patterns, and pixels that are saturated, are ignored.
   void add(const std::vector<image::Image>& encodedPatterns, const rig::RawFrame& frame);
@@ -24,7 +24,7 @@ class RampPreview {
  private:
   /// Signal per second of some of a photograph's pixels; not a number where it is saturated.
   using Light = std::vector<double>;
-  /// One of the nine lights: some of the places where it falls on the projector's picture.
+  /// One of the lights: some of the places where it falls on the projector's picture.
   struct Known {
     std::size_t channel = 0;
     std::vector<std::size_t> places;

@@ -42,6 +42,9 @@ class Photographer {
   hdr::HdrFrame takeAt(const ProjectorStack& pattern, const std::vector<std::size_t>& exposures,
                        const Progress& progress, const Meanwhile& meanwhile = {});
 
+  /// Exposures that there are.
+  std::size_t exposures() const { return linearization_.exposures.size(); }
+
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
 

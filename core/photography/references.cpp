@@ -109,15 +109,19 @@ void findScales(References& references, double dimShare) {
 
 }  // namespace
 
-References measureReferences(Photographer& photographer, int rounds, double dimShare, Progress& progress) {
+References measureReferences(Photographer& photographer, const ReferenceRounds& rounds, double dimShare,
+                             Progress& progress) {
   const Rasters& projectors = photographer.projectors();
   std::size_t rows = photographer.cameras().count();
   std::size_t floods = 3 * projectors.devices();
 
   std::vector<std::vector<hdr::HdrFrame>> frames(1 + floods);
-  std::size_t total = static_cast<std::size_t>(rounds) * frames.size(), done = 0;
-  for (int round = 0; round < rounds; ++round) {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
+  const std::size_t total =
+      static_cast<std::size_t>(rounds.black) + static_cast<std::size_t>(rounds.floods) * floods;
+  std::size_t done = 0;
+  for (int round = 0; round < rounds.black; ++round) {
+    const std::size_t shown = round < rounds.floods ? frames.size() : 1;
+    for (std::size_t i = 0; i < shown; ++i) {
       ProjectorStack pattern = i == 0 ? ProjectorStack(3 * projectors.count(), 0.0f)
                                       : floodPattern(projectors, (i - 1) / 3, (i - 1) % 3);
       frames[i].push_back(photographer.takeAll(pattern, progress));

@@ -25,8 +25,14 @@ struct References {
   std::vector<float> fullScale;  // per row: the largest magnitude that T may hold there
 };
 
-/// `rounds` shots of each, black and floods in turn, so that slow drift is the same in all of them.
-/// `dimShare`: see AcquisitionSettings.
-References measureReferences(Photographer& photographer, int rounds, double dimShare, Progress& progress);
+/// How often each is photographed; black at least as often as the floods.
+struct ReferenceRounds {
+  int black = 1, floods = 1;
+};
+
+/// Black and floods in turn, so that slow drift is the same in all of them. `dimShare`: see
+/// AcquisitionSettings.
+References measureReferences(Photographer& photographer, const ReferenceRounds& rounds, double dimShare,
+                             Progress& progress);
 
 }  // namespace relucent::photography

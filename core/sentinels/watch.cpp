@@ -88,9 +88,11 @@ std::optional<Interruption> Watch::inspectProjectors(const Check& check, const P
   const Rasters& projectors = references_.projectors;
   // The only projector's reference picture is the check's.
   if (projectors.devices() == 1) return inspectOrientation(check.light, 0);
+  const std::size_t shortest = photographer_.exposures() - 1;
   for (std::size_t projector = 0; projector < projectors.devices(); ++projector) {
     const ProjectorStack pattern = referencePattern(projectors, projector);
-    auto seen = photographed([&] { return photographer_.takeAll(pattern, progress); });
+    // Only what is bright tells.
+    auto seen = photographed([&] { return photographer_.takeAt(pattern, {shortest}, progress); });
     if (!seen) return seen.interruption();
     const hdr::ProjectedLight light(*std::move(seen), check.black);
     if (auto interrupted = inspectOrientation(light, projector)) return interrupted;

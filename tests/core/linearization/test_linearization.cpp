@@ -275,9 +275,11 @@ class TestLinearization : public QObject {
         {"lamps drift apart", inTheSamePlace, {dimming, drifting}},
         {"one lamp flickers", inTheSamePlace, {flickering, plain}},
         {"three", inTheSamePlace, {plain, uneven, dimming}},
+        {"four", inTheSamePlace, {plain, uneven, dimming, flickering}},
         {"gamma 2.2 and 1.8, the second four times as bright", sideBySide, {plain, soft}},
         {"one lamp drifts", sideBySide, {plain, drifting}},
-        {"three", sideBySide, {plain, uneven, dimming}}};
+        {"three", sideBySide, {plain, uneven, dimming}},
+        {"four", sideBySide, {plain, uneven, dimming, soft}}};
     quint64 seed = 0;
     for (const Row& row : rows)
       if (++seed; !isSanitized || seed % 3 == 0)
@@ -659,14 +661,16 @@ class TestLinearization : public QObject {
     QCOMPARE(watcher.checks_, check);
   }
 
-  void tenPhotographsMoreForEachProjector_data() {
+  /// Ten more for the second; of three and more seven for each, and some for their levels.
+  void fewPhotographsMoreForEachProjector_data() {
     QTest::addColumn<int>("projectors");
     QTest::addColumn<int>("photographs");
     QTest::newRow("one") << 1 << 30;
     QTest::newRow("two") << 2 << 41;
-    QTest::newRow("three") << 3 << 51;
+    QTest::newRow("three") << 3 << 49;
+    QTest::newRow("four") << 4 << 56;
   }
-  void tenPhotographsMoreForEachProjector() {
+  void fewPhotographsMoreForEachProjector() {
     QFETCH(int, projectors);
     QFETCH(int, photographs);
     const auto count = static_cast<std::size_t>(projectors);

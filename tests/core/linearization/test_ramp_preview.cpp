@@ -71,8 +71,15 @@ class TestRampPreview : public QObject {
   }
 
   /// Two pictures in the same place: what each shows is told by their dark cells.
+  void mosaicsOfTwoProjectorsAreToldApart_data() {
+    QTest::addColumn<int>("groups");
+    for (int groups : {3, 2}) QTest::addRow("%d groups", groups) << groups;
+  }
   void mosaicsOfTwoProjectorsAreToldApart() {
-    const std::array<Mosaic, 2> mosaics{Mosaic(size, Random{3}, true), Mosaic(size, Random{4}, true)};
+    QFETCH(int, groups);
+    const auto count = static_cast<std::size_t>(groups);
+    const std::array<Mosaic, 2> mosaics{Mosaic(size, Random{3}, true, count),
+                                        Mosaic(size, Random{4}, true, count)};
     const std::array<MosaicDrive, 2> drives{levels, {0.75, 0.125, 0.5, 0.25, 1.0, 0.375, 0.5, 0.625, 0.75}};
     auto photographOfBoth = [](const Image& first, const Image& second) {
       RawFrame frame = photographOf(first);
@@ -84,7 +91,7 @@ class TestRampPreview : public QObject {
     const Image black(size, 3);
     RampPreview preview;
     preview.add({black, black}, photographOf(black));
-    for (std::size_t q = 0; q < mosaicLights; ++q) {
+    for (std::size_t q = 0; q < 3 * count; ++q) {
       const Image first = mosaics[0].pattern(lightAlone(q)), second = mosaics[1].pattern(lightAlone(q));
       preview.add({first, black}, photographOfBoth(first, black));
       preview.add({black, second}, photographOfBoth(black, second));
@@ -93,7 +100,7 @@ class TestRampPreview : public QObject {
     preview.add({first, second}, photographOfBoth(first, second));
     for (std::size_t p = 0; p < 2; ++p) {
       const auto curves = preview.curves(p);
-      for (std::size_t q = 0; q < mosaicLights; ++q) {
+      for (std::size_t q = 0; q < 3 * count; ++q) {
         const double drive = drives[p][q], found = curves[q % 3].at(drive);
         QVERIFY2(std::abs(found - drive * drive) < 1e-3,
                  qPrintable(QString("%1 at %2").arg(found).arg(drive)));

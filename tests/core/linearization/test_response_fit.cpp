@@ -9,6 +9,7 @@
 #include "relucent/base/error.h"
 #include "relucent/linearization/additivity.h"
 #include "relucent/linearization/mosaic.h"
+#include "relucent/linearization/mosaic_photographs.h"
 
 using namespace relucent;
 using namespace relucent::image;
@@ -181,19 +182,21 @@ class TestResponseFit : public QObject {
   void aMosaicsLightsAddUpToWhite_data() {
     QTest::addColumn<int>("width");
     QTest::addColumn<int>("height");
-    QTest::addColumn<bool>("darkCells");
-    for (bool darkCells : {false, true})
+    QTest::addColumn<int>("projectors");
+    for (int projectors : {1, 2, 4})
       for (Size size : {Size{1, 1}, Size{5, 4}, Size{64, 48}, Size{33, 100}})
-        QTest::addRow("%dx%d%s", size.width, size.height, darkCells ? ", dark cells" : "")
-            << size.width << size.height << darkCells;
+        QTest::addRow("%dx%d, of %d", size.width, size.height, projectors)
+            << size.width << size.height << projectors;
   }
   void aMosaicsLightsAddUpToWhite() {
     QFETCH(int, width);
     QFETCH(int, height);
-    QFETCH(bool, darkCells);
-    const Mosaic mosaic({width, height}, Random{4}, darkCells);
+    QFETCH(int, projectors);
+    const MosaicOrder order{static_cast<std::size_t>(projectors)};
+    const bool darkCells = projectors > 1;
+    const Mosaic mosaic({width, height}, Random{4}, darkCells, order.lights() / 3);
     Image sum({width, height}, 3);
-    for (std::size_t q = 0; q < mosaicLights; ++q) {
+    for (std::size_t q = 0; q < order.lights(); ++q) {
       MosaicDrive drive{};
       drive[q] = 1.0;
       const Image light = mosaic.pattern(drive);
@@ -209,18 +212,21 @@ class TestResponseFit : public QObject {
 
   void groupsAreEquallyLarge_data() {
     QTest::addColumn<bool>("darkCells");
-    QTest::newRow("all cells lit") << false;
-    QTest::newRow("dark cells") << true;
+    QTest::addColumn<int>("groups");
+    QTest::newRow("all cells lit") << false << 3;
+    QTest::newRow("dark cells") << true << 3;
+    QTest::newRow("of many projectors") << true << 2;
   }
   void groupsAreEquallyLarge() {
     QFETCH(bool, darkCells);
-    const Mosaic mosaic({96, 72}, Random{4}, darkCells);
+    QFETCH(int, groups);
+    const Mosaic mosaic({96, 72}, Random{4}, darkCells, static_cast<std::size_t>(groups));
     const Image pattern = mosaic.pattern({1, 0, 0, 0, 1, 0, 0, 0, 1});
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(groups); ++c) {
       double share = 0.0;
       for (std::size_t i = 0; i < pattern.pixels(); ++i)
         share += static_cast<double>(pattern.pixel(i)[c]) / static_cast<double>(pattern.pixels());
-      QVERIFY(std::abs(share - (darkCells ? 2.0 / 7.0 : 1.0 / 3.0)) < 0.02);
+      QVERIFY(std::abs(share - (darkCells ? 6.0 / 7.0 : 1.0) / groups) < 0.02);
     }
   }
 

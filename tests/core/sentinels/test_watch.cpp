@@ -48,7 +48,7 @@ class WatchedVenue {
         shots_(rig_, log_, "test"),
         linearization_(linearization()),
         photographer_(shots_, linearization_),
-        references_(measureReferences(photographer_, 1, 0.2, progress_)),
+        references_(measureReferences(photographer_, {}, 0.2, progress_)),
         supervision{std::move(handler), observer_},
         watch(photographer_, references_, {}, supervision) {}
 

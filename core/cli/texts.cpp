@@ -248,10 +248,12 @@ std::string textOf(const pipeline::EvaluateResult& result) {
     text += fmt::format(
         "Seams at {:.0f} % grey: dE2000 {:.2f} with {}, {:.2f} blended; beside them {:.2f}, {:.2f}. 95 %: "
         "{:.2f}, "
-        "{:.2f}; beside them {:.2f}, {:.2f}; of the edges alone {:.2f}, {:.2f}.\n",
+        "{:.2f}; beside them {:.2f}, {:.2f}; of the edges alone {:.2f}, {:.2f}. 95 % "
+        "where at most 70 % of all light is asked for: {:.2f}; of the edges alone {:.2f}.\n",
         100.0 * seams.grey, seams.joint.mean, nameOf(seams.method), seams.blended.mean, seams.joint.elsewhere,
         seams.blended.elsewhere, seams.joint.p95, seams.blended.p95, seams.joint.elsewhereP95,
-        seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95);
+        seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95,
+        seams.roomy.p95, seams.roomy.edgeP95);
   if (result.blackSteps)
     text +=
         fmt::format("Edges of black: dE2000 {:.2f} (95 %) with a lift of {:.4f}; not seen from {:.4f} on.\n",

@@ -94,6 +94,12 @@ class Judge {
 
   /// Pixels inside the target that the true venue can reach: e <= wanted <= T 1 + e in all channels.
   CameraMask reachable(const compensation::Target& target) const { return within(target, brightest_); }
+  /// The part of them that is asked for at most `share` of T 1 in all channels.
+  CameraMask roomy(const compensation::Target& target, float share) const {
+    CameraStack light = black_;
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += share * (brightest_[i] - black_[i]);
+    return within(target, light);
+  }
   /// The same with one projector alone.
   CameraMask reachableAlone(const compensation::Target& target, std::size_t projector) const {
     const Rasters& projectors = measured_.venue.transport.projectors();
@@ -266,6 +272,9 @@ std::vector<compensation::Method> methodsOf(const EvaluateSettings& settings) {
   return settings.methods.empty() ? allValues<compensation::Method>() : settings.methods;
 }
 
+// Of what all projectors give a pixel: who is asked for more depends on what its neighbours have too much of.
+constexpr float shareWithRoom = 0.7f;
+
 /// At some flat greys, shaped as the content is.
 std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
                                   const compensation::Compensator& compensator, const Judge& judge,
@@ -276,15 +285,18 @@ std::vector<SeamScore> seamScores(const MeasuredCalibration& measured,
     const image::Image flat(content, 3, static_cast<float>(grey));
     const compensation::Target target = fitTarget(flat, measured.venue, settings.target);
     const CameraMask mask = judge.reachable(target);
-    const compensation::SeamPairs pairs =
-        compensation::seamPairs(transport, mask, compensation::seamApart, settings.compensator.direct);
-    const auto seams = [&](const compensation::Compensation& compensation) {
-      return compensation::seamsOf(judge.seen(compensation), transport.cameras(), mask, target.white, pairs);
+    const auto seams = [&](const CameraStack& seen, const CameraMask& among) {
+      const compensation::SeamPairs pairs =
+          compensation::seamPairs(transport, among, compensation::seamApart, settings.compensator.direct);
+      return compensation::seamsOf(seen, transport.cameras(), among, target.white, pairs);
     };
     Progress quiet;
     const compensation::Method method = methodsOf(settings).back();
-    scores.push_back({grey, method, seams(compensator.solve(method, target, quiet)),
-                      seams(solvedSeparately(compensator, target, settings.compensator.optimum, quiet))});
+    const CameraStack joint = judge.seen(compensator.solve(method, target, quiet)),
+                      blended = judge.seen(
+                          solvedSeparately(compensator, target, settings.compensator.optimum, quiet));
+    scores.push_back({grey, method, seams(joint, mask), seams(blended, mask),
+                      seams(joint, judge.roomy(target, shareWithRoom))});
   }
   return scores;
 }

@@ -97,6 +97,7 @@ struct SeamScore {
   compensation::Method method = compensation::Method::refined;
   compensation::Seams joint;    // with the last of the methods
   compensation::Seams blended;  // each projector on its own
+  compensation::Seams roomy{};  // as `joint`, of pixels asked for at most 0.7 of what all projectors give
 };
 
 /// What is seen of the edges of projectors' black (compensation/black_steps.h).

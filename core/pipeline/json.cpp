@@ -88,7 +88,8 @@ calibration::Json seamsToJson(const std::vector<SeamScore>& scores) {
     list.push_back({{"grey", score.grey},
                     {"method", nameOf(score.method)},
                     {"joint", toJson(score.joint)},
-                    {"blended", toJson(score.blended)}});
+                    {"blended", toJson(score.blended)},
+                    {"roomy", toJson(score.roomy)}});
   return list;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// screenshots DIR CALIBRATION [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
-// 1920x1080, from a finished calibration, which is changed: give it a copy. `finished`: without measuring
-// another one. Of a calibration with several views, these too. To be run on an X server of its own:
-//   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR CALIBRATION
+// screenshots DIR CALIBRATION|VENUE [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
+// 1920x1080, from a finished calibration, which is changed: give it a copy; or the name of a simulated venue,
+// which is measured first. `finished`: without measuring another one. Of a calibration with several views,
+// these too. To be run on an X server of its own:
+//   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR dome4
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
@@ -10,10 +11,15 @@
 #include <QScreen>
 #include <QTemporaryDir>
 #include <QTest>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <string>
 
 #include "app/wizard_window.h"
 #include "relucent/base/message.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/venue/venue.h"
 #include "theme/theme.h"
 #include "views/map_view.h"
 #include "wizard/acquire/acquire_page.h"
@@ -75,6 +81,24 @@ class Photographs {
   WizardWindow& wizard_;
   QDir folder_;
 };
+
+/// A calibration, or one that is measured in the simulated venue of this name.
+std::filesystem::path measuredIn(const std::string& which, const QTemporaryDir& own,
+                                 const std::filesystem::path& cache) {
+  if (std::ranges::none_of(venues(), [&which](const VenueDescription& each) { return each.name == which; }))
+    return which;
+  CalibrateSettings settings;
+  VenueSettings venue;
+  venue.name = which;
+  venue.projector = {128, 96};
+  venue.camera = {96, 72};
+  venue.pathsPerPixel = 64;
+  settings.rig = venue;
+  const std::filesystem::path folder = own.filePath(QString::fromStdString(which)).toStdString();
+  Progress silent;
+  calibrate(folder, settings, cache, silent);
+  return folder;
+}
 
 /// Cameras as a desk with three of them would list them.
 CameraList someCameras() {
@@ -218,14 +242,16 @@ void takeStopped(WizardWindow& wizard, Photographs& photographs) {
 int main(int argc, char** argv) {
   QApplication application(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION [CACHE [LANGUAGE [finished]]]\n");
+    std::fprintf(stderr, "usage: screenshots DIR CALIBRATION|VENUE [CACHE [LANGUAGE [finished]]]\n");
     return 2;
   }
   QDir folder(argv[1]);
   folder.mkpath(".");
   QTemporaryDir own;
+  const std::filesystem::path cache = argc > 3 ? argv[3] : own.filePath("cache").toStdString();
+  const std::filesystem::path calibration = measuredIn(argv[2], own, cache);
   QSettings settings(own.filePath("settings.ini"), QSettings::IniFormat);
-  WizardWindow wizard(settings, argc > 3 ? argv[3] : own.filePath("cache").toStdString());
+  WizardWindow wizard(settings, cache);
   wizard.page<VenuePage>().setFolder(own.filePath("venues"));
   if (argc > 4) wizard.preferences().setLanguage(argv[4]);
   Photographs photographs(wizard, folder);
@@ -245,7 +271,7 @@ int main(int argc, char** argv) {
     takeMeasuring(wizard, photographs, own);
     takeStopped(wizard, photographs);
   }
-  wizard.page<VenuePage>().open(argv[2]);
+  wizard.page<VenuePage>().open(QString::fromStdString(calibration.string()));
   wizard.wizard().go(0);
   photographs.take("00-start");
   Wizard& steps = wizard.wizard();

@@ -3153,6 +3153,10 @@
         <source>%1, %2 a minute</source>
         <translation>⁨%1⁩، ⁨%2⁩ في الدقيقة</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>جميع أجهزة العرض بيضاء بالكامل</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3684,6 +3688,10 @@
     <message>
         <source>Checks done</source>
         <translation>اكتمل الفحص</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>يظهر %1 من كل صورة</translation>
     </message>
 </context>
 <context>

@@ -3065,6 +3065,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1, %2 je Minute</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>alle Projektoren ganz weiß</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3592,6 +3596,10 @@
     <message>
         <source>Checks done</source>
         <translation>Prüfungen fertig</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>Von jedem Bild sind %1 zu sehen</translation>
     </message>
 </context>
 <context>

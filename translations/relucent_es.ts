@@ -3065,6 +3065,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1, %2 por minuto</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>todos los proyectores totalmente blancos</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3592,6 +3596,10 @@
     <message>
         <source>Checks done</source>
         <translation>Comprobado</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>Se ve el %1 de cada imagen</translation>
     </message>
 </context>
 <context>

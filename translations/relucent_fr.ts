@@ -3065,6 +3065,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1, %2 par minute</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>tous les projecteurs entièrement blancs</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3592,6 +3596,10 @@
     <message>
         <source>Checks done</source>
         <translation>Vérifications faites</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>%1 de chaque image est visible</translation>
     </message>
 </context>
 <context>

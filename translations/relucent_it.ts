@@ -3065,6 +3065,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1, %2 al minuto</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>tutti i proiettori completamente bianchi</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3592,6 +3596,10 @@
     <message>
         <source>Checks done</source>
         <translation>Controlli completati</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>Si vede il %1 di ogni immagine</translation>
     </message>
 </context>
 <context>

@@ -3043,6 +3043,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1、毎分 %2</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>すべてのプロジェクターが全面白</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3569,6 +3573,10 @@
     <message>
         <source>Checks done</source>
         <translation>確認完了</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>どの映像も %1 が見えています</translation>
     </message>
 </context>
 <context>

@@ -3043,6 +3043,10 @@
         <source>%1, %2 a minute</source>
         <translation>%1，每分钟 %2</translation>
     </message>
+    <message>
+        <source>all projectors fully white</source>
+        <translation>所有投影机全白</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3569,6 +3573,10 @@
     <message>
         <source>Checks done</source>
         <translation>检查完毕</translation>
+    </message>
+    <message>
+        <source>%1 of every picture is seen</source>
+        <translation>每个画面都可见 %1</translation>
     </message>
 </context>
 <context>

@@ -252,8 +252,8 @@ std::string textOf(const pipeline::EvaluateResult& result) {
         "where at most 70 % of all light is asked for: {:.2f}; of the edges alone {:.2f}.\n",
         100.0 * seams.grey, seams.joint.mean, nameOf(seams.method), seams.blended.mean, seams.joint.elsewhere,
         seams.blended.elsewhere, seams.joint.p95, seams.blended.p95, seams.joint.elsewhereP95,
-        seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95,
-        seams.roomy.p95, seams.roomy.edgeP95);
+        seams.blended.elsewhereP95, seams.joint.edgeP95, seams.blended.edgeP95, seams.roomy.p95,
+        seams.roomy.edgeP95);
   if (result.blackSteps)
     text +=
         fmt::format("Edges of black: dE2000 {:.2f} (95 %) with a lift of {:.4f}; not seen from {:.4f} on.\n",

@@ -190,7 +190,6 @@ QWidget* resultPart(AcquirePage& model) {
 
 QWidget* floodlightCard(AcquirePage& model) {
   auto* card = new Card(AcquirePage::tr("Floodlight image"));
-  card->setSubtitle(AcquirePage::tr("the projector fully white"));
   auto* view = new ImageView;
   view->setObjectName("floodlight-view");
   view->setAccessibleName(AcquirePage::tr("The surface in the projector's full light"));
@@ -198,7 +197,7 @@ QWidget* floodlightCard(AcquirePage& model) {
       AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
   card->body()->addWidget(view, 1);
   card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
-  auto refresh = [&model, card, view, shown = std::pair(0, std::size_t{0})]() mutable {
+  auto refresh = [&model, card, view, shown = std::pair(-1, std::size_t{0})]() mutable {
     card->setVisible(!model.isMeasuring());
     const auto wanted = std::pair(model.floodlightNumber(), model.camera());
     if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
@@ -206,7 +205,8 @@ QWidget* floodlightCard(AcquirePage& model) {
     view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
     const LitOutline lit = flood.empty() ? LitOutline() : litOutline(flood);
     view->setOverlay(lit.picture);
-    const QString white = AcquirePage::tr("the projector fully white");
+    const QString white = model.projectors() > 1 ? AcquirePage::tr("all projectors fully white")
+                                                 : AcquirePage::tr("the projector fully white");
     const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(lit.share));
     card->setSubtitle(lit.picture.isNull() ? white : whole);
     view->setAccessibleDescription(lit.picture.isNull() ? QString() : whole);

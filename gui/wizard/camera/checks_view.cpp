@@ -91,11 +91,11 @@ QWidget* coveragePart(CameraPage& model) {
     const auto projector = static_cast<std::size_t>(least - all.begin());
     constexpr double enough = 0.98;
     const QString share = percentText(least->share());
-    const QString sentence =
-        all.size() == 1
-            ? CameraPage::tr("%1 of the projector's picture is seen").arg(share)
-            : CameraPage::tr("%1 of projector %2's picture is seen").arg(share).arg(projector + 1);
     const bool isEnough = least->share() >= enough;
+    const QString sentence =
+        all.size() == 1 ? CameraPage::tr("%1 of the projector's picture is seen").arg(share)
+        : isEnough      ? CameraPage::tr("%1 of every picture is seen").arg(share)
+                   : CameraPage::tr("%1 of projector %2's picture is seen").arg(share).arg(projector + 1);
     sees->show(isEnough ? Kind::good : Kind::warning, sentence,
                isEnough ? QString() : missingText(*least, model.isSimulated()));
     map->setVisible(!isEnough);

@@ -119,11 +119,12 @@ class TestJson : public QObject {
     result.images[0].blended = score;
     result.images[0].alone = {{0.25, score}, {0.5, std::nullopt}};
     result.images[0].others = {{0.75, {score}, score, {}, {{Rival::robust, 64, score}}}};
-    result.seams = {{0.25,
-                     Method::refined,
-                     {.mean = 0.5, .p95 = 1.5, .elsewhere = 0.375, .elsewhereP95 = 0.75, .edgeP95 = 1.25},
-                     {.mean = 2.0, .p95 = 4.0, .elsewhere = 1.0, .elsewhereP95 = 3.0, .edgeP95 = 5.0},
-                     {.mean = 0.25, .p95 = 0.5, .elsewhere = 0.125, .elsewhereP95 = 0.375, .edgeP95 = 0.625}}};
+    result.seams = {
+        {0.25,
+         Method::refined,
+         {.mean = 0.5, .p95 = 1.5, .elsewhere = 0.375, .elsewhereP95 = 0.75, .edgeP95 = 1.25},
+         {.mean = 2.0, .p95 = 4.0, .elsewhere = 1.0, .elsewhereP95 = 3.0, .edgeP95 = 5.0},
+         {.mean = 0.25, .p95 = 0.5, .elsewhere = 0.125, .elsewhereP95 = 0.375, .edgeP95 = 0.625}}};
     const Json document = toJson(result), image = document["images"][0];
     QCOMPARE(image["unseen_places"][0]["reachable"].get<double>(), 0.5);
     QCOMPARE(image["unseen_places"][0]["methods"]["refined"]["psnr_reachable"].get<double>(), 30.0);

@@ -535,7 +535,8 @@ class TestSeveralViews : public QObject {
             100.0 * seams.grey, seams.joint.mean, seams.joint.p95, seams.joint.elsewhere, seams.blended.mean,
             seams.blended.p95, seams.blended.elsewhere);
     QVERIFY(joint / views > blended / views + 3.0);
-    // What is asked for nearly all light there is has seams: its neighbours' light is not to be taken from it.
+    // What is asked for nearly all light there is has seams: its neighbours' light is not to be taken from
+    // it.
     for (const SeamScore& seams : result.seams) QVERIFY(seams.joint.mean < 1.0 && seams.roomy.p95 < 1.0);
   }
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// screenshots DIR CALIBRATION|VENUE [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768 and
-// 1920x1080, from a finished calibration, which is changed: give it a copy; or the name of a simulated venue,
-// which is measured first. `finished`: without measuring another one. Of a calibration with several views,
-// these too. To be run on an X server of its own:
+// screenshots DIR CALIBRATION|VENUE [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768
+// and 1920x1080, from a finished calibration, which is changed: give it a copy; or the name of a simulated
+// venue, which is measured first. `finished`: without measuring another one. Of a calibration with several
+// views, these too. To be run on an X server of its own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR dome4
 #include <QApplication>
 #include <QDialog>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Four projectors that overlap, looked at through two cameras.
+#include <QLabel>
 #include <QtTest>
+#include <algorithm>
 #include <numeric>
 
 #include "gui/wizard/simulated_session.h"
@@ -8,6 +10,7 @@
 #include "views/image_view.h"
 #include "wizard/camera/camera_page.h"
 #include "wizard/camera/camera_view.h"
+#include "wizard/camera/checks_view.h"
 #include "wizard/devices/device_selector.h"
 
 using namespace relucent;
@@ -88,7 +91,18 @@ class TestSeveralCameras : public QObject {
     QVERIFY(stage_->findChild<ImageView*>("camera-view-2")->picture() != light);
     QVERIFY(stage_->findChild<ImageView*>("camera-view-2")
                 ->accessibleDescription()
-                .contains(CameraPage::tr("%n projector(s): %1", nullptr, 2).section(':', 0, 0)));
+                .contains(CameraPage::tr("%n projector(s): %1", nullptr, 2)
+                              .section(':', 0, 0)
+                              .replace(QChar(' '), QChar(QChar::Nbsp))));
+  }
+
+  /// Where each is seen, all are spoken of, not the one that is seen least.
+  void allProjectorsAreSaidToBeSeen() {
+    for (const linearization::Coverage& coverage : page_->coverage()) QVERIFY(coverage.share() >= 0.98);
+    const std::unique_ptr<QWidget> checks(checksPart(*page_));
+    const QList<QLabel*> labels = checks->findChild<Remark*>("coverage")->findChildren<QLabel*>();
+    QVERIFY(std::ranges::any_of(
+        labels, [](const QLabel* label) { return label->text().contains("of every picture is seen"); }));
   }
 };
 

@@ -535,9 +535,13 @@ class TestSeveralViews : public QObject {
             100.0 * seams.grey, seams.joint.mean, seams.joint.p95, seams.joint.elsewhere, seams.blended.mean,
             seams.blended.p95, seams.blended.elsewhere);
     QVERIFY(joint / views > blended / views + 3.0);
-    // What is asked for nearly all light there is has seams: its neighbours' light is not to be taken from
+    // What is asked for nearly all light there is has the seams: its neighbours' light is not to be had for
     // it.
-    for (const SeamScore& seams : result.seams) QVERIFY(seams.joint.mean < 1.0 && seams.roomy.p95 < 1.0);
+    for (const SeamScore& seams : result.seams) {
+      qInfo("%.0f %% grey: 95 %% below %.2f where light is left", 100.0 * seams.grey, seams.roomy.p95);
+      QVERIFY(seams.joint.mean < 1.0 && seams.roomy.p95 < 1.5);
+      QVERIFY(seams.roomy.p95 <= seams.joint.p95 + 0.05);
+    }
   }
 };
 

@@ -16,6 +16,7 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(BLOSC REQUIRED IMPORTED_TARGET blosc)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(GIO REQUIRED IMPORTED_TARGET gio-2.0)
 # Cameras: without these everything else works, and `relucent-cli devices` says what is missing. A project that finds
 # Relucent needs those that it was built with.
 pkg_check_modules(ARAVIS IMPORTED_TARGET aravis-0.8>=0.8.26)

@@ -85,6 +85,13 @@ void writeFileAtomically(const fs::path& path, std::string_view content) {
   });
 }
 
+void writePrivateFileAtomically(const fs::path& path, std::string_view content) {
+  writeFileAtomically(path, [&](const fs::path& temporary) {
+    if (const platform::FileOutcome outcome = platform::writePrivateContent(temporary, content); outcome.code)
+      failDisk(Action::write, path, outcome.code);
+  });
+}
+
 void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   fs::path temporary = path.parent_path() / fmt::format(".{}.part{}{}", path.stem().string(),
                                                         platform::processNumber(), path.extension().string());

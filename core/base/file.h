@@ -16,6 +16,9 @@ std::string readFile(const std::filesystem::path& path);
 /// `path` is untouched.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
+/// The same for a file that only its owner can read: there is no moment at which others could.
+void writePrivateFileAtomically(const std::filesystem::path& path, std::string_view content);
+
 /// The same for libraries that write files themselves: `write` gets the temporary name (same folder, same
 /// extension). Its exceptions are rethrown after the temporary file has been removed.
 void writeFileAtomically(const std::filesystem::path& path,

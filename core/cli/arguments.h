@@ -19,6 +19,7 @@
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/plan.h"
+#include "relucent/pipeline/projector_statuses.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/relight.h"
 #include "relucent/pipeline/repair.h"
@@ -133,6 +134,23 @@ struct Tidy {
   std::vector<std::filesystem::path> calibrations;
   pipeline::TidySettings settings;
 };
+/// Where projectors are on the network, as the command line says it.
+struct NetworkOptions {
+  std::vector<std::string> addresses;      // "[N=]HOST[:PORT]"
+  std::vector<std::string> passwordFiles;  // "[N=]FILE"
+  std::optional<pipeline::WarmUp> warmUp;
+
+  bool empty() const;
+  /// Changes what a calibration keeps of it.  Throws: Error{usage, disk, input}; WrongUsage.
+  void apply(pipeline::NetworkProjectors& projectors, const pipeline::RigSettings& rig) const;
+};
+/// Projectors on the network: what they say, and what a calibration knows of them.
+struct Projectors {
+  std::filesystem::path calibration;  // empty: none
+  pipeline::ProjectorStatusSettings settings;
+  NetworkOptions network;
+  bool forget = false;
+};
 /// What `bench` times: programs of their own, or single parts of core.
 enum class BenchSuite { parts, inverse, engine, acquisition, scale };
 inline constexpr EnumName<BenchSuite> benchSuiteNames[]{{BenchSuite::inverse, "inverse"},
@@ -155,7 +173,7 @@ struct Bench {
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
                              Repair, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export, Relight,
-                             Separate, Difference, Report, Tidy, Bench>;
+                             Separate, Difference, Report, Tidy, Projectors, Bench>;
 
 struct Arguments {
   Command command;

@@ -4,6 +4,7 @@
 #include "relucent/cli/device_choices.h"
 #include "relucent/cli/change_options.h"
 #include "relucent/cli/options.h"
+#include "relucent/cli/projector_options.h"
 #include "relucent/pipeline/command_devices.h"
 
 namespace relucent::cli {
@@ -34,8 +35,9 @@ void addDevices(CLI::App* sub, DeviceOptions& devices) {
                           ->type_name("NAME")
                           ->capture_default_str();
   devices.projectorSize =
-      addSizes(sub, "--projector", devices.projectors,
-               "Size of the projector; of several by commands: once for each, in the commands' order, or once")
+      addSizes(
+          sub, "--projector", devices.projectors,
+          "Size of the projector; of several by commands: once for each, in the commands' order, or once")
           ->default_str("256x192");
   devices.cameraAddress =
       addRepeated(
@@ -89,7 +91,8 @@ void addExternalPrograms(CLI::App* sub, DeviceOptions& devices) {
       [&devices](const std::string& text) { devices.projectorCommands.push_back(text); },
       "Command that shows the file {image} and returns when the picture is lit; several times for several");
   devices.cameraCommand = addRepeated(
-      real, "--camera-command", [&devices](const std::string& text) { devices.cameras.commands.push_back(text); },
+      real, "--camera-command",
+      [&devices](const std::string& text) { devices.cameras.commands.push_back(text); },
       "Command that photographs {exposure} seconds into the file {output}; several times for several");
   for (CLI::Option* command : {devices.projectorCommand, devices.cameraCommand}) command->type_name("CMD");
   real->add_option("--shortest", devices.commands.shortestExposure, "Shortest exposure of the camera")
@@ -211,10 +214,13 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
       ->type_name("WHICH");
   addFullDisk(sub, command->fullDisk);
   addCache(sub, command->cache);
+  auto network = std::make_shared<NetworkOptions>();
+  addNetworkOptions(sub, network);
   addExternalPrograms(sub, *devices);
   addSimulatedDevices(sub, *devices);
-  return [command, devices] {
+  return [command, devices, network] {
     command->settings.rig = rigOf(*devices);
+    network->apply(command->settings.network, command->settings.rig);
     command->settings.linearization.seed = devices->seed;
     command->settings.acquisition.seed = devices->seed;
     return Command(*command);

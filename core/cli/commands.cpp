@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <new>
 
@@ -12,6 +13,7 @@
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/cli/devices_document.h"
 #include "relucent/cli/interruption.h"
+#include "relucent/cli/projectors_document.h"
 #include "relucent/cli/terminal_progress.h"
 #include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
@@ -190,6 +192,28 @@ struct Executor {
 
   CommandResult operator()(const Tidy& command) const {
     return outcomeOf(pipeline::tidy(command.calibrations, command.settings, progress));
+  }
+
+  CommandResult operator()(const Projectors& command) const {
+    pipeline::ProjectorStatusSettings settings = command.settings;
+    if (settings.search) refuse(problems(*settings.search));
+    if (!command.calibration.empty()) {
+      const bool changes = command.forget || !command.network.empty();
+      using calibration::CalibrationFolder;
+      CalibrationFolder folder = CalibrationFolder::open(
+          command.calibration, changes ? CalibrationFolder::Access::write : CalibrationFolder::Access::read);
+      const pipeline::CalibrateSettings known = pipeline::settingsOf(folder);
+      pipeline::NetworkProjectors network = command.forget ? pipeline::NetworkProjectors() : known.network;
+      command.network.apply(network, known.rig);
+      refuse(problems(network, known.rig));
+      if (changes) keepNetworkProjectors(folder, network);
+      for (const auto& [projector, address] : network.addresses) settings.addresses.push_back(address);
+    }
+    const std::vector<pipeline::ProjectorStatus> statuses = pipeline::projectorStatuses(settings, progress);
+    CommandResult outcome{toJson(statuses), textOf(statuses)};
+    if (std::ranges::any_of(statuses, [](const auto& status) { return !status.report; }))
+      outcome.status = failed;
+    return outcome;
   }
 
   CommandResult benchAcquisition(const Bench& command) const {

@@ -134,6 +134,7 @@ std::function<Command()> addSeparateOptions(CLI::App* sub);
 std::function<Command()> addDifferenceOptions(CLI::App* sub);
 std::function<Command()> addReportOptions(CLI::App* sub);
 std::function<Command()> addTidyOptions(CLI::App* sub);
+std::function<Command()> addProjectorsOptions(CLI::App* sub);
 std::function<Command()> addBenchOptions(CLI::App* sub);
 
 }  // namespace relucent::cli

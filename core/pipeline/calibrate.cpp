@@ -3,11 +3,13 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/storage.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/warm_up.h"
 #include "relucent/platform/process.h"
 
 namespace relucent::pipeline {
@@ -62,10 +64,18 @@ CalibrateResult runStages(calibration::CalibrationFolder& folder, const fs::path
                           Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
+  // What was measured needs no light.
+  const bool measures =
+      calibration::progressOf(folder, calibration::Stage::acquisition) != calibration::StageProgress::done;
+  ProjectorWarmUp warmUp(measures ? settings.network : NetworkProjectors(), settings.rig);
+  warmUp.switchOn(opening);
   OpenedRig devices = openRig(settings.rig, cache, opening);
+  warmUp.awaitSteadyLight(devices.rig, opening);
   opening.report(1.0);
   Progress measuring = progress.part(0.8, RELUCENT_MESSAGE("stage.calibrating", "Calibrating"));
-  return Calibrating(folder, devices, handler, room).run(measuring);
+  CalibrateResult result = Calibrating(folder, devices, handler, room).run(measuring);
+  result.findings.insert(result.findings.begin(), warmUp.remarks().begin(), warmUp.remarks().end());
+  return result;
 }
 
 }  // namespace

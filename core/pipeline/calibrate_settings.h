@@ -11,6 +11,7 @@
 #include "relucent/inverse/windows.h"
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/content_settings.h"
+#include "relucent/pipeline/network_projectors.h"
 #include "relucent/pipeline/rig_settings.h"
 #include "relucent/reduction/pixel_use.h"
 #include "relucent/transport/transport_matrix.h"
@@ -28,6 +29,7 @@ struct CalibrateSettings {
   clustering::ClusteringSettings clustering =
       compensation::CompensatorSettings().clustering;  // of the cluster maps
   ContentSettings content;
+  NetworkProjectors network{};  // where the rig's projectors are on the network
 };
 /// Sentences about what cannot be; sizes outside 8x8 to 8192x8192 among them.
 std::vector<Message> problems(const CalibrateSettings& settings);

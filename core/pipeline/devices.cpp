@@ -13,6 +13,7 @@
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/screen_devices.h"
+#include "relucent/pipeline/warm_up.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -129,7 +130,12 @@ OpenedRig openRig(const RigSettings& settings, const std::filesystem::path& cach
 
 rig::Rig& RigSource::open(const RigSettings& settings, const transport::TransportMatrix& transport,
                           const calibration::CalibrationFolder& folder, Progress& progress) {
-  if (given_ == nullptr) opened_.emplace(openRig(settings, cache_, progress));
+  if (given_ == nullptr) {
+    ProjectorWarmUp warmUp(networkProjectorsOf(folder), settings);
+    warmUp.switchOn(progress);
+    opened_.emplace(openRig(settings, cache_, progress));
+    warmUp.awaitSteadyLight(opened_->rig, progress);
+  }
   used_ = reducedRig(folder, whole());
   if (!(used_.cameraRasters() == transport.cameras() && used_.projectorRasters() == transport.projectors()))
     throw Error(ErrorKind::input,

@@ -42,7 +42,8 @@ class RigSource {
   explicit RigSource(rig::Rig& open) : given_(&open) {}
 
   /// The devices as the calibration measured with them (reductions.h); they stay open as long as this.
-  /// Throws: as openRig() and reducedRig(); Error{input} if they have other sizes than T.
+  /// Projectors on the network are switched on and waited for (warm_up.h), unless they were open. Throws: as
+  /// openRig(), reducedRig() and ProjectorWarmUp; Error{input} if they have other sizes than T.
   rig::Rig& open(const RigSettings& settings, const transport::TransportMatrix& transport,
                  const calibration::CalibrationFolder& folder, Progress& progress);
   /// The same devices, whose cameras deliver all that they have. Contract: they are open.

@@ -162,6 +162,7 @@ Problems problems(const CalibrateSettings& settings) {
   append(found, problems(settings.windows));
   append(found, problems(settings.clustering));
   append(found, problems(settings.content));
+  append(found, problems(settings.network, settings.rig));
   return found;
 }
 

@@ -33,7 +33,10 @@ void moveScreens(const calibration::Json& settings, ScreenRigSettings& rig) {
 
 calibration::CalibrationFolder createCalibration(const std::filesystem::path& path,
                                                  const CalibrateSettings& settings) {
-  return calibration::CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::create(path, rigToJson(settings.rig), stagesToJson(settings));
+  if (settings.network != NetworkProjectors()) keepNetworkProjectors(folder, settings.network);
+  return folder;
 }
 
 CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
@@ -41,6 +44,7 @@ CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
   settings.rig = measuredRigOf(folder);
   if (auto* screen = std::get_if<ScreenRigSettings>(&settings.rig)) moveScreens(folder.settings(), *screen);
   stagesFromJson(folder.settings(), settings);
+  settings.network = networkProjectorsOf(folder);
   return settings;
 }
 

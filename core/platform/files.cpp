@@ -12,8 +12,10 @@ namespace relucent::platform {
 namespace fs = std::filesystem;
 namespace {
 
-FileOutcome write(const fs::path& path, int flags, std::string_view content) {
-  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666));
+constexpr mode_t ownersAlone = 0600, asUsual = 0666;
+
+FileOutcome write(const fs::path& path, int flags, std::string_view content, mode_t mode = asUsual) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode));
   if (!file.ok()) return {lastError(), false};
   while (!content.empty()) {
     const ssize_t written = ::write(file.get(), content.data(), content.size());
@@ -36,6 +38,13 @@ FileOutcome sync(const fs::path& path, int flags) {
 
 FileOutcome writeContent(const fs::path& path, std::string_view content) {
   return write(path, O_TRUNC, content);
+}
+
+FileOutcome writePrivateContent(const fs::path& path, std::string_view content) {
+  // A file that is there keeps its permissions.
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return write(path, O_TRUNC | O_EXCL, content, ownersAlone);
 }
 
 FileOutcome appendContent(const fs::path& path, std::string_view content) {

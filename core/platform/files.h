@@ -16,6 +16,9 @@ struct FileOutcome {
 /// Makes the file new with this content. What it held before is lost.
 FileOutcome writeContent(const std::filesystem::path& path, std::string_view content);
 
+/// The same so that only the file's owner can read it.
+FileOutcome writePrivateContent(const std::filesystem::path& path, std::string_view content);
+
 /// Adds a text at the end of a file, which is made if it is missing. Whoever appends at the same time does so
 /// before or after it, never within.
 FileOutcome appendContent(const std::filesystem::path& path, std::string_view content);

@@ -34,7 +34,9 @@ bool Keeper::keepPower(Session& session, const Wanted& wanted, Time now, Kept& k
   const bool isAsWanted = *power == (wanted.on ? Power::on : Power::off);
   if (!settings_.switchesPower) {
     if (wanted.on && (power == Power::off || power == Power::cooling))
-      warnOnce(kept, RELUCENT_MESSAGE("pjlink.is-off", "projector {} is switched off").with(settings_.label));
+      warnOnce(
+          kept,
+          RELUCENT_ENGLISH_MESSAGE("pjlink.is-off", "projector {} is switched off").with(settings_.label));
     return true;
   }
   if (isAsWanted) {
@@ -47,42 +49,44 @@ bool Keeper::keepPower(Session& session, const Wanted& wanted, Time now, Kept& k
   if (!isUnderWay) {
     const Obedience obedience = switchPower(session, wanted.on);
     if (obedience == Obedience::cannot) {
-      warnOnce(kept, RELUCENT_MESSAGE("pjlink.cannot-switch",
-                                      "projector {} cannot be switched on and off by the network")
+      warnOnce(kept, RELUCENT_ENGLISH_MESSAGE("pjlink.cannot-switch",
+                                              "projector {} cannot be switched on and off by the network")
                          .with(settings_.label));
       return true;
     }
     if (obedience == Obedience::done && toldPower_ != wanted.on) {
       kept.told.push_back(
-          wanted.on
-              ? RELUCENT_MESSAGE("pjlink.switched-on", "projector {} was switched on").with(settings_.label)
-              : RELUCENT_MESSAGE("pjlink.switched-off", "projector {} was switched off")
-                    .with(settings_.label));
+          wanted.on ? RELUCENT_ENGLISH_MESSAGE("pjlink.switched-on", "projector {} was switched on")
+                          .with(settings_.label)
+                    : RELUCENT_ENGLISH_MESSAGE("pjlink.switched-off", "projector {} was switched off")
+                          .with(settings_.label));
       toldPower_ = wanted.on;
     }
   }
   if (now - *differsSince_ >= settings_.obeys)
-    warnOnce(kept,
-             wanted.on
-                 ? RELUCENT_MESSAGE(
-                       "pjlink.stays-off",
-                       "projector {} was told to switch on and does not: look at its lamps and its menu")
-                       .with(settings_.label)
-                 : RELUCENT_MESSAGE("pjlink.stays-on",
-                                    "projector {} was told to switch off and does not: look at its menu")
-                       .with(settings_.label));
+    warnOnce(
+        kept,
+        wanted.on
+            ? RELUCENT_ENGLISH_MESSAGE(
+                  "pjlink.stays-off",
+                  "projector {} was told to switch on and does not: look at its lamps and its menu")
+                  .with(settings_.label)
+            : RELUCENT_ENGLISH_MESSAGE("pjlink.stays-on",
+                                       "projector {} was told to switch off and does not: look at its menu")
+                  .with(settings_.label));
   return false;
 }
 
 bool Keeper::keepShutter(Session& session, const Wanted& wanted, Kept& kept) {
   const std::optional<Shutter>& shutter = kept.report->shutter;
-  if (kept.report->power != Power::on || !shutter) return true;
-  const bool wantsClosed = settings_.closesShutter && wanted.black && wanted.on;
+  // One that is to go off, goes off as it is: nothing of a desktop is seen meanwhile.
+  if (kept.report->power != Power::on || !shutter || !wanted.on) return true;
+  const bool wantsClosed = settings_.closesShutter && wanted.black;
   if (shutter->picture == wantsClosed) return true;
   if (!settings_.closesShutter) {
-    if (wanted.on && !wanted.black)
-      warnOnce(kept, RELUCENT_MESSAGE("pjlink.shutter-closed",
-                                      "the shutter of projector {} is closed: nothing can be seen")
+    if (!wanted.black)
+      warnOnce(kept, RELUCENT_ENGLISH_MESSAGE("pjlink.shutter-closed",
+                                              "the shutter of projector {} is closed: nothing can be seen")
                          .with(settings_.label));
     return true;
   }
@@ -99,10 +103,10 @@ bool Keeper::keepShutter(Session& session, const Wanted& wanted, Kept& kept) {
       break;
   }
   hasShutter_ = false;
-  kept.warned.push_back(
-      RELUCENT_MESSAGE("pjlink.no-shutter",
-                       "projector {} has no shutter that the network closes: its black is what it shows")
-          .with(settings_.label));
+  kept.warned.push_back(RELUCENT_ENGLISH_MESSAGE(
+                            "pjlink.no-shutter",
+                            "projector {} has no shutter that the network closes: its black is what it shows")
+                            .with(settings_.label));
   return true;
 }
 
@@ -130,15 +134,15 @@ Kept Keeper::keep(const Wanted& wanted, Time now, const Progress& progress) {
   }
   if (std::exchange(failures_, 0) > 0)
     kept.told.push_back(
-        RELUCENT_MESSAGE("pjlink.answers-again", "projector {} answers again").with(settings_.label));
+        RELUCENT_ENGLISH_MESSAGE("pjlink.answers-again", "projector {} answers again").with(settings_.label));
   for (Message& sentence : troublesOf(*kept.report, settings_.label)) warnOnce(kept, std::move(sentence));
   for (Message& sentence : harmfulSettings(*kept.report, settings_.label, settings_.sent))
     warnOnce(kept, std::move(sentence));
   if (!kept.report->unclear.empty())
-    warnOnce(kept,
-             RELUCENT_MESSAGE("pjlink.unclear",
-                              "projector {} answers {} in a way that is no PJLink: what it means is ignored")
-                 .with(settings_.label, kept.report->unclear.front()));
+    warnOnce(kept, RELUCENT_ENGLISH_MESSAGE(
+                       "pjlink.unclear",
+                       "projector {} answers {} in a way that is no PJLink: what it means is ignored")
+                       .with(settings_.label, kept.report->unclear.front()));
   standing_ = said_;
   return kept;
 }

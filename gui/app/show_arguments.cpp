@@ -64,6 +64,20 @@ const QCommandLineOption oscAddress(
     "ADDRESS", "127.0.0.1");
 const QCommandLineOption oscFeedback("osc-feedback", "Tell every change to this address by OSC.",
                                      "HOST:PORT");
+const QCommandLineOption statusPage("status",
+                                    "Show the show's state to browsers on this TCP port, read only.", "PORT");
+const QCommandLineOption statusAddress(
+    "status-address",
+    "The address of this computer on which to show it; 0.0.0.0: on all. Whoever reaches it reads it.",
+    "ADDRESS", "127.0.0.1");
+const QCommandLineOption switchProjectors("switch-projectors",
+                                          "Switch the projectors on for the hours of play and off outside "
+                                          "them, if the calibration knows where they are on "
+                                          "the network: relucent-cli projectors.");
+const QCommandLineOption powerOffAfter(
+    "power-off-after", "Switch them off when the picture was black for so long, and on again after that.",
+    "MINUTES");
+const QCommandLineOption closeShutter("close-shutter", "Close their shutters while the picture is black.");
 const QCommandLineOption installService(
     "install-service",
     "Start this show at every log-in and restart it after a failure: a systemd user unit.");
@@ -79,10 +93,10 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
   for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
-  for (const QCommandLineOption& option :
-       {schedule, canvas, brightness, backend, osc, oscAddress, oscFeedback})
+  for (const QCommandLineOption& option : {schedule, canvas, brightness, backend, osc, oscAddress,
+                                           oscFeedback, statusPage, statusAddress, powerOffAfter})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
-  for (const QCommandLineOption& option : {loop, adaptive})
+  for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter})
     if (parser.isSet(option)) again << "--" + option.names().first();
   return again;
 }
@@ -101,17 +115,40 @@ compensation::Position positionFrom(const QString& text) {
   return position;
 }
 
-std::optional<OscPlace> oscPlaceOf(const QCommandLineParser& parser) {
-  if (!parser.isSet(osc)) {
-    if (parser.isSet(oscAddress) || parser.isSet(oscFeedback))
-      throw WrongArguments("--osc-address and --osc-feedback need --osc PORT");
-    return std::nullopt;
-  }
-  const OscPlace place{QHostAddress(parser.value(oscAddress)), parser.value(osc).toUShort()};
-  if (place.port == 0) throw WrongArguments("the port of --osc must be 1 to 65535");
+/// Where something is listened to. Throws: WrongArguments.
+std::optional<NetworkPlace> placeOf(const QCommandLineParser& parser, const QCommandLineOption& port,
+                                    const QCommandLineOption& address) {
+  if (!parser.isSet(port)) return std::nullopt;
+  const NetworkPlace place{QHostAddress(parser.value(address)), parser.value(port).toUShort()};
+  if (place.port == 0)
+    throw WrongArguments(
+        QString("the port of --%1 must be 1 to 65535").arg(port.names().first()).toStdString());
   if (place.host.isNull())
     throw WrongArguments("the address to listen on must be a number, as 127.0.0.1 or 0.0.0.0");
   return place;
+}
+
+std::optional<NetworkPlace> oscPlaceOf(const QCommandLineParser& parser) {
+  if (!parser.isSet(osc) && (parser.isSet(oscAddress) || parser.isSet(oscFeedback)))
+    throw WrongArguments("--osc-address and --osc-feedback need --osc PORT");
+  return placeOf(parser, osc, oscAddress);
+}
+
+std::optional<NetworkPlace> statusPlaceOf(const QCommandLineParser& parser) {
+  if (!parser.isSet(statusPage) && parser.isSet(statusAddress))
+    throw WrongArguments("--status-address needs --status PORT");
+  return placeOf(parser, statusPage, statusAddress);
+}
+
+void readProjectors(const QCommandLineParser& parser, ShowSettings& settings) {
+  settings.switchesPower = parser.isSet(switchProjectors);
+  settings.closesShutter = parser.isSet(closeShutter);
+  if (!parser.isSet(powerOffAfter)) return;
+  if (!settings.switchesPower) throw WrongArguments("--power-off-after needs --switch-projectors");
+  constexpr int most = 24 * 60;
+  const int minutes = parser.value(powerOffAfter).toInt();
+  if (minutes < 1 || minutes > most) throw WrongArguments("--power-off-after takes 1 to 1440 minutes");
+  settings.powerOffAfter = std::chrono::minutes(minutes);
 }
 
 ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder) {
@@ -144,8 +181,10 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   for (const QString& position : parser.values(cameraPosition))
     settings.cameras.push_back(positionFrom(position));
   settings.osc = oscPlaceOf(parser);
+  settings.status = statusPlaceOf(parser);
+  readProjectors(parser, settings);
   if (parser.isSet(oscFeedback)) {
-    settings.oscFeedback = oscPlaceFrom(parser.value(oscFeedback));
+    settings.oscFeedback = networkPlaceFrom(parser.value(oscFeedback));
     if (!settings.oscFeedback)
       throw WrongArguments(
           "the feedback address must be HOST:PORT with a number as host, as 192.168.1.20:9000");
@@ -168,9 +207,11 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content, loop, schedule, display, canvas, adaptive, brightness, backend, cameraPosition,
-                     osc, oscAddress, oscFeedback, log, installService, installAutostart, removeService,
-                     removeAutostart});
+  parser.addOptions({content,       loop,           schedule,   display,        canvas,
+                     adaptive,      brightness,     backend,    cameraPosition, osc,
+                     oscAddress,    oscFeedback,    statusPage, statusAddress,  switchProjectors,
+                     powerOffAfter, closeShutter,   log,        installService, installAutostart,
+                     removeService, removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))

@@ -45,7 +45,16 @@ int run(const TextToPrint& print) {
 int run(const PlayShow& play) {
   // The overlay speaks as the wizard does.
   Language language(QSettings("relucent", "relucent").value("look/language").toString());
-  const ShowSettings& settings = play.settings;
+  ShowSettings settings = play.settings;
+  settings.projectors = showProjectorsOf(settings.calibration);
+  if (settings.projectors.empty() && (settings.switchesPower || settings.closesShutter))
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("show.no-projector-on-network",
+                                 "this calibration does not know where its projectors are on the network"),
+        RELUCENT_ENGLISH_MESSAGE("show.tell-projectors",
+                                 "tell it: relucent-cli projectors --calibration {} --pjlink HOST")
+            .with(settings.calibration.string()));
   Show show(settings, [settings](const std::function<void(const QString&)>& warn) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(

@@ -32,12 +32,15 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       clock_(std::move(clock)),
       slept_(clock_.slept()),
       log_(settings_.folder),
-      awake_(tr("A show is playing.")) {
+      awake_(tr("A show is playing.")),
+      wishes_(settings_.powerOffAfter) {
   for (const QString& problem : awake_.problems()) log_.warn(problem);
   health_.setInterval(healthInterval);
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
   again_.setSingleShot(true);
   connect(&again_, &QTimer::timeout, this, [this] {
+    // Displays of projectors that are to be off are not missed.
+    if (!player_ && !wishes().on) return again_.start(longestPause);
     try {
       open();
       start();
@@ -45,7 +48,17 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       tryAgain(error.sentence());
     }
   });
-  open();
+  projectors_ = watchOf(settings_, wishes());
+  if (projectors_) {
+    connect(projectors_.get(), &ProjectorWatch::told, this, [this](const Message& sentence) {
+      log_.tell(QString::fromStdString(englishSentence(sentence)));
+    });
+    connect(projectors_.get(), &ProjectorWatch::warned, this, [this](const Message& sentence) {
+      log_.warn(QString::fromStdString(englishSentence(sentence)));
+    });
+    connect(projectors_.get(), &ProjectorWatch::changed, this, [this] { writeHealth(state_); });
+  }
+  openOrWait();
   listen();
 }
 
@@ -84,7 +97,10 @@ void Show::open() {
   for (const auto& window : windows_) windows.push_back(window.get());
   player_ = std::make_unique<Player>(std::move(renderer), content_, std::move(windows));
   connect(player_.get(), &Player::failed, this, &Show::tryAgain, Qt::QueuedConnection);
-  connect(player_.get(), &Player::shown, this, &Show::tellControl);
+  connect(player_.get(), &Player::shown, this, [this] {
+    tellControl();
+    tellProjectors();
+  });
   // Whoever made it black wants it black after a failure, too.
   setBlack(before.black);
   setCompensated(before.compensated);
@@ -92,14 +108,32 @@ void Show::open() {
   setChart(before.chart);
 }
 
+void Show::openOrWait() {
+  try {
+    open();
+  } catch (const Error& error) {
+    if (!projectors_ || !settings_.switchesPower) throw;
+    tryAgain(error.sentence());
+  }
+}
+
+pjlink::Wanted Show::wishes() {
+  return wishes_.at(clock_.wall(), isTime(), player_ && player_->isBlack());
+}
+
+void Show::tellProjectors() {
+  if (projectors_) projectors_->want(wishes());
+}
+
 void Show::wakeDisplays() {
   if (awake_.wakeDisplays()) log_.warn("the displays were asleep and have been woken");
 }
 
 void Show::start() {
+  health_.start();
+  if (!player_) return;  // it begins once it can be opened
   wakeDisplays();
   for (const auto& window : windows_) window->shine();
-  health_.start();
   isTime() ? play() : rest();
   QTimer::singleShot(forgivenAfter, player_.get(), [this] { failures_ = 0; });
 }
@@ -131,6 +165,7 @@ void Show::look() {
   slept_ = slept;
   wakeDisplays();
   listen();
+  tellProjectors();
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
   writeHealth(state_);
@@ -156,6 +191,28 @@ void Show::stop() {
 }
 
 void Show::listen() {
+  listenToControls();
+  showStatus();
+}
+
+void Show::showStatus() {
+  if (!settings_.status || page_) return;
+  try {
+    page_ = std::make_unique<StatusServer>(*settings_.status, [this] { return health(); });
+  } catch (const Error& error) {
+    const QString why = error.what();
+    if (why != whyNoPage_) log_.warn(why);
+    whyNoPage_ = why;
+    return;
+  }
+  log_.tell("status page at http://" + textOf(page_->place()) + "/");
+}
+
+std::optional<NetworkPlace> Show::status() const {
+  return page_ ? std::optional(page_->place()) : std::nullopt;
+}
+
+void Show::listenToControls() {
   if (!settings_.osc || server_) return;
   try {
     server_ = std::make_unique<OscServer>(*settings_.osc);
@@ -170,11 +227,10 @@ void Show::listen() {
   const auto warn = [this](const QString& sentence) { log_.warn(sentence); };
   connect(server_.get(), &OscServer::warned, this, warn);
   connect(control_.get(), &RemoteControl::warned, this, warn);
-  log_.tell(
-      QString("listening to OSC at %1:%2").arg(server_->place().host.toString()).arg(server_->place().port));
+  log_.tell("listening to OSC at " + textOf(server_->place()));
 }
 
-std::optional<OscPlace> Show::osc() const {
+std::optional<NetworkPlace> Show::osc() const {
   return server_ ? std::optional(server_->place()) : std::nullopt;
 }
 
@@ -197,31 +253,32 @@ RemoteState Show::state() const {
 
 void Show::setPaused(bool paused) {
   // Outside its hours it stands still anyhow.
-  if (player_->isPlaying()) player_->setFrozen(paused);
+  if (player_ && player_->isPlaying()) player_->setFrozen(paused);
 }
 
 void Show::setBlack(bool black) {
-  player_->setBlack(black);
+  if (player_) player_->setBlack(black);
+  tellProjectors();
 }
 
 void Show::setCompensated(bool compensated) {
-  player_->setCompensated(compensated);
+  if (player_) player_->setCompensated(compensated);
 }
 
 void Show::setBrightness(double brightness) {
-  player_->setBrightness(brightness);
+  if (player_) player_->setBrightness(brightness);
 }
 
 void Show::setChart(std::optional<TestChart> chart) {
-  player_->setChart(chart);
+  if (player_) player_->setChart(chart);
 }
 
 void Show::playItem(qsizetype index) {
-  content_->playItem(index);
+  if (content_) content_->playItem(index);
 }
 
 Message Show::moveViewer(const compensation::Position& position) {
-  if (!player_->canFollowViewers())
+  if (!player_ || !player_->canFollowViewers())
     return RELUCENT_ENGLISH_MESSAGE("show.camera-positions-unknown",
                                     "where the cameras stand is not known, or there is only one: give the "
                                     "position of every camera with --camera-position");
@@ -233,19 +290,28 @@ Message Show::moveViewer(const compensation::Position& position) {
 
 void Show::writeHealth(ShowState state) {
   state_ = state;
-  Playlist::Status content = content_->status();
+  const Playlist::Status content = content_ ? content_->status() : Playlist::Status{};
   const std::vector<Message>& skipped = content.skipped;
   for (; toldSkipped_ < std::ssize(skipped); ++toldSkipped_)
     log_.warn(QString::fromStdString("skipped: " +
                                      englishSentence(skipped[static_cast<std::size_t>(toldSkipped_)])));
+  try {
+    writeFileAtomically(QDir(settings_.folder).filePath("health.json").toStdString(),
+                        QJsonDocument(health()).toJson().toStdString());
+  } catch (const Error& error) {
+    log_.warn(error.what());  // a full disk is no reason for a dark wall
+  }
+}
 
+QJsonObject Show::health() const {
+  const Playlist::Status content = content_ ? content_->status() : Playlist::Status{};
   QJsonArray displays;
   for (const auto& window : windows_)
     displays.append(QJsonObject{{"connector", window->display().connector},
                                 {"shining", window->isShining()},
                                 {"drawn_by", window->surface().name()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
-  QJsonObject health{{"state", QString::fromStdString(std::string(relucent::nameOf(state)))},
+  QJsonObject health{{"state", QString::fromStdString(std::string(relucent::nameOf(state_)))},
                      {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},
                      {"renderer", renderer_},
                      {"frames", static_cast<qint64>(statistics.frames)},
@@ -257,16 +323,12 @@ void Show::writeHealth(ShowState state) {
                      {"steps", statistics.steps},
                      {"perfected", statistics.perfected},
                      {"item", static_cast<qint64>(content.playing)},
-                     {"skipped", static_cast<qint64>(skipped.size())},
+                     {"skipped", static_cast<qint64>(content.skipped.size())},
                      {"failures", failures_},
                      {"peak_memory_bytes", static_cast<qint64>(platform::peakMemoryBytes())},
                      {"displays", displays}};
-  try {
-    writeFileAtomically(QDir(settings_.folder).filePath("health.json").toStdString(),
-                        QJsonDocument(health).toJson().toStdString());
-  } catch (const Error& error) {
-    log_.warn(error.what());  // a full disk is no reason for a dark wall
-  }
+  if (projectors_) health["projectors"] = toJson(projectors_->states());
+  return health;
 }
 
 }  // namespace relucent::gui

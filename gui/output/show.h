@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QJsonObject>
 #include <QObject>
 #include <QTimer>
 #include <functional>
@@ -11,9 +12,11 @@
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
+#include "output/show_projectors.h"
 #include "output/show_settings.h"
 #include "relucent/base/message.h"
 #include "remote/remote_control.h"
+#include "remote/status_server.h"
 
 namespace relucent::gui {
 
@@ -47,7 +50,9 @@ class Show : public QObject, private RemoteActions {
   void stop();
   Player& player() { return *player_; }
   /// Where remote controls are listened to; none: nowhere, or the place is taken.
-  std::optional<OscPlace> osc() const;
+  std::optional<NetworkPlace> osc() const;
+  /// Where the status page is shown; likewise.
+  std::optional<NetworkPlace> status() const;
   /// Checks the clock and the displays, and writes the health file. Called automatically every ten seconds.
   void look();
 
@@ -59,9 +64,16 @@ class Show : public QObject, private RemoteActions {
   bool isTime() const;
   void tryAgain(const relucent::Message& sentence);
   void writeHealth(ShowState state);
-  /// Again with every look while the place is taken.
+  /// Again with every look while a place is taken.
   void listen();
+  void listenToControls();
+  void showStatus();
   void tellControl();
+  /// Projectors that are in standby have no display: without them nothing can be opened.
+  void openOrWait();
+  void tellProjectors();
+  pjlink::Wanted wishes();
+  QJsonObject health() const;
 
   RemoteState state() const override;
   void setPaused(bool paused) override;
@@ -88,7 +100,10 @@ class Show : public QObject, private RemoteActions {
   ShowState state_ = ShowState::starting;
   std::unique_ptr<OscServer> server_;
   std::unique_ptr<RemoteControl> control_;
-  QString whyNoOsc_;
+  std::unique_ptr<StatusServer> page_;
+  QString whyNoOsc_, whyNoPage_;
+  ProjectorWishes wishes_;
+  std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
 };
 
 }  // namespace relucent::gui

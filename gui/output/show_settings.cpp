@@ -7,6 +7,9 @@
 
 #include "content/content_address.h"
 #include "relucent/base/error.h"
+#include "relucent/pipeline/command_devices.h"
+#include "relucent/pipeline/screen_devices.h"
+#include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::gui {
 namespace {
@@ -25,6 +28,21 @@ QString describedDisplays() {
   for (const QScreen* screen : QGuiApplication::screens()) found.append(described(*screen));
   return found.join(", ");
 }
+
+/// Pixels that each projector is sent; empty: nothing is.
+struct Sizes {
+  std::vector<Size> operator()(const pipeline::ScreenRigSettings& rig) const {
+    std::vector<Size> sizes;
+    for (const auto& screen : pipeline::screensOf(rig)) sizes.push_back(screen.projector);
+    return sizes;
+  }
+  std::vector<Size> operator()(const pipeline::CommandRigSettings& rig) const {
+    std::vector<Size> sizes;
+    for (const auto& projector : pipeline::projectorsOf(rig)) sizes.push_back(projector.size);
+    return sizes;
+  }
+  std::vector<Size> operator()(const auto&) const { return {}; }  // simulated: nothing is sent
+};
 
 }  // namespace
 
@@ -74,6 +92,19 @@ std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, co
     screens.erase(found);
   }
   return displays;
+}
+
+std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibration) {
+  using calibration::CalibrationFolder;
+  const pipeline::CalibrateSettings settings =
+      pipeline::settingsOf(CalibrationFolder::open(calibration, CalibrationFolder::Access::read));
+  const std::vector<std::string> labels = pipeline::projectorLabels(settings.rig);
+  const std::vector<Size> sizes = std::visit(Sizes(), settings.rig);
+  std::vector<ShowProjector> projectors;
+  for (const auto& [number, address] : settings.network.addresses)
+    projectors.push_back({number < labels.size() ? labels[number] : std::to_string(number + 1), address,
+                          number < sizes.size() ? std::optional(sizes[number]) : std::nullopt});
+  return projectors;
 }
 
 PlaylistSettings contentOf(const QString& path) {

@@ -3,7 +3,9 @@
 
 #include <QString>
 #include <QStringList>
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "content/playlist.h"
@@ -12,9 +14,17 @@
 #include "relucent/compensation/brightness.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/engine/fallback_backend.h"
-#include "remote/osc_server.h"
+#include "relucent/pjlink/address.h"
+#include "remote/network_place.h"
 
 namespace relucent::gui {
+
+/// A projector of a show that is on the network.
+struct ShowProjector {
+  std::string label;
+  pjlink::Address address;
+  std::optional<Size> sent{};  // pixels of the picture that it is sent
+};
 
 /// Settings of an unattended show.
 struct ShowSettings {
@@ -28,10 +38,20 @@ struct ShowSettings {
   engine::BackendChoice backend = engine::BackendChoice::automatic;
   std::optional<DailyHours> hours;              // daily hours of play; none: always
   std::vector<compensation::Position> cameras;  // where they stand; empty: as the calibration has it
-  std::optional<OscPlace> osc;                  // where remote controls are listened to; none: nowhere
-  std::optional<OscPlace> oscFeedback;          // who is told of every change
+  std::optional<NetworkPlace> osc;              // where remote controls are listened to; none: nowhere
+  std::optional<NetworkPlace> oscFeedback;      // who is told of every change
   QString folder;                               // folder of the log and the health file
+  std::optional<NetworkPlace> status{};         // where the status page is shown; none: nowhere
+  std::vector<ShowProjector> projectors{};      // that are on the network
+  bool switchesPower = false;                   // of these: on for the hours of play, off outside them
+  bool closesShutter = false;                   // while black is wanted
+  std::optional<std::chrono::minutes>
+      powerOffAfter{};  // of black, hours or not; none: at the end of the hours
 };
+
+/// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),
+/// Error{format}.
+std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibration);
 
 /// The displays of the projectors. A named one may be absent: the show waits for it. If none is named, for
 /// each projector a display of exactly its size that is not the operator's, in the order of their positions.

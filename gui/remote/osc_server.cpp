@@ -11,39 +11,22 @@ namespace {
 
 constexpr std::chrono::minutes betweenSentences{1};
 
-QString nameOf(const OscPlace& place) {
-  const bool isLong = place.host.protocol() == QAbstractSocket::IPv6Protocol;
-  return QString(isLong ? "[%1]:%2" : "%1:%2").arg(place.host.toString()).arg(place.port);
-}
-
 }  // namespace
 
-std::optional<OscPlace> oscPlaceFrom(const QString& text) {
-  const qsizetype colon = text.lastIndexOf(':');
-  if (colon < 0) return std::nullopt;
-  QString host = text.left(colon);
-  if (host.startsWith('[') && host.endsWith(']')) host = host.mid(1, host.size() - 2);
-  bool isNumber = false;
-  const quint16 port = text.mid(colon + 1).toUShort(&isNumber);
-  OscPlace place{QHostAddress(host), port};
-  if (place.host.isNull() || !isNumber || port == 0) return std::nullopt;
-  return place;
-}
-
-OscServer::OscServer(const OscPlace& place, Now now, QObject* parent)
+OscServer::OscServer(const NetworkPlace& place, Now now, QObject* parent)
     : QObject(parent), now_(std::move(now)) {
   // Two shows on one port would each get some of the messages.
   if (!socket_.bind(place.host, place.port, QAbstractSocket::DontShareAddress))
     throw Error(ErrorKind::device,
                 RELUCENT_ENGLISH_MESSAGE("show.osc-port-taken", "OSC messages cannot be received at {} ({})")
-                    .with(nameOf(place).toStdString(), socket_.errorString().toStdString()),
+                    .with(textOf(place).toStdString(), socket_.errorString().toStdString()),
                 RELUCENT_ENGLISH_MESSAGE(
                     "show.osc-choose-port",
                     "choose another port with --osc, or an address of this computer with --osc-address"));
   connect(&socket_, &QUdpSocket::readyRead, this, &OscServer::read);
 }
 
-void OscServer::send(const OscMessage& message, const OscPlace& to) {
+void OscServer::send(const OscMessage& message, const NetworkPlace& to) {
   socket_.writeDatagram(oscDatagram(message), to.host, to.port);
 }
 
@@ -67,16 +50,16 @@ void OscServer::read() {
   for (int datagrams = 0; socket_.hasPendingDatagrams() && datagrams < mostPerSecond; ++datagrams) {
     const QNetworkDatagram datagram = socket_.receiveDatagram();
     const Time now = now_();
-    const OscPlace from{datagram.senderAddress(), static_cast<quint16>(datagram.senderPort())};
+    const NetworkPlace from{datagram.senderAddress(), static_cast<quint16>(datagram.senderPort())};
     const auto messages = oscMessages(datagram.data());
     const int count = messages ? static_cast<int>(messages->size()) : 1;
     if (isFlooded(now, count)) {
       warn(toldFlood_, now,
            QString("more than %1 OSC messages a second, the last from %2: those beyond are ignored")
                .arg(mostPerSecond)
-               .arg(nameOf(from)));
+               .arg(textOf(from)));
     } else if (!messages) {
-      warn(toldGarbage_, now, QString("what %1 sends is no OSC message, and is ignored").arg(nameOf(from)));
+      warn(toldGarbage_, now, QString("what %1 sends is no OSC message, and is ignored").arg(textOf(from)));
     } else {
       for (const OscMessage& message : *messages) Q_EMIT received(message, from);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QHostAddress>
 #include <QObject>
 #include <QString>
 #include <QUdpSocket>
@@ -9,19 +8,10 @@
 #include <functional>
 #include <optional>
 
+#include "remote/network_place.h"
 #include "remote/osc_message.h"
 
 namespace relucent::gui {
-
-/// Where a message came from, or goes to.
-struct OscPlace {
-  QHostAddress host;
-  quint16 port = 0;
-
-  bool operator==(const OscPlace&) const = default;
-};
-/// Of "host:port", the host as a number: "127.0.0.1:9000", "[::1]:9000"; none if it is none.
-std::optional<OscPlace> oscPlaceFrom(const QString& text);
 
 /// Receives OSC messages by UDP on the present thread. What is no OSC, and more than `mostPerSecond` messages
 /// in a second, is ignored; either is told by one sentence, and again after a minute at the earliest.
@@ -34,16 +24,16 @@ class OscServer : public QObject {
   static constexpr int mostPerSecond = 1000;
 
   /// Binds to `place`; port 0: any free one.  Throws: Error{device} if it cannot.
-  explicit OscServer(const OscPlace& place, Now now = std::chrono::steady_clock::now,
+  explicit OscServer(const NetworkPlace& place, Now now = std::chrono::steady_clock::now,
                      QObject* parent = nullptr);
 
-  OscPlace place() const { return {socket_.localAddress(), socket_.localPort()}; }
+  NetworkPlace place() const { return {socket_.localAddress(), socket_.localPort()}; }
   Time now() const { return now_(); }
   /// What cannot be sent is lost, as with UDP.
-  void send(const OscMessage& message, const OscPlace& to);
+  void send(const OscMessage& message, const NetworkPlace& to);
 
  Q_SIGNALS:
-  void received(const relucent::gui::OscMessage& message, const relucent::gui::OscPlace& from);
+  void received(const relucent::gui::OscMessage& message, const relucent::gui::NetworkPlace& from);
   /// A sentence for the log.
   void warned(const QString& sentence);
 

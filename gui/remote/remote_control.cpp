@@ -126,7 +126,7 @@ std::span<const RemoteCommand> remoteCommands() {
   return commands;
 }
 
-RemoteControl::RemoteControl(OscServer& server, RemoteActions& actions, std::optional<OscPlace> feedback,
+RemoteControl::RemoteControl(OscServer& server, RemoteActions& actions, std::optional<NetworkPlace> feedback,
                              QObject* parent)
     : QObject(parent),
       server_(server),
@@ -159,7 +159,7 @@ bool RemoteControl::isNew(const QString& kind) {
   return told_.size() < mostSentences && told_.insert(kind).second;
 }
 
-void RemoteControl::refuse(const OscMessage& message, const OscPlace& from, const QString& kind,
+void RemoteControl::refuse(const OscMessage& message, const NetworkPlace& from, const QString& kind,
                            const QString& sentence) {
   const QString address = message.address.left(100);
   const bool told = isNew(address + ' ' + kind);
@@ -167,7 +167,7 @@ void RemoteControl::refuse(const OscMessage& message, const OscPlace& from, cons
   if (told || message.address != "/viewer") server_.send({"/error", {address, sentence}}, from);
 }
 
-void RemoteControl::obey(const OscMessage& message, const OscPlace& from) {
+void RemoteControl::obey(const OscMessage& message, const NetworkPlace& from) {
   const RemoteCommand* command = commandAt(message.address);
   if (command == nullptr) return refuse(message, from, "address", "there is no such address");
   const std::size_t given = message.arguments.size();

@@ -38,7 +38,7 @@ class RemoteControl : public QObject {
   static constexpr std::size_t mostSentences = 10;
 
   /// `server` and `actions` must outlive it.
-  RemoteControl(OscServer& server, RemoteActions& actions, std::optional<OscPlace> feedback,
+  RemoteControl(OscServer& server, RemoteActions& actions, std::optional<NetworkPlace> feedback,
                 QObject* parent = nullptr);
 
   /// Sends what has changed since the last time to the feedback address. Whoever changes the state by other
@@ -51,14 +51,15 @@ class RemoteControl : public QObject {
   void warned(const QString& sentence);
 
  private:
-  void obey(const OscMessage& message, const OscPlace& from);
+  void obey(const OscMessage& message, const NetworkPlace& from);
   /// `kind`: what else differs in the sentences of one kind is not told again.
-  void refuse(const OscMessage& message, const OscPlace& from, const QString& kind, const QString& sentence);
+  void refuse(const OscMessage& message, const NetworkPlace& from, const QString& kind,
+              const QString& sentence);
   bool isNew(const QString& kind);
 
   OscServer& server_;
   RemoteActions& actions_;
-  std::optional<OscPlace> feedback_;
+  std::optional<NetworkPlace> feedback_;
   std::vector<std::vector<OscArgument>> reported_;  // of each command
   std::set<QString> told_;                          // kinds of sentences in the minute that began at
   OscServer::Time minute_;

@@ -59,8 +59,8 @@ class TestShowArguments : public QObject {
                                               "--camera-position",
                                               "1,2.5,0.5"})
                                 .settings;
-    QVERIFY((settings.osc == OscPlace{QHostAddress("0.0.0.0"), 7700}));
-    QVERIFY((settings.oscFeedback == OscPlace{QHostAddress("192.168.1.20"), 9000}));
+    QVERIFY((settings.osc == NetworkPlace{QHostAddress("0.0.0.0"), 7700}));
+    QVERIFY((settings.oscFeedback == NetworkPlace{QHostAddress("192.168.1.20"), 9000}));
     QVERIFY((settings.cameras == std::vector<compensation::Position>{{-1, 2.5, 0}, {1, 2.5, 0.5}}));
     QCOMPARE(settings.calibration, std::filesystem::path("venue"));
     QCOMPARE(settings.content.items.size(), qsizetype{1});
@@ -119,7 +119,7 @@ class TestShowArguments : public QObject {
     QVERIFY(again.osc == first.osc && again.oscFeedback == first.oscFeedback &&
             again.cameras == first.cameras);
     // Nobody else hears it unless told so.
-    QVERIFY((again.osc == OscPlace{QHostAddress(QHostAddress::LocalHost), 7700}) && again.oscFeedback);
+    QVERIFY((again.osc == NetworkPlace{QHostAddress(QHostAddress::LocalHost), 7700}) && again.oscFeedback);
   }
 
   void itsWhiteIsTheSame() {

@@ -201,7 +201,7 @@ class TestShow : public QObject {
   /// By datagrams of another program, as a desk sends them.
   void isControlledByOsc() {
     ShowSettings wanted = settings({picture("a.png", 3), picture("b.png", 4)});
-    wanted.osc = OscPlace{QHostAddress::LocalHost, 0};
+    wanted.osc = NetworkPlace{QHostAddress::LocalHost, 0};
     auto show = showOf(wanted);
     QVERIFY(log().contains("listening to OSC at 127.0.0.1:"));
     show->start();
@@ -241,7 +241,7 @@ class TestShow : public QObject {
   /// What a desk has switched off stays off when the show has to begin again.
   void aFailureDoesNotUndoWhatADeskSaid() {
     ShowSettings wanted = settings({picture("a.png", 3)});
-    wanted.osc = OscPlace{QHostAddress::LocalHost, 0};
+    wanted.osc = NetworkPlace{QHostAddress::LocalHost, 0};
     broken_ = true;
     auto show = showOf(wanted);
     show->player().setBlack(true);
@@ -257,7 +257,7 @@ class TestShow : public QObject {
     QUdpSocket other;
     QVERIFY(other.bind(QHostAddress::LocalHost, 0, QAbstractSocket::DontShareAddress));
     ShowSettings wanted = settings({picture("a.png", 3)});
-    wanted.osc = OscPlace{QHostAddress::LocalHost, other.localPort()};
+    wanted.osc = NetworkPlace{QHostAddress::LocalHost, other.localPort()};
     auto show = showOf(wanted);
     show->start();
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));

@@ -37,16 +37,16 @@ class TestOscServer : public QObject {
     now_ = {};
     received_.clear();
     warned_.clear();
-    server_ = std::make_unique<OscServer>(OscPlace{QHostAddress::LocalHost, 0}, [this] { return now_; });
+    server_ = std::make_unique<OscServer>(NetworkPlace{QHostAddress::LocalHost, 0}, [this] { return now_; });
     connect(server_.get(), &OscServer::received, this,
-            [this](const OscMessage& message, const OscPlace&) { received_.push_back(message); });
+            [this](const OscMessage& message, const NetworkPlace&) { received_.push_back(message); });
     connect(server_.get(), &OscServer::warned, this, [this](const QString& text) { warned_ << text; });
   }
 
   void receivesAndAnswers() {
     QVERIFY(server_->place().host == QHostAddress(QHostAddress::LocalHost) && server_->place().port != 0);
     connect(server_.get(), &OscServer::received, server_.get(),
-            [this](const OscMessage& message, const OscPlace& from) { server_->send(message, from); });
+            [this](const OscMessage& message, const NetworkPlace& from) { server_->send(message, from); });
     const OscMessage message{"/viewer", {0.5, -1.25, 2.0}};
     send(oscDatagram(message));
     QTRY_COMPARE(received_.size(), std::size_t{1});
@@ -91,7 +91,7 @@ class TestOscServer : public QObject {
   }
 
   void aTakenPortIsASentence() {
-    const OscPlace place = server_->place();
+    const NetworkPlace place = server_->place();
     try {
       OscServer second(place);
       QFAIL("two servers at one port");
@@ -117,7 +117,7 @@ class TestOscServer : public QObject {
     QFETCH(QString, text);
     QFETCH(QString, host);
     QFETCH(int, port);
-    const std::optional<OscPlace> place = oscPlaceFrom(text);
+    const std::optional<NetworkPlace> place = networkPlaceFrom(text);
     QCOMPARE(place.has_value(), port != 0);
     if (place) QVERIFY(place->host == QHostAddress(host) && place->port == port);
   }

@@ -69,7 +69,7 @@ class TestRemoteControl : public QObject {
 
  private slots:
   void init() {
-    server_ = std::make_unique<OscServer>(OscPlace{QHostAddress::LocalHost, 0});
+    server_ = std::make_unique<OscServer>(NetworkPlace{QHostAddress::LocalHost, 0});
     QVERIFY(desk_.bind(QHostAddress::LocalHost, 0));
   }
   void cleanup() { desk_.close(); }
@@ -194,7 +194,7 @@ class TestRemoteControl : public QObject {
   /// Whoever invents addresses, or tells a position that is wrong in another way every time, fills no log.
   void floodsOfNonsenseFillNoLog() {
     std::chrono::steady_clock::time_point now{};
-    server_ = std::make_unique<OscServer>(OscPlace{QHostAddress::LocalHost, 0}, [&now] { return now; });
+    server_ = std::make_unique<OscServer>(NetworkPlace{QHostAddress::LocalHost, 0}, [&now] { return now; });
     NotedActions actions;
     RemoteControl control(*server_, actions, std::nullopt);
     QSignalSpy warned(&control, &RemoteControl::warned);
@@ -223,7 +223,7 @@ class TestRemoteControl : public QObject {
   /// Everything at first, and then what changes, by whomever.
   void theFeedbackAddressIsToldOfChanges() {
     NotedActions actions;
-    RemoteControl control(*server_, actions, OscPlace{QHostAddress::LocalHost, desk_.localPort()});
+    RemoteControl control(*server_, actions, NetworkPlace{QHostAddress::LocalHost, desk_.localPort()});
     std::vector<OscMessage> told;
     const auto toldAll = [&](std::size_t count) {
       return QTest::qWaitFor([&] {

@@ -105,8 +105,8 @@ void Session::adopt(const calibration::CalibrationFolder& folder) {
 void Session::makeDevices() {
   devices_ = std::make_shared<SessionDevices>(
       settings_.rig, cache_, live_,
-      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_,
-      surprises_);
+      [this](const pipeline::ScreenRigSettings& screen) { return openScreen(screen); }, patience_, surprises_,
+      pipeline::ProjectorWarmUp(settings_.network, settings_.rig));
   const auto& checked = figures<calibration::Stage::camera>();
   if (checked && progress(calibration::Stage::camera) == calibration::StageProgress::done &&
       checked->latencySeconds)

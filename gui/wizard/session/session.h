@@ -23,6 +23,7 @@
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/warm_up.h"
 #include "relucent/venue/surprises.h"
 #include "wizard/session/device_lease.h"
 #include "wizard/session/step_name.h"
@@ -40,17 +41,20 @@ class SessionDevices {
  public:
   SessionDevices(pipeline::RigSettings settings, std::filesystem::path cache, std::shared_ptr<LiveRig> live,
                  pipeline::ScreenOpener screens, CheckPatience patience,
-                 std::shared_ptr<venue::Surprises> surprises)
+                 std::shared_ptr<venue::Surprises> surprises, pipeline::ProjectorWarmUp warmUp)
       : settings_(std::move(settings)),
         cache_(std::move(cache)),
         live_(std::move(live)),
         screens_(std::move(screens)),
         patience_(patience),
-        surprises_(std::move(surprises)) {}
+        surprises_(std::move(surprises)),
+        warmUp_(std::move(warmUp)) {}
 
-  /// Called on a worker's thread. A camera must be seen to see a projector's screen before it is used, and
-  /// each projector to be seen by one; where a camera sees none, other screens light up too, to tell which
-  /// one it sees: see other_screens.h. Throws: as openRig() and requireSeen(); ScreenNotSeen.
+  /// Called on a worker's thread. Projectors on the network are switched on, and their light is waited for
+  /// until it is steady, once while they are open. A camera must be seen to see a projector's screen before
+  /// it is used, and each projector to be seen by one; where a camera sees none, other screens light up too,
+  /// to tell which one it sees: see other_screens.h. Throws: as openRig(), ProjectorWarmUp and requireSeen();
+  /// ScreenNotSeen.
   rig::Rig& open(Progress& progress);
   /// The same before anybody knows what the camera sees: for a first look through it.
   rig::Rig& openUnproved(Progress& progress);
@@ -85,6 +89,8 @@ class SessionDevices {
   pipeline::ScreenOpener screens_;
   CheckPatience patience_;
   std::shared_ptr<venue::Surprises> surprises_;  // of simulated devices; nullptr: none
+  pipeline::ProjectorWarmUp warmUp_;
+  bool isWarm_ = false;
   std::mutex guard_;
   std::optional<pipeline::OpenedRig> opened_;
   devices::ScreenProof proof_;

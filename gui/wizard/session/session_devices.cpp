@@ -34,6 +34,7 @@ rig::Rig& SessionDevices::opened(Progress& progress) {
   if (!opened_) {
     Progress opening = progress.part(hasScreen() ? 0.3 : 1.0,
                                      RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
+    warmUp_.switchOn(opening);
     pipeline::OpenedRig opened = pipeline::openRig(settings_, cache_, screens_, opening);
     if (opened.venue && surprises_)
       opened.rig = opened.venue->rig(
@@ -58,6 +59,8 @@ rig::Rig& SessionDevices::open(Progress& progress) {
   rig::Rig& rig = opened(progress);
   // A camera that was turned away is looked through again.
   if (hasScreen() && !proof_.isSeen) prove(progress);
+  if (!isWarm_) warmUp_.awaitSteadyLight(rig, progress);
+  isWarm_ = true;
   return rig;
 }
 

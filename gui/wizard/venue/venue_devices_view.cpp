@@ -9,6 +9,7 @@
 #include "wizard/devices/flash_consent.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/venue/device_list_view.h"
+#include "wizard/venue/network_list_view.h"
 #include "wizard/venue/screen_list.h"
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_parts.h"
@@ -82,6 +83,7 @@ QWidget* devicesInspector(VenuePage& model) {
   column->addWidget(labelOf(VenuePage::tr("Real devices"), "section"));
   column->addWidget(projectorList(model));
   column->addWidget(cameraList(model));
+  column->addWidget(networkList(model));
   column->addWidget(lineOf());
   column->addWidget(keepingPart(model));
   column->addStretch(1);

@@ -45,6 +45,10 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   connect(&finder_, &CameraFinder::failed, this, [this](const Failure& failure) {
     Q_EMIT failed({failure, tr("Nothing was changed.")});
   });
+  connect(&network_, &VenueNetwork::changed, this, &VenuePage::tellSettings);
+  connect(&network_, &VenueNetwork::failed, this, [this](const Failure& failure) {
+    Q_EMIT failed({failure, tr("Nothing was changed.")});
+  });
   connect(&session_, &Session::acquisitionChanged, this, [this] { keepThumbnail(session_); });
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));
@@ -259,6 +263,7 @@ void VenuePage::beginNow() {
     bool clear = roomClear_;  // begun, the page starts over
     session_.begin(target().toStdString(), wanted(), surprisesWanted());
     session_.setRoomClear(clear);
+    network_.clear();
     named_ = false;
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was measured yet.")});

@@ -12,6 +12,7 @@
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 #include "wizard/venue/recent_venues.h"
+#include "wizard/venue/venue_network.h"
 #include "wizard/venue/venue_screen.h"
 
 class QDir;
@@ -111,6 +112,9 @@ class VenuePage : public PageModel {
   void removeProjector(std::size_t projector);
   void nameProjector(std::size_t projector, const QString& name);
 
+  /// Where these projectors are on the network.
+  VenueNetwork& network() { return network_; }
+
   /// Chosen here, or at the step Camera where none is; content is placed in the first one's view.
   std::vector<pipeline::ScreenRigSettings::Camera> cameras() const { return pipeline::camerasOf(screen_); }
   CameraFinder& finder() { return finder_; }
@@ -191,6 +195,7 @@ class VenuePage : public PageModel {
   pipeline::ScreenRigSettings screen_;
   std::size_t projector_ = 0;
   CameraFinder finder_;
+  VenueNetwork network_;
   QString screenWarning_;
   QString venueName_, parent_;
   QString usualFolder_;

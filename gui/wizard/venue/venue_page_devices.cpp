@@ -69,6 +69,7 @@ void VenuePage::removeProjector(std::size_t projector) {
   std::vector<Screen> screens = projectors();
   if (projector >= screens.size()) return;
   screens.erase(screens.begin() + static_cast<std::ptrdiff_t>(projector));
+  network_.remove(projector);
   screen_ = pipeline::withScreens(std::move(screen_), screens);
   if (projector_ >= screens.size()) projector_ = screens.empty() ? 0 : screens.size() - 1;
   tellSettings();

@@ -47,6 +47,7 @@ pipeline::CalibrateSettings VenuePage::wanted() const {
       settings.rig = script_;
     else
       settings.rig = screen_;
+    if (mode_ == Mode::devices) settings.network = network_.wanted(projectors().size());
     return settings;
   }
   venue::VenueSettings venue;
@@ -124,6 +125,8 @@ VenuePage::Problem VenuePage::firstProblem() const {
                 ? tr("Only your own screen is there. Plug the projector in, and extend the desktop to it.")
                 : tr("Choose the screen that shines on the surface."),
             Remedy::screen};
+  if (const QString wrong = network_.problem(projectors().size()); mode_ == Mode::devices && !wrong.isEmpty())
+    return {wrong};
   if (std::vector<Message> found = problems(wanted()); !found.empty()) return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)

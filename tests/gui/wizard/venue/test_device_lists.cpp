@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A new venue of several projectors and cameras, on a desktop of four screens.
+#include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QToolButton>
 #include <QtTest>
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "wizard/venue/device_list_view.h"
+#include "wizard/venue/network_list_view.h"
 #include "wizard/venue/screen_list.h"
 #include "wizard/venue/venue_page.h"
 #include "wizard/venue/venue_view.h"
@@ -102,6 +106,66 @@ class TestDeviceLists : public QObject {
     page_->chooseScreen(choiceOf(*page_, "DP-1"));
     QCOMPARE(connectorsOf(*page_), QString("DP-1 HDMI-1"));
     QCOMPARE(page_->projectors()[0].name, std::string("Left"));
+  }
+
+  /// Law: an address stays with its projector.
+  void projectorsOnTheNetworkGoIntoTheCalibration() {
+    page_->chooseScreen(choiceOf(*page_, "HDMI-2"));
+    page_->addProjector();
+    page_->addProjector();
+    page_->network().setAddress(0, "10.0.0.1");
+    page_->network().setAddress(2, " left.venue:4400 ");
+    page_->network().setPassword(2, "secret");
+    page_->setRoomClear(true);
+    QCOMPARE(page_->problem(), QString());
+    page_->removeProjector(1);
+    QCOMPARE(page_->network().address(1), QString("left.venue:4400"));
+    page_->network().setAddress(0, "10.0.0");
+    page_->network().setAddress(0, "not an address");
+    QVERIFY2(page_->problem().contains("not an address"), qPrintable(page_->problem()));
+    page_->network().setAddress(0, "");
+    QCOMPARE(page_->problem(), QString());
+    page_->primary()->trigger();
+    QVERIFY(own_->session.isOpen());
+    NetworkProjectors wanted;
+    wanted.addresses[1] = {"left.venue", 4400, "secret"};
+    QVERIFY(own_->session.settings().network == wanted);
+    QCOMPARE(page_->network().address(1), QString());
+  }
+
+  void twoProjectorsAtOneAddressAreASentence() {
+    page_->chooseScreen(choiceOf(*page_, "HDMI-2"));
+    page_->addProjector();
+    page_->setRoomClear(true);
+    page_->network().setAddress(0, "10.0.0.1");
+    page_->network().setAddress(1, "10.0.0.1");
+    QVERIFY2(page_->problem().contains("same address"), qPrintable(page_->problem()));
+  }
+
+  void projectorsAreFoundAndChosen() {
+    page_->chooseScreen(choiceOf(*page_, "HDMI-2"));
+    page_->addProjector();
+    page_->network().setSearcher([] {
+      return std::vector<pjlink::Found>{{{"10.0.0.7"}, "01:23:45:67:89:ab"},
+                                        {{"10.0.0.8"}, "01:23:45:67:89:ac"}};
+    });
+    const std::unique_ptr<QWidget> list(networkList(*page_));
+    list->show();
+    auto* address = list->findChild<QComboBox*>("projector-address-2");
+    auto* password = list->findChild<QLineEdit*>("projector-password-2");
+    QVERIFY(address != nullptr && password != nullptr);
+    QVERIFY(!password->isVisible() && password->echoMode() == QLineEdit::Password);
+    QVERIFY(address->accessibleName().contains("2"));
+    address->setEditText("10.0.0.1");
+    QTRY_VERIFY(password->isVisible());
+    list->findChild<QPushButton*>("find-projectors")->click();
+    QTRY_COMPARE(address->count(), 2);
+    QCOMPARE(address->currentText(), QString("10.0.0.1"));  // what was typed stays
+    QTRY_VERIFY(list->findChild<QLabel*>("projectors-found")->text().contains("2"));
+    address->setCurrentIndex(1);
+    QCOMPARE(page_->network().address(1), QString("10.0.0.8"));
+    QTest::keyClicks(password, "secret");
+    QCOMPARE(page_->network().password(1), QString("secret"));
   }
 
   void camerasAreAddedNamedAndRemoved() {

@@ -6,9 +6,11 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QStandardPaths>
 #include <algorithm>
 #include <utility>
 
+#include "output/output_playlist.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
@@ -23,9 +25,15 @@ constexpr int shortestPause = 1'000;        // before it is tried again, doubled
 constexpr int longestPause = 60'000;        // ... up to here
 constexpr int forgivenAfter = 10 * 60'000;  // of playing without one
 
+/// Where core's command line keeps them, too.
+std::filesystem::path simulatedVenues() {
+  return (QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/relucent").toStdString();
+}
+
 }  // namespace
 
-Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject* parent)
+Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject* parent,
+           std::unique_ptr<ShowPhotography> photography)
     : QObject(parent),
       settings_(std::move(settings)),
       make_(std::move(make)),
@@ -33,7 +41,14 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       slept_(clock_.slept()),
       log_(settings_.folder),
       awake_(tr("A show is playing.")),
-      wishes_(settings_.powerOffAfter) {
+      wishes_(settings_.powerOffAfter),
+      photographs_(photography ? std::move(photography)
+                               : photographyOf(settings_.calibration, simulatedVenues())) {
+  connect(&photographs_, &ShowPhotographs::progressed, this,
+          [this](const QString& work, double fraction, const QString& stage) {
+            if (control_) control_->announce('/' + work, "progress", {fraction, stage});
+          });
+  connect(&photographs_, &ShowPhotographs::ended, this, &Show::photographed);
   for (const QString& problem : awake_.problems()) log_.warn(problem);
   health_.setInterval(healthInterval);
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
@@ -160,12 +175,14 @@ void Show::look() {
     log_.tell(QString("the machine slept for %1 s")
                   .arg(std::chrono::duration<double>(slept - slept_).count(), 0, 'f', 0));
     // Displays and graphics memory may have gone meanwhile.
-    for (const auto& window : windows_) window->shine();
+    if (state_ != ShowState::photographing)
+      for (const auto& window : windows_) window->shine();
   }
   slept_ = slept;
   wakeDisplays();
   listen();
   tellProjectors();
+  if (state_ == ShowState::photographing) return writeHealth(state_);
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
   writeHealth(state_);
@@ -181,6 +198,7 @@ void Show::tryAgain(const Message& sentence) {
 }
 
 void Show::stop() {
+  photographs_.cancel();
   again_.stop();
   health_.stop();
   if (player_) player_->stop();
@@ -286,6 +304,48 @@ Message Show::moveViewer(const compensation::Position& position) {
     return RELUCENT_ENGLISH_MESSAGE("show.viewer-not-finite", "the viewer's position must be finite numbers");
   // He has what there is at the border; somebody should know.
   return compensation::farFromCameras(player_->cameras(), position);
+}
+
+Message Show::whyNoPhotographs() const {
+  if (state_ != ShowState::playing)
+    return RELUCENT_ENGLISH_MESSAGE("show.not-playing", "the show does not play now: try again when it does");
+  if (player_->isBlack())
+    return RELUCENT_ENGLISH_MESSAGE("show.is-black", "the picture is black now: end that, and try again");
+  return photographs_.whyNot();
+}
+
+void Show::makeWay() {
+  player_->stop();
+  for (const auto& window : windows_) window->stop();
+  writeHealth(ShowState::photographing);
+}
+
+Message Show::check() {
+  if (const Message why = whyNoPhotographs(); !why.empty()) return why;
+  log_.tell("checking the calibration by photographs");
+  makeWay();
+  photographs_.check();
+  return {};
+}
+
+Message Show::perfect() {
+  if (const Message why = whyNoPhotographs(); !why.empty()) return why;
+  const qsizetype item = content_->status().playing;
+  if (item < 0) return RELUCENT_ENGLISH_MESSAGE("remote.nothing-plays", "there is nothing to play");
+  const QString path = settings_.content.items[item].path;
+  if (!OutputPlaylist::isStill(settings_.content.items[item]))
+    return RELUCENT_ENGLISH_MESSAGE("show.no-still-plays", "what plays now is no still picture");
+  log_.tell("perfecting " + path + " by photographs");
+  makeWay();
+  photographs_.perfect(path.toStdString(), settings_.canvas);
+  return {};
+}
+
+void Show::photographed(const QString& work, const QString& verdict, const QString& sentence) {
+  log_.tell(QString("%1: %2").arg(verdict, sentence));
+  if (control_) control_->announce('/' + work, "done", {verdict, sentence});
+  state_ = ShowState::starting;
+  start();
 }
 
 void Show::writeHealth(ShowState state) {

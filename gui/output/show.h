@@ -12,6 +12,7 @@
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
+#include "output/show_photography.h"
 #include "output/show_projectors.h"
 #include "output/show_settings.h"
 #include "relucent/base/message.h"
@@ -21,12 +22,11 @@
 namespace relucent::gui {
 
 /// As health.json names it.
-enum class ShowState { starting, playing, resting, failed, stopped };
-inline constexpr EnumName<ShowState> showStateNames[]{{ShowState::starting, "starting"},
-                                                      {ShowState::playing, "playing"},
-                                                      {ShowState::resting, "resting"},
-                                                      {ShowState::failed, "failed"},
-                                                      {ShowState::stopped, "stopped"}};
+enum class ShowState { starting, playing, resting, photographing, failed, stopped };
+inline constexpr EnumName<ShowState> showStateNames[]{
+    {ShowState::starting, "starting"}, {ShowState::playing, "playing"},
+    {ShowState::resting, "resting"},   {ShowState::photographing, "photographing"},
+    {ShowState::failed, "failed"},     {ShowState::stopped, "stopped"}};
 constexpr EnumNames<ShowState> namesOf(ShowState) {
   return {"state of a show", showStateNames};
 }
@@ -42,7 +42,9 @@ class Show : public QObject, private RemoteActions {
   using MakeRenderer =
       std::function<std::unique_ptr<FrameRenderer>(const std::function<void(const QString&)>& warn)>;
   /// `make` is called again after a failure. Throws: as `make` and displaysFor(), the first time.
-  Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr);
+  /// `photography`: who photographs for it; nullptr: the devices of its calibration.
+  Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr,
+       std::unique_ptr<ShowPhotography> photography = nullptr);
   ~Show() override;
 
   void start();
@@ -83,6 +85,12 @@ class Show : public QObject, private RemoteActions {
   void setChart(std::optional<TestChart> chart) override;
   void playItem(qsizetype index) override;
   Message moveViewer(const compensation::Position& position) override;
+  Message check() override;
+  Message perfect() override;
+  Message whyNoPhotographs() const;
+  /// Leaves the projectors to whoever photographs.
+  void makeWay();
+  void photographed(const QString& work, const QString& verdict, const QString& sentence);
 
   ShowSettings settings_;
   MakeRenderer make_;
@@ -103,6 +111,7 @@ class Show : public QObject, private RemoteActions {
   std::unique_ptr<StatusServer> page_;
   QString whyNoOsc_, whyNoPage_;
   ProjectorWishes wishes_;
+  ShowPhotographs photographs_;
   std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
 };
 

@@ -33,6 +33,9 @@ class RemoteActions {
   /// Item `index`, from 0, which exists.
   virtual void playItem(qsizetype index) = 0;
   virtual Message moveViewer(const compensation::Position& position) = 0;
+  /// Begin what takes minutes; RemoteControl::announce() tells how it goes.
+  virtual Message check() = 0;
+  virtual Message perfect() = 0;
 };
 
 }  // namespace relucent::gui

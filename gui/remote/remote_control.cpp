@@ -85,6 +85,11 @@ Message moveViewer(RemoteActions& actions, const Arguments& arguments) {
   return actions.moveViewer(position);
 }
 
+template <Message (RemoteActions::*begin)()>
+Message photograph(RemoteActions& actions, const Arguments&) {
+  return (actions.*begin)();
+}
+
 constexpr auto one = [](bool value) { return Arguments{value ? 1.0 : 0.0}; };
 
 constexpr std::array commands{
@@ -112,6 +117,12 @@ constexpr std::array commands{
                   "Where the viewer stands, in the units of the cameras' positions; without a word for two "
                   "seconds he is no longer there.",
                   2, 3, moveViewer, nullptr},
+    RemoteCommand{"/check", "",
+                  "Photographs test patterns: is the calibration still valid? Takes a minute or more.", 0, 0,
+                  photograph<&RemoteActions::check>, nullptr, true},
+    RemoteCommand{"/perfect", "",
+                  "Corrects the still picture that plays by photographs of itself. Takes a minute or more.",
+                  0, 0, photograph<&RemoteActions::perfect>, nullptr, true},
 };
 
 const RemoteCommand* commandAt(const QString& address) {
@@ -150,6 +161,15 @@ void RemoteControl::report() {
   }
 }
 
+void RemoteControl::announce(const QString& address, const QString& what,
+                             const std::vector<OscArgument>& arguments) {
+  const OscMessage message{address + '/' + what, arguments};
+  const auto asker = askers_.find(address);
+  if (asker != askers_.end()) server_.send(message, asker->second);
+  if (feedback_ && (asker == askers_.end() || !(asker->second == *feedback_)))
+    server_.send(message, *feedback_);
+}
+
 bool RemoteControl::isNew(const QString& kind) {
   const OscServer::Time now = server_.now();
   if (now - minute_ >= std::chrono::minutes(1)) {
@@ -179,6 +199,10 @@ void RemoteControl::obey(const OscMessage& message, const NetworkPlace& from) {
     if (const Message why = command->run(actions_, message.arguments); !why.empty())
       return refuse(message, from, QString::fromStdString(why.id()),
                     QString::fromStdString(englishSentence(why)));
+  }
+  if (command->isLong) {
+    askers_[command->address] = from;
+    announce(command->address, "begun", {});
   }
   if (command->value != nullptr) server_.send({command->address, command->value(actions_.state())}, from);
   report();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QObject>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -23,6 +24,7 @@ struct RemoteCommand {
   Message (*run)(RemoteActions& actions, const std::vector<OscArgument>& arguments);
   /// The present value; nullptr: it has none.
   std::vector<OscArgument> (*value)(const RemoteState& state);
+  bool isLong = false;  // only begun by the message: what comes of it is announced
 };
 /// All of them: the one table, from which README and tests take theirs.
 std::span<const RemoteCommand> remoteCommands();
@@ -45,6 +47,10 @@ class RemoteControl : public QObject {
   /// means calls it.
   void report();
 
+  /// Tells how long work goes: ADDRESS/WHAT with arguments, to whoever began it last and to the feedback
+  /// address.
+  void announce(const QString& address, const QString& what, const std::vector<OscArgument>& arguments);
+
  Q_SIGNALS:
   /// A sentence for the log: why a message cannot be carried out; the same once a minute, and no more than
   /// `mostSentences` of all.
@@ -60,6 +66,7 @@ class RemoteControl : public QObject {
   OscServer& server_;
   RemoteActions& actions_;
   std::optional<NetworkPlace> feedback_;
+  std::map<QString, NetworkPlace> askers_;          // of long work, by its address
   std::vector<std::vector<OscArgument>> reported_;  // of each command
   std::set<QString> told_;                          // kinds of sentences in the minute that began at
   OscServer::Time minute_;

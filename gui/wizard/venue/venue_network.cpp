@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "wizard/venue/venue_page.h"
-
 namespace relucent::gui {
 
 namespace {

@@ -28,6 +28,14 @@ class NotedActions : public RemoteActions {
     if (whyNoViewer.empty()) viewer = position;
     return whyNoViewer;
   }
+  Message whyNoPhotographs;
+  QStringList begun;
+  Message check() override { return photograph("check"); }
+  Message perfect() override { return photograph("perfect"); }
+  Message photograph(const char* work) {
+    if (whyNoPhotographs.empty()) begun.append(work);
+    return whyNoPhotographs;
+  }
 };
 
 std::string described(const RemoteState& state) {
@@ -242,6 +250,42 @@ class TestRemoteControl : public QObject {
     control.report();
     QVERIFY(toldAll(2));
     QVERIFY((told == std::vector<OscMessage>{{"/black", {1.0}}, {"/item", {2.0}}}));
+  }
+
+  /// Whoever began it is told, and the desk; where it is the desk itself, once.
+  void whatTakesLongIsAnnounced_data() {
+    QTest::addColumn<QString>("work");
+    QTest::newRow("check") << "check";
+    QTest::newRow("perfect") << "perfect";
+  }
+  void whatTakesLongIsAnnounced() {
+    QFETCH(QString, work);
+    NotedActions actions;
+    RemoteControl control(*server_, actions, NetworkPlace{QHostAddress::LocalHost, desk_.localPort()});
+    const std::vector<OscMessage> begun = answers({"/" + work, {}});
+    QCOMPARE(actions.begun, QStringList{work});
+    QVERIFY((begun == std::vector<OscMessage>{{"/" + work + "/begun", {}}}));
+    control.announce("/" + work, "done", {QString("still_good"), QString("It holds.")});
+    const OscMessage done{"/" + work + "/done", {QString("still_good"), QString("It holds.")}};
+    const auto hears = [&done](QUdpSocket& socket) {
+      std::vector<OscMessage> heard;
+      return QTest::qWaitFor([&] {
+        for (const OscMessage& one : receivedAt(socket)) heard.push_back(one);
+        return std::ranges::count(heard, done) == 1;
+      });
+    };
+    QVERIFY(hears(client_));
+    QVERIFY(hears(desk_));
+  }
+
+  void whatCannotBePhotographedIsAnError() {
+    NotedActions actions;
+    actions.whyNoPhotographs = Message::plain("this show has no camera");
+    RemoteControl control(*server_, actions, std::nullopt);
+    const std::vector<OscMessage> said = answers({"/check", {}});
+    QCOMPARE(said.size(), std::size_t{1});
+    QCOMPARE(said[0].address, QString("/error"));
+    QVERIFY(std::get<QString>(said[0].arguments[1]).contains("has no camera"));
   }
 
   /// The README's table is this one.

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "output/show_photography.h"
+
+#include <utility>
+
+#include "jobs/live_rig.h"
+#include "output/screen_identity.h"
+#include "output/window_projector.h"
+#include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/screen_devices.h"
+#include "relucent/pipeline/stored_settings.h"
+#include "relucent/rig/watched_rig.h"
+
+namespace relucent::gui {
+namespace {
+
+constexpr int betweenPictures = 1000 / 3;  // milliseconds
+
+using calibration::CalibrationFolder;
+
+/// Why this rig photographs no show; empty: it does.
+struct WhyNot {
+  Message operator()(const venue::VenueSettings&) const { return {}; }
+  Message operator()(const pipeline::ScreenRigSettings& rig) const {
+    return pipeline::camerasOf(rig).empty() ? noCamera() : Message();
+  }
+  Message operator()(const pipeline::CommandRigSettings&) const {
+    return RELUCENT_ENGLISH_MESSAGE(
+        "show.projector-by-command",
+        "this calibration shows pictures by a command of its own, which does not know of the "
+        "show: stop the show and use relucent-cli verify and perfect");
+  }
+  Message operator()(const pipeline::ReplayRigSettings&) const { return noCamera(); }
+  Message operator()(const pipeline::ImportedRigSettings&) const { return noCamera(); }
+
+  static Message noCamera() {
+    return RELUCENT_ENGLISH_MESSAGE("show.no-camera", "this show has no camera: its calibration names none");
+  }
+};
+
+class CalibratedPhotography : public ShowPhotography {
+ public:
+  CalibratedPhotography(std::filesystem::path calibration, std::filesystem::path cache)
+      : calibration_(std::move(calibration)), cache_(std::move(cache)) {}
+
+  Message whyNot() const override {
+    try {
+      return std::visit(WhyNot(), rig());
+    } catch (const Error& error) {
+      return error.sentence();
+    }
+  }
+  pipeline::VerifyResult check(Progress& progress) override {
+    Devices devices(*this, progress);
+    return pipeline::verifyCalibration(calibration_, {}, devices.rig(), progress);
+  }
+  pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas& canvas,
+                                   Progress& progress) override {
+    Devices devices(*this, progress);
+    pipeline::PerfectSettings settings;
+    settings.images = {picture};
+    settings.canvas = {{canvas.size.width(), canvas.size.height()}, canvas.fit};
+    pipeline::PerfectResult result = perfectPictures(
+        calibration_, settings, devices.rig(), [](std::size_t, const pipeline::PerfectingRound&) {},
+        progress);
+    return std::move(result.images.front());
+  }
+
+ private:
+  /// Open for as long as this lives.
+  class Devices {
+   public:
+    Devices(const CalibratedPhotography& of, Progress& progress) : live_(std::make_shared<LiveRig>()) {
+      Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+      opened_ = pipeline::openRig(
+          of.rig(), of.cache_,
+          [](const pipeline::ScreenRigSettings& screen) {
+            return std::make_unique<WindowProjector>(identityOf(screen.display), screen.projector);
+          },
+          opening);
+      if (opened_.screen) live_->setLeastInterval(betweenPictures);
+      opened_.rig = rig::watched(std::move(opened_.rig), live_);
+    }
+    rig::Rig& rig() { return opened_.rig; }
+
+   private:
+    std::shared_ptr<LiveRig> live_;
+    pipeline::OpenedRig opened_;
+  };
+
+  pipeline::RigSettings rig() const {
+    return pipeline::settingsOf(CalibrationFolder::open(calibration_, CalibrationFolder::Access::read)).rig;
+  }
+
+  std::filesystem::path calibration_, cache_;
+};
+
+Message sentenceOf(const pipeline::PerfectedImage& image) {
+  if (!image.failure.empty()) return image.failure;
+  if (!image.disturbance.empty()) return image.disturbance;
+  return image.kept
+             ? RELUCENT_ENGLISH_MESSAGE("show.picture-perfected",
+                                        "the picture is better than it was, and shown so")
+             : RELUCENT_ENGLISH_MESSAGE("show.picture-as-before",
+                                        "photographs found nothing to better: the picture stays as it was");
+}
+
+}  // namespace
+
+std::unique_ptr<ShowPhotography> photographyOf(const std::filesystem::path& calibration,
+                                               const std::filesystem::path& cache) {
+  return std::make_unique<CalibratedPhotography>(calibration, cache);
+}
+
+ShowPhotographs::ShowPhotographs(std::unique_ptr<ShowPhotography> photography, QObject* parent)
+    : QObject(parent), photography_(std::move(photography)) {
+  connect(&job_, &Job::progressed, this,
+          [this](double fraction, const QString& stage) { Q_EMIT progressed(work_, fraction, stage); });
+  connect(&job_, &Job::ended, this, &ShowPhotographs::finished);
+}
+
+Message ShowPhotographs::whyNot() const {
+  if (isRunning())
+    return RELUCENT_ENGLISH_MESSAGE("show.photographs-already",
+                                    "photographs are being taken already: wait for their end");
+  return photography_->whyNot();
+}
+
+void ShowPhotographs::start(const QString& work, std::function<Found(Progress&)> job) {
+  work_ = work;
+  found_ = std::make_shared<Found>();
+  job_.start([found = found_, job = std::move(job)](Progress& progress) { *found = job(progress); });
+}
+
+void ShowPhotographs::check() {
+  start("check", [photography = photography_](Progress& progress) {
+    const pipeline::VerifyResult result = photography->check(progress);
+    return Found{QString::fromStdString(std::string(toString(result.judgement.verdict))),
+                 result.judgement.sentence};
+  });
+}
+
+void ShowPhotographs::perfect(const std::filesystem::path& picture, const Canvas& canvas) {
+  start("perfect", [photography = photography_, picture, canvas](Progress& progress) {
+    const pipeline::PerfectedImage image = photography->perfect(picture, canvas, progress);
+    const bool failed = !image.failure.empty() || !image.disturbance.empty();
+    return Found{failed ? "failed" : image.kept ? "better" : "as_before", sentenceOf(image)};
+  });
+}
+
+void ShowPhotographs::cancel() {
+  job_.disconnect(this);
+  job_.cancel();
+  job_.wait();
+}
+
+void ShowPhotographs::finished() {
+  const std::shared_ptr<Found> found = std::exchange(found_, nullptr);
+  switch (job_.state()) {
+    case Job::State::done:
+      return Q_EMIT ended(work_, found->verdict, QString::fromStdString(englishSentence(found->sentence)));
+    case Job::State::failed:
+      return Q_EMIT ended(work_, "failed", (job_.failure().what + " " + job_.failure().advice).trimmed());
+    default:
+      return Q_EMIT ended(work_, "failed", "stopped on request");
+  }
+}
+
+}  // namespace relucent::gui

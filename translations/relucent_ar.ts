@@ -674,6 +674,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>أعطِ عناوين أجهزة العرض من جديد</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -685,6 +692,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>الملف الذي يصف الموقع تالف</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>تعذّرت قراءة عناوين أجهزة العرض على الشبكة ({})</translation>
     </message>
 </context>
 <context>
@@ -2325,6 +2339,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>ترى الكاميرا شيئًا غير المتوقع: هل وقف أحد في الضوء أم تغيّر ضوء القاعة؟</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>لجهازي العرض {} و{} العنوان نفسه، {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>تعذّر البحث عن أجهزة العرض ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>تحقق من عنوان جهاز العرض ومنفذه</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>تحقق من أغطية العدسات ومن مصراع جهاز العرض ومدخله، ومن اتجاه الكاميرا</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>تحقق من عنوانه ومن كابل شبكته، ومن أن PJLink والشبكة في وضع الاستعداد مفعّلان في قائمته</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>تحقق من شبكة هذا الحاسوب، أو أعطِ عنوان جهاز العرض</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>اختر في قائمته مصادقة PJLink من الفئة 1، أو بلا مصادقة</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>أغلق الاتصال</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>أوقف التباين الديناميكي وتعتيم المصباح وأوضاع التوفير، واحجب ضوء النهار عن الغرفة؛ أو قِس دون انتظار مصباحه</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>جهاز العرض {} يجمّد صورته: ألغِ ذلك في قائمته</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>أعطِ كلمة مرور PJLink المضبوطة في قائمته</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>لا يزال ضوء جهاز العرض {0} يتغيّر بنسبة {1} % خلال {2} ث بعد {3} ث</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>لا ترى أي كاميرا ضوء جهاز العرض {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>انظر إلى مؤشراته وقائمته</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>جهاز العرض {} على الشبكة ليس واحداً من الأجهزة الـ{} الموجودة</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>جهاز العرض في {} يطلب كلمة مروره بطريقة لا يعرفها هذا الإصدار</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>جهاز العرض في {} لا يجيب ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>جهاز العرض {} لا إشارة في مدخله {}: اختر مدخل هذا الحاسوب</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>جهاز العرض {} يستقبل {} بكسل ولديه {}: فهو يغيّر مقياس الصورة مما يطمس التعويض؛ أرسل إليه مقاسه الأصلي</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>أُمر جهاز العرض {} بالتشغيل ولم يعمل بعد {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>ما يجيب في {} لا يتحدث PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>افتحه من جهاز العرض، ثم ابدأ من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>جهاز العرض {} يستقبل {} بكسل بينما يُرسَل {}: شيء بينهما يغيّر مقياس الصورة، أو أنه يعرض مدخلاً آخر</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>جهاز العرض في {} يبلّغ عن عطل فيه</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>الغطاء مفتوح</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>المروحة</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>المرشّح</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>المصباح</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>شيء آخر</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>الحرارة</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>جهاز العرض {} يبلّغ عن خطأ: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>جهاز العرض {} يحذّر: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>مصراع جهاز العرض {} لا ينفتح</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>لا يزال جهاز العرض {} يُحمّى أو يبرد بعد {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>انظر إلى مؤشراته وقائمته، وشغّله يدوياً، ثم ابدأ من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>لم يصل شيء كامل في الوقت المناسب</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>جهاز العرض في {} يطلب كلمة مرور</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>جهاز العرض في {} يرفض كلمة المرور</translation>
     </message>
 </context>
 <context>
@@ -6024,6 +6304,157 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>الحالة</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>آخر تحديث</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>يُحسب على</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>الإطارات</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>إطارات متأخرة</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>إطارات في الثانية</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>الزمن لكل إطار (م‌ث)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>التأخر عن المشاهد (م‌ث)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>الحصة المقصوصة</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>الخطوات</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>محسَّنة</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>العنصر</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>عناصر متجاوَزة</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>الإخفاقات</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>أقصى ذاكرة مستخدمة (بايت)</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>الشاشات</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>الموصّل</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>مضيء</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>يرسمه</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>أجهزة العرض</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>جهاز العرض</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>العنوان</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>يجيب</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>المشكلة</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>الاسم</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>الطراز</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>الطاقة</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>المصراع</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>ساعات المصباح</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>ساعات المرشّح</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>المدخل</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>الإشارة</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>بكسلاته</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>ملاحظات</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>نعم</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>لا</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent: %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6549,6 +6980,13 @@ projector %2</source>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>أُوقف إخلاء المساحة.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>“%1” ليس عنوان شبكة لجهاز عرض. اكتب رقمه أو اسمه، مثل 192.168.1.50.</translation>
     </message>
 </context>
 <context>
@@ -7189,6 +7627,45 @@ projector %2</source>
         <source>Projector whose screen is changed</source>
         <translation>جهاز العرض الذي تُغيَّر شاشته</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>عنوان الشبكة (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>كلمة المرور، إن وُجدت</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>على الشبكة</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>اختياري: جهاز العرض الذي له عنوان شبكة يُشغَّل، ويُنتظر حتى يستقر مصباحه، قبل قياس أي شيء.</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>ابحث عن أجهزة العرض</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>جارٍ البحث عن أجهزة العرض…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>لا يجيب أي منها. لا يمكن البحث إلا عن PJLink من الفئة 2: اكتب العنوان.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>لا يجيب أي جهاز.</numerusform>
+            <numerusform>يجيب جهاز واحد. اختره من القائمة.</numerusform>
+            <numerusform>يجيب جهازان. اختر من قائمة كل منهما.</numerusform>
+            <numerusform>تجيب %n أجهزة. اختر من قائمة كل منها.</numerusform>
+            <numerusform>يجيب %n جهازاً. اختر من قائمة كل منها.</numerusform>
+            <numerusform>يجيب %n جهاز. اختر من قائمة كل منها.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7380,6 +7857,13 @@ projector %2</source>
     <message>
         <source>Assembling the light transport</source>
         <translation>تركيب نقل الضوء</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>انتظار استقرار المصابيح</translation>
     </message>
 </context>
 <context>
@@ -7865,6 +8349,13 @@ projector %2</source>
     <message>
         <source>Solving</source>
         <translation>إيجاد الحل</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>تشغيل أجهزة العرض</translation>
     </message>
 </context>
 <context>

@@ -658,6 +658,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>geben Sie die Adressen der Projektoren erneut an</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -669,6 +676,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>die Datei, die den Ort beschreibt, ist beschädigt</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>die Adressen der Projektoren im Netzwerk sind nicht lesbar ({})</translation>
     </message>
 </context>
 <context>
@@ -2301,6 +2315,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>die Kamera sieht etwas anderes als erwartet: Stand jemand im Licht, oder hat sich das Raumlicht geändert?</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>die Projektoren {} und {} haben dieselbe Adresse, {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>nach Projektoren kann nicht gesucht werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>prüfen Sie Adresse und Port des Projektors</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>prüfen Sie Objektivdeckel, Verschluss und Eingang des Projektors, und wohin die Kamera sieht</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>prüfen Sie seine Adresse und sein Netzwerkkabel, und dass PJLink und das Netzwerk im Standby in seinem Menü eingeschaltet sind</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>prüfen Sie das Netzwerk dieses Computers, oder geben Sie die Adresse des Projektors an</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>wählen Sie in seinem Menü die Anmeldung nach PJLink Klasse 1, oder keine</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>er hat die Verbindung geschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>schalten Sie dynamischen Kontrast, Lampendimmung und Sparmodi aus und halten Sie Tageslicht fern; oder messen Sie, ohne auf seine Lampe zu warten</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>Projektor {} friert sein Bild ein: beenden Sie das in seinem Menü</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>geben Sie das PJLink-Passwort an, das in seinem Menü eingestellt ist</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>das Licht von Projektor {0} ändert sich nach {3} s noch um {1} % in {2} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>keine Kamera sieht Licht von Projektor {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>sehen Sie seine Lämpchen und sein Menü an</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>Projektor {} im Netzwerk ist keiner der {} vorhandenen</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>der Projektor unter {} fragt sein Passwort auf eine Weise ab, die diese Version nicht kennt</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>der Projektor unter {} antwortet nicht ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>Projektor {} hat kein Signal an seinem Eingang {}: wählen Sie den Eingang dieses Computers</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>Projektor {} empfängt {} Pixel und hat {}: er skaliert das Bild, was die Kompensation unscharf macht; senden Sie ihm seine eigene Größe</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>Projektor {} sollte sich einschalten und ist nach {} s nicht an</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>was unter {} antwortet, spricht kein PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>öffnen Sie ihn am Projektor, und beginnen Sie erneut</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>Projektor {} empfängt {} Pixel, gesendet werden {}: etwas dazwischen skaliert das Bild, oder er zeigt einen anderen Eingang</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>der Projektor unter {} meldet einen eigenen Fehler</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>Abdeckung offen</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>Lüfter</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>Filter</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>Lampe</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>etwas anderes</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>Temperatur</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>Projektor {} meldet einen Fehler: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>Projektor {} warnt: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>der Verschluss von Projektor {} öffnet sich nicht</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>Projektor {} wärmt sich nach {} s noch auf oder kühlt noch ab</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>sehen Sie seine Lämpchen und sein Menü an, schalten Sie ihn von Hand ein, und beginnen Sie erneut</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>nichts Vollständiges kam rechtzeitig</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>der Projektor unter {} verlangt ein Passwort</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>der Projektor unter {} weist das Passwort zurück</translation>
     </message>
 </context>
 <context>
@@ -5880,6 +6160,157 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>Zustand</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>Aktualisiert</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>Berechnet auf</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Bilder</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>Verspätete Bilder</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>Bilder pro Sekunde</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>Zeit pro Bild (ms)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>Verzögerung hinter dem Betrachter (ms)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>Übersteuerter Anteil</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Schritte</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>Perfektioniert</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>Eintrag</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>Übersprungene Einträge</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>Fehlschläge</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>Höchster Speicherbedarf (Bytes)</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>Anschluss</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>Leuchtet</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>Gezeichnet mit</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Projektoren</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projektor</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>Antwortet</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>Problem</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>Stromversorgung</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>Verschluss</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>Lampenstunden</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>Filterstunden</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Eingang</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>Eigene Pixel</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>Bemerkungen</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>nein</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent: %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6381,6 +6812,13 @@ Projektor %2</translation>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>Das Freigeben wurde abgebrochen.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>„%1“ ist keine Netzwerkadresse eines Projektors. Geben Sie ihre Nummer oder ihren Namen an, etwa 192.168.1.50.</translation>
     </message>
 </context>
 <context>
@@ -7005,6 +7443,41 @@ Projektor %2</translation>
         <source>Projector whose screen is changed</source>
         <translation>Projektor, dessen Bildschirm geändert wird</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>Netzwerkadresse (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>Passwort, wenn er eines hat</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>Im Netzwerk</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>Freiwillig: ein Projektor mit Netzwerkadresse wird eingeschaltet, und auf seine Lampe wird gewartet, bis sie gleichmäßig leuchtet, bevor etwas gemessen wird.</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>Projektoren suchen</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>Projektoren werden gesucht …</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>Keiner antwortet. Nur PJLink Klasse 2 lässt sich suchen: tippen Sie die Adresse ein.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n antwortet. Wählen Sie ihn in der Liste.</numerusform>
+            <numerusform>%n antworten. Wählen Sie in der Liste eines jeden.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7196,6 +7669,13 @@ Projektor %2</translation>
     <message>
         <source>Assembling the light transport</source>
         <translation>Zusammensetzen des Lichttransports</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>Warten, bis die Lampen gleichmäßig leuchten</translation>
     </message>
 </context>
 <context>
@@ -7673,6 +8153,13 @@ Projektor %2</translation>
     <message>
         <source>Solving</source>
         <translation>Berechnung der Lösung</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>Projektoren werden eingeschaltet</translation>
     </message>
 </context>
 <context>

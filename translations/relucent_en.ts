@@ -385,6 +385,13 @@
             <numerusform>%n cameras</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n answers. Choose it from the list.</numerusform>
+            <numerusform>%n answer. Choose from the list of each.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>stage.level-of-tree</name>

@@ -658,6 +658,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>indique de nuevo las direcciones de los proyectores</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -669,6 +676,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>el archivo que describe el lugar está dañado</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>no se pueden leer las direcciones de los proyectores en la red ({})</translation>
     </message>
 </context>
 <context>
@@ -2301,6 +2315,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>la cámara ve algo distinto de lo esperado: ¿había alguien en la luz o cambió la luz de la sala?</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>los proyectores {} y {} tienen la misma dirección, {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>no se pueden buscar proyectores ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>compruebe la dirección y el puerto del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>compruebe las tapas de los objetivos, el obturador y la entrada del proyector, y hacia dónde mira la cámara</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>compruebe su dirección, su cable de red y que PJLink y la red en espera estén activados en su menú</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>compruebe la red de este ordenador, o indique la dirección del proyector</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>elija en su menú la autenticación de PJLink clase 1, o ninguna</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>cerró la conexión</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>desactive el contraste dinámico, la atenuación de la lámpara y los modos eco, y evite la luz del día; o mida sin esperar a su lámpara</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>el proyector {} congela su imagen: desactívelo en su menú</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>indique la contraseña de PJLink que figura en su menú</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>la luz del proyector {0} aún varía un {1} % en {2} s después de {3} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>ninguna cámara ve luz del proyector {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>mire sus indicadores y su menú</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>el proyector {} en la red no es ninguno de los {} que hay</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>el proyector en {} pide su contraseña de un modo que esta versión no conoce</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>el proyector en {} no responde ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>el proyector {} no tiene señal en su entrada {}: elija la entrada de este ordenador</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>el proyector {} recibe {} píxeles y tiene {}: escala la imagen, lo que desenfoca la compensación; envíele su propio tamaño</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>se ordenó encender el proyector {} y no está encendido después de {} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>lo que responde en {} no habla PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>ábralo en el proyector y empiece de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>el proyector {} recibe {} píxeles y se envían {}: algo intermedio escala la imagen, o muestra otra entrada</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>el proyector en {} comunica un fallo propio</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>tapa abierta</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>ventilador</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>filtro</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>lámpara</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>otra cosa</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>temperatura</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>el proyector {} comunica un error: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>el proyector {} avisa: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>el obturador del proyector {} no se abre</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>el proyector {} sigue calentándose o enfriándose después de {} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>mire sus indicadores y su menú, enciéndalo a mano y empiece de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>no llegó nada completo a tiempo</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>el proyector en {} pide una contraseña</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>el proyector en {} rechaza la contraseña</translation>
     </message>
 </context>
 <context>
@@ -5880,6 +6160,157 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>Estado</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>Actualizado</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>Calculado en</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Fotogramas</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>Fotogramas tardíos</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>Fotogramas por segundo</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>Tiempo por fotograma (ms)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>Retraso respecto al espectador (ms)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>Parte saturada</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Pasos</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>Perfeccionada</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>Elemento</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>Elementos omitidos</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>Fallos</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>Memoria máxima usada (bytes)</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>Pantallas</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>Conector</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>Iluminando</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>Dibujado por</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Proyectores</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proyector</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Dirección</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>Responde</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>Problema</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modelo</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>Alimentación</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>Obturador</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>Horas de lámpara</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>Horas de filtro</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Entrada</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Señal</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>Píxeles propios</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>Observaciones</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>sí</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>no</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent: %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6381,6 +6812,13 @@ proyector %2</translation>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>Se detuvo la liberación de espacio.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>«%1» no es la dirección de red de un proyector. Escriba su número o su nombre, como 192.168.1.50.</translation>
     </message>
 </context>
 <context>
@@ -7005,6 +7443,41 @@ proyector %2</translation>
         <source>Projector whose screen is changed</source>
         <translation>Proyector cuya pantalla se cambia</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>Dirección de red (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>Contraseña, si la tiene</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>En la red</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>Opcional: un proyector con dirección de red se enciende, y se espera a que su lámpara sea estable, antes de medir nada.</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>Buscar proyectores</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>Buscando proyectores…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>Ninguno responde. Solo se puede buscar PJLink clase 2: escriba la dirección.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n responde. Elíjalo en la lista.</numerusform>
+            <numerusform>%n responden. Elija en la lista de cada uno.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7196,6 +7669,13 @@ proyector %2</translation>
     <message>
         <source>Assembling the light transport</source>
         <translation>Componiendo el transporte de luz</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>Esperando a que las lámparas sean estables</translation>
     </message>
 </context>
 <context>
@@ -7673,6 +8153,13 @@ proyector %2</translation>
     <message>
         <source>Solving</source>
         <translation>Resolviendo</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>Encendiendo los proyectores</translation>
     </message>
 </context>
 <context>

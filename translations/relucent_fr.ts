@@ -658,6 +658,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>indiquez à nouveau les adresses des projecteurs</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -669,6 +676,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>le fichier qui décrit le lieu est endommagé</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>les adresses des projecteurs sur le réseau sont illisibles ({})</translation>
     </message>
 </context>
 <context>
@@ -2301,6 +2315,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>la caméra voit autre chose que prévu : quelqu’un était-il dans la lumière, ou l’éclairage de la salle a-t-il changé ?</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>les projecteurs {} et {} ont la même adresse, {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>la recherche de projecteurs est impossible ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>vérifiez l’adresse et le port du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>vérifiez les capuchons d’objectif, l’obturateur et l’entrée du projecteur, et où regarde la caméra</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>vérifiez son adresse, son câble réseau, et que PJLink et le réseau en veille sont activés dans son menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>vérifiez le réseau de cet ordinateur, ou indiquez l’adresse du projecteur</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>choisissez dans son menu l’authentification PJLink classe 1, ou aucune</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>il a fermé la connexion</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>désactivez son contraste dynamique, la gradation de la lampe et les modes éco, et masquez la lumière du jour ; ou mesurez sans attendre sa lampe</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>le projecteur {} fige son image : désactivez cela dans son menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>indiquez le mot de passe PJLink défini dans son menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>la lumière du projecteur {0} varie encore de {1} % en {2} s au bout de {3} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>aucune caméra ne voit la lumière du projecteur {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>regardez ses voyants et son menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>le projecteur {} sur le réseau n’est aucun des {} présents</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>le projecteur à {} demande son mot de passe d’une manière que cette version ne connaît pas</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>le projecteur à {} ne répond pas ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>le projecteur {} n’a pas de signal à son entrée {} : choisissez l’entrée de cet ordinateur</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>le projecteur {} reçoit {} pixels et en a {} : il met l’image à l’échelle, ce qui rend la compensation floue ; envoyez-lui sa propre taille</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>le projecteur {} a reçu l’ordre de s’allumer et ne l’est pas au bout de {} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>ce qui répond à {} ne parle pas PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>ouvrez-le sur le projecteur, et recommencez</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>le projecteur {} reçoit {} pixels alors que {} sont envoyés : quelque chose entre les deux met l’image à l’échelle, ou il montre une autre entrée</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>le projecteur à {} signale une panne</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>capot ouvert</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>ventilateur</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>filtre</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>lampe</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>autre chose</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>température</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>le projecteur {} signale une erreur : {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>le projecteur {} avertit : {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>l’obturateur du projecteur {} ne s’ouvre pas</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>le projecteur {} chauffe ou refroidit encore au bout de {} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>regardez ses voyants et son menu, allumez-le à la main, et recommencez</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>rien de complet n’est arrivé à temps</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>le projecteur à {} demande un mot de passe</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>le projecteur à {} refuse le mot de passe</translation>
     </message>
 </context>
 <context>
@@ -5880,6 +6160,157 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>État</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>Mis à jour</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>Calculé sur</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Images</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>Images en retard</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>Images par seconde</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>Temps par image (ms)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>Retard sur le spectateur (ms)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>Part écrêtée</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Étapes</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>Perfectionnée</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>Élément</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>Éléments sautés</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>Pannes</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>Mémoire maximale utilisée (octets)</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>Affichages</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>Connecteur</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>Allumé</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>Dessiné par</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Projecteurs</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>Répond</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>Problème</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modèle</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>Alimentation</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>Obturateur</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>Heures de lampe</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>Heures de filtre</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Entrée</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Signal</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>Pixels propres</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>Remarques</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>oui</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>non</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent : %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6381,6 +6812,13 @@ projecteur %2</translation>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>La libération d’espace a été arrêtée.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>« %1 » n’est pas l’adresse réseau d’un projecteur. Écrivez son numéro ou son nom, comme 192.168.1.50.</translation>
     </message>
 </context>
 <context>
@@ -7005,6 +7443,41 @@ projecteur %2</translation>
         <source>Projector whose screen is changed</source>
         <translation>Projecteur dont l’écran est changé</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>Adresse réseau (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>Mot de passe, s’il en a un</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>Sur le réseau</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>Facultatif : un projecteur qui a une adresse réseau est allumé, et l’on attend que sa lampe soit stable, avant toute mesure.</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>Rechercher des projecteurs</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>Recherche de projecteurs…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>Aucun ne répond. Seul PJLink classe 2 peut être recherché : tapez l’adresse.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n répond. Choisissez-le dans la liste.</numerusform>
+            <numerusform>%n répondent. Choisissez dans la liste de chacun.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7196,6 +7669,13 @@ projecteur %2</translation>
     <message>
         <source>Assembling the light transport</source>
         <translation>Assemblage du transport lumineux</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>Attente de la stabilité des lampes</translation>
     </message>
 </context>
 <context>
@@ -7673,6 +8153,13 @@ projecteur %2</translation>
     <message>
         <source>Solving</source>
         <translation>Résolution</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>Allumage des projecteurs</translation>
     </message>
 </context>
 <context>

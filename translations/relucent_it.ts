@@ -658,6 +658,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>indichi di nuovo gli indirizzi dei proiettori</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -669,6 +676,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>il file che descrive il luogo è danneggiato</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>gli indirizzi dei proiettori in rete non si possono leggere ({})</translation>
     </message>
 </context>
 <context>
@@ -2301,6 +2315,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>la fotocamera vede qualcosa di diverso dal previsto: c’era qualcuno nella luce o è cambiata la luce della sala?</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>i proiettori {} e {} hanno lo stesso indirizzo, {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>non si possono cercare proiettori ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>controlli indirizzo e porta del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>controlli i copriobiettivi, l’otturatore e l’ingresso del proiettore, e dove guarda la fotocamera</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>controlli il suo indirizzo, il cavo di rete, e che PJLink e la rete in standby siano attivati nel suo menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>controlli la rete di questo computer, o indichi l’indirizzo del proiettore</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>scelga nel suo menu l’autenticazione PJLink classe 1, o nessuna</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>ha chiuso la connessione</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>disattivi contrasto dinamico, attenuazione della lampada e modalità eco, ed eviti la luce del giorno; oppure misuri senza attendere la sua lampada</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>il proiettore {} blocca la sua immagine: lo disattivi nel suo menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>indichi la password PJLink impostata nel suo menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>la luce del proiettore {0} varia ancora del {1} % in {2} s dopo {3} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>nessuna fotocamera vede la luce del proiettore {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>guardi le sue spie e il suo menu</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>il proiettore {} in rete non è nessuno dei {} presenti</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>il proiettore all’indirizzo {} chiede la password in un modo che questa versione non conosce</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>il proiettore all’indirizzo {} non risponde ({})</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>il proiettore {} non ha segnale al suo ingresso {}: scelga l’ingresso di questo computer</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>il proiettore {} riceve {} pixel e ne ha {}: ridimensiona l’immagine, e la compensazione diventa sfocata; gli invii la sua dimensione</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>al proiettore {} è stato detto di accendersi e dopo {} s non è acceso</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>ciò che risponde all’indirizzo {} non parla PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>lo apra sul proiettore, e ricominci</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>il proiettore {} riceve {} pixel mentre ne vengono inviati {}: qualcosa nel mezzo ridimensiona l’immagine, o mostra un altro ingresso</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>il proiettore all’indirizzo {} segnala un guasto proprio</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>coperchio aperto</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>ventola</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>filtro</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>lampada</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>altro</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>temperatura</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>il proiettore {} segnala un errore: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>il proiettore {} avverte: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>l’otturatore del proiettore {} non si apre</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>il proiettore {} si sta ancora riscaldando o raffreddando dopo {} s</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>guardi le sue spie e il suo menu, lo accenda a mano, e ricominci</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>non è arrivato nulla di completo in tempo</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>il proiettore all’indirizzo {} chiede una password</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>il proiettore all’indirizzo {} rifiuta la password</translation>
     </message>
 </context>
 <context>
@@ -5880,6 +6160,157 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>Stato</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>Aggiornato</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>Calcolato su</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Fotogrammi</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>Fotogrammi in ritardo</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>Fotogrammi al secondo</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>Tempo per fotogramma (ms)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>Ritardo rispetto allo spettatore (ms)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>Parte tagliata</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>Passi</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>Perfezionata</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>Elemento</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>Elementi saltati</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>Guasti</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>Memoria massima usata (byte)</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>Schermi</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>Connettore</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>Illuminato</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>Disegnato da</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>Proiettori</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>Proiettore</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Indirizzo</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>Risponde</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>Problema</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modello</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>Alimentazione</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>Otturatore</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>Ore della lampada</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>Ore del filtro</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>Ingresso</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>Segnale</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>Pixel propri</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>Osservazioni</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>sì</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>no</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent: %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6381,6 +6812,13 @@ proiettore %2</translation>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>La liberazione di spazio è stata interrotta.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>«%1» non è l’indirizzo di rete di un proiettore. Scriva il numero o il nome, come 192.168.1.50.</translation>
     </message>
 </context>
 <context>
@@ -7005,6 +7443,41 @@ proiettore %2</translation>
         <source>Projector whose screen is changed</source>
         <translation>Proiettore di cui si cambia lo schermo</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>Indirizzo di rete (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>Password, se ne ha una</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>In rete</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>Facoltativo: un proiettore con un indirizzo di rete viene acceso, e si attende che la sua lampada sia stabile, prima di misurare.</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>Cerca proiettori</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>Ricerca di proiettori…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>Nessuno risponde. Si può cercare solo PJLink classe 2: scriva l’indirizzo.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n risponde. Lo scelga nella lista.</numerusform>
+            <numerusform>%n rispondono. Scelga nella lista di ciascuno.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7196,6 +7669,13 @@ proiettore %2</translation>
     <message>
         <source>Assembling the light transport</source>
         <translation>Composizione del trasporto della luce</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>Attesa che le lampade siano stabili</translation>
     </message>
 </context>
 <context>
@@ -7673,6 +8153,13 @@ proiettore %2</translation>
     <message>
         <source>Solving</source>
         <translation>Soluzione</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>Accensione dei proiettori</translation>
     </message>
 </context>
 <context>

@@ -654,6 +654,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>プロジェクターのアドレスをもう一度指定してください</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -665,6 +672,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>会場を記述するファイルが壊れています</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>ネットワーク上のプロジェクターのアドレスを読み取れません（{}）</translation>
     </message>
 </context>
 <context>
@@ -2295,6 +2309,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>カメラに予想と違うものが写っています：誰かが光の中に立っていたか、部屋の明かりが変わりませんでしたか</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>プロジェクター {} と {} のアドレスが同じです（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>プロジェクターを検索できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>プロジェクターのアドレスとポートを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>レンズキャップ、プロジェクターのシャッターと入力、カメラの向きを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>アドレスとネットワークケーブルを確認し、メニューで PJLink とスタンバイ時のネットワークが有効になっているか確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>このコンピューターのネットワークを確認するか、プロジェクターのアドレスを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>メニューで PJLink クラス 1 の認証、または認証なしを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>接続が閉じられました</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>ダイナミックコントラスト、ランプの調光、エコモードを切り、室内の外光を遮ってください。または、ランプを待たずに測定してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>プロジェクター {} の画像が静止しています。メニューで解除してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>メニューで設定されている PJLink パスワードを指定してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>プロジェクター {0} の光は {3} 秒後もまだ {2} 秒間に {1} % 変化しています</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>プロジェクター {} の光がどのカメラにも見えません</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>表示ランプとメニューを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>ネットワーク上のプロジェクター {} は、{} 台あるうちのどれでもありません</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>{} のプロジェクターは、このバージョンが対応していない方法でパスワードを求めています</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>{} のプロジェクターが応答しません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>プロジェクター {} の入力 {} に信号がありません。このコンピューターの入力を選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>プロジェクター {} は {} 画素を受信し、自身は {} です。画像が拡大縮小され補正がぼやけます。本来の解像度で送ってください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>プロジェクター {} に電源オンを指示しましたが、{} 秒後もオンになりません</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>{} で応答する機器は PJLink に対応していません</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>プロジェクター本体で開いてから、やり直してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>プロジェクター {} は {} 画素を受信していますが、送信は {} です。途中の機器が拡大縮小しているか、別の入力を表示しています</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>{} のプロジェクターが自身の故障を報告しています</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>カバーが開いている</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>ファン</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>フィルター</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>ランプ</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>その他</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>温度</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>プロジェクター {} がエラーを報告しています: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>プロジェクター {} の警告: {}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>プロジェクター {} のシャッターが開きません</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>プロジェクター {} は {} 秒後もまだウォームアップ中または冷却中です</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>表示ランプとメニューを確認し、手動で電源を入れて、やり直してください</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>時間内に完全な応答がありませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>{} のプロジェクターがパスワードを求めています</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>{} のプロジェクターがパスワードを拒否しました</translation>
     </message>
 </context>
 <context>
@@ -5844,6 +6124,157 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>状態</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>更新</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>計算デバイス</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>フレーム</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>遅れたフレーム</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>毎秒フレーム数</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>1 フレームの時間 (ms)</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>視聴者への遅れ (ms)</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>クリップの割合</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>ステップ</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>仕上げ済み</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>項目</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>飛ばした項目</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>失敗</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>最大メモリ使用量（バイト）</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>ディスプレイ</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>コネクター</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>点灯</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>描画</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>プロジェクター</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>アドレス</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>応答</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>問題</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>機種</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>電源</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>シャッター</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>ランプ使用時間</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>フィルター使用時間</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>入力</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>本体の画素数</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>備考</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>はい</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>いいえ</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent: %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6339,6 +6770,13 @@ projector %2</source>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>空きを増やす処理を中止しました。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>「%1」はプロジェクターのネットワークアドレスではありません。192.168.1.50 のような番号か名前を入力してください。</translation>
     </message>
 </context>
 <context>
@@ -6959,6 +7397,40 @@ projector %2</source>
         <source>Projector whose screen is changed</source>
         <translation>画面を変更するプロジェクター</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>ネットワークアドレス (PJLink)</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>パスワード（ある場合）</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>ネットワーク</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>任意: ネットワークアドレスのあるプロジェクターは電源が入れられ、測定の前にランプが安定するまで待ちます。</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>プロジェクターを検索</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>プロジェクターを検索しています…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>応答がありません。検索できるのは PJLink クラス 2 だけです。アドレスを入力してください。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n 台が応答しました。それぞれのリストから選んでください。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7150,6 +7622,13 @@ projector %2</source>
     <message>
         <source>Assembling the light transport</source>
         <translation>光輸送の組み立て</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>ランプが安定するのを待っています</translation>
     </message>
 </context>
 <context>
@@ -7625,6 +8104,13 @@ projector %2</source>
     <message>
         <source>Solving</source>
         <translation>求解</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>プロジェクターの電源を入れています</translation>
     </message>
 </context>
 <context>

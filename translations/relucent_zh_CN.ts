@@ -654,6 +654,13 @@
     </message>
 </context>
 <context>
+    <name>calibration.give-addresses-again</name>
+    <message>
+        <source>give the projectors&apos; addresses again</source>
+        <translation>请重新给出投影机的地址</translation>
+    </message>
+</context>
+<context>
     <name>calibration.make-room-then-resume</name>
     <message>
         <source>every photograph so far is safe: free at least {} MB there, then resume</source>
@@ -665,6 +672,13 @@
     <message>
         <source>the file that describes the venue is damaged</source>
         <translation>描述场地的文件已损坏</translation>
+    </message>
+</context>
+<context>
+    <name>calibration.network-unreadable</name>
+    <message>
+        <source>the addresses of the projectors on the network cannot be read ({})</source>
+        <translation>无法读取网络投影机的地址（{}）</translation>
     </message>
 </context>
 <context>
@@ -2295,6 +2309,272 @@
     <message>
         <source>the camera sees something else than expected: did somebody stand in the light, or did the room&apos;s light change?</source>
         <translation>相机看到的与预期不同：是否有人站在光中，或室内光线变了？</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.address-twice</name>
+    <message>
+        <source>projectors {} and {} have the same address, {}</source>
+        <translation>投影机 {} 和 {} 的地址相同：{}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.cannot-search</name>
+    <message>
+        <source>projectors cannot be searched ({})</source>
+        <translation>无法搜索投影机（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-address-and-port</name>
+    <message>
+        <source>check the address and the port of the projector</source>
+        <translation>请检查投影机的地址和端口</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-lens</name>
+    <message>
+        <source>check lens caps, shutter and input of the projector, and where the camera looks</source>
+        <translation>请检查镜头盖、投影机的快门和输入，以及相机的朝向</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-network</name>
+    <message>
+        <source>check its address, its network cable, and that PJLink and the network in standby are switched on in its menu</source>
+        <translation>请检查其地址和网线，并确认其菜单中已开启 PJLink 和待机网络</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.check-own-network</name>
+    <message>
+        <source>check this computer&apos;s network, or give the projector&apos;s address</source>
+        <translation>请检查本机网络，或给出投影机的地址</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.choose-class-one-authentication</name>
+    <message>
+        <source>choose the authentication of PJLink class 1 in its menu, or none</source>
+        <translation>请在其菜单中选择 PJLink 1 类认证，或不认证</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.closed</name>
+    <message>
+        <source>it closed the connection</source>
+        <translation>它关闭了连接</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.end-dimming</name>
+    <message>
+        <source>switch off its dynamic contrast, lamp dimming and eco modes, and daylight in the room; or measure without waiting for its lamp</source>
+        <translation>请关闭其动态对比度、灯泡调光和节能模式，并遮挡室内日光；或不等待灯泡直接测量</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.frozen</name>
+    <message>
+        <source>projector {} freezes its picture: end that in its menu</source>
+        <translation>投影机 {} 冻结了画面：请在其菜单中取消</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.give-password</name>
+    <message>
+        <source>give the PJLink password that is set in its menu</source>
+        <translation>请给出其菜单中设置的 PJLink 密码</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-drifts</name>
+    <message>
+        <source>the light of projector {} still drifts by {} % within {} s after {} s</source>
+        <translation>投影机 {0} 的光在 {3} 秒后仍在 {2} 秒内漂移 {1} %</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.light-unseen</name>
+    <message>
+        <source>no camera sees light of projector {}</source>
+        <translation>没有相机看到投影机 {} 的光</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.look-at-projector</name>
+    <message>
+        <source>look at its lamps and its menu</source>
+        <translation>请查看其指示灯和菜单</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.more-than-projectors</name>
+    <message>
+        <source>projector {} on the network is none of the {} that there are</source>
+        <translation>网络上的投影机 {} 不在现有的 {} 台之中</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.newer-authentication</name>
+    <message>
+        <source>the projector at {} asks for its password in a way that this version does not know</source>
+        <translation>位于 {} 的投影机以本版本不支持的方式要求密码</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-answer</name>
+    <message>
+        <source>the projector at {} does not answer ({})</source>
+        <translation>位于 {} 的投影机没有应答（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.no-signal</name>
+    <message>
+        <source>projector {} has no signal at its input {}: choose the input of this computer</source>
+        <translation>投影机 {} 的输入 {} 没有信号：请选择本机所接的输入</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-native</name>
+    <message>
+        <source>projector {} receives {} pixels and has {}: it scales the picture, which blurs the compensation; send it its own size</source>
+        <translation>投影机 {} 收到 {} 像素，而自身为 {}：它会缩放画面，使补偿模糊；请按其自身尺寸发送</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-on</name>
+    <message>
+        <source>projector {} was told to switch on and is not on after {} s</source>
+        <translation>已令投影机 {} 开机，{} 秒后仍未开启</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.not-pjlink</name>
+    <message>
+        <source>what answers at {} does not speak PJLink</source>
+        <translation>位于 {} 的应答者不支持 PJLink</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.open-shutter-by-hand</name>
+    <message>
+        <source>open it at the projector, and start again</source>
+        <translation>请在投影机上打开，然后重新开始</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.other-signal</name>
+    <message>
+        <source>projector {} receives {} pixels where {} are sent: something between scales the picture, or it shows another input</source>
+        <translation>投影机 {} 收到 {} 像素，而发送的是 {}：中间有设备缩放画面，或它显示的是另一输入</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.own-failure</name>
+    <message>
+        <source>the projector at {} reports a failure of its own</source>
+        <translation>位于 {} 的投影机报告自身故障</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-cover</name>
+    <message>
+        <source>cover open</source>
+        <translation>盖子打开</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-fan</name>
+    <message>
+        <source>fan</source>
+        <translation>风扇</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-filter</name>
+    <message>
+        <source>filter</source>
+        <translation>滤网</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-lamp</name>
+    <message>
+        <source>lamp</source>
+        <translation>灯泡</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-other</name>
+    <message>
+        <source>something else</source>
+        <translation>其他</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.part-temperature</name>
+    <message>
+        <source>temperature</source>
+        <translation>温度</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-error</name>
+    <message>
+        <source>projector {} reports an error: {}</source>
+        <translation>投影机 {} 报告错误：{}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.reports-warning</name>
+    <message>
+        <source>projector {} warns: {}</source>
+        <translation>投影机 {} 警告：{}</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.shutter-stays-closed</name>
+    <message>
+        <source>the shutter of projector {} does not open</source>
+        <translation>投影机 {} 的快门打不开</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.still-warming</name>
+    <message>
+        <source>projector {} is still warming up or cooling down after {} s</source>
+        <translation>投影机 {} 在 {} 秒后仍在预热或冷却</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.switch-on-by-hand</name>
+    <message>
+        <source>look at its lamps and its menu, switch it on by hand, and start again</source>
+        <translation>请查看其指示灯和菜单，手动开机，然后重新开始</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.too-slow</name>
+    <message>
+        <source>nothing complete came in time</source>
+        <translation>未及时收到完整应答</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wants-password</name>
+    <message>
+        <source>the projector at {} asks for a password</source>
+        <translation>位于 {} 的投影机要求密码</translation>
+    </message>
+</context>
+<context>
+    <name>pjlink.wrong-password</name>
+    <message>
+        <source>the projector at {} refuses the password</source>
+        <translation>位于 {} 的投影机拒绝该密码</translation>
     </message>
 </context>
 <context>
@@ -5844,6 +6124,157 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::StatusPage</name>
+    <message>
+        <source>State</source>
+        <translation>状态</translation>
+    </message>
+    <message>
+        <source>Updated</source>
+        <translation>更新时间</translation>
+    </message>
+    <message>
+        <source>Computed on</source>
+        <translation>计算设备</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>帧数</translation>
+    </message>
+    <message>
+        <source>Late frames</source>
+        <translation>迟到的帧</translation>
+    </message>
+    <message>
+        <source>Frames per second</source>
+        <translation>每秒帧数</translation>
+    </message>
+    <message>
+        <source>Time per frame (ms)</source>
+        <translation>每帧时间（毫秒）</translation>
+    </message>
+    <message>
+        <source>Delay behind the viewer (ms)</source>
+        <translation>相对观众的延迟（毫秒）</translation>
+    </message>
+    <message>
+        <source>Clipped share</source>
+        <translation>截断比例</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>步数</translation>
+    </message>
+    <message>
+        <source>Perfected</source>
+        <translation>已完善</translation>
+    </message>
+    <message>
+        <source>Item</source>
+        <translation>项目</translation>
+    </message>
+    <message>
+        <source>Items skipped</source>
+        <translation>跳过的项目</translation>
+    </message>
+    <message>
+        <source>Failures</source>
+        <translation>失败次数</translation>
+    </message>
+    <message>
+        <source>Most memory used (bytes)</source>
+        <translation>最高内存占用（字节）</translation>
+    </message>
+    <message>
+        <source>Displays</source>
+        <translation>显示器</translation>
+    </message>
+    <message>
+        <source>Connector</source>
+        <translation>接口</translation>
+    </message>
+    <message>
+        <source>Shining</source>
+        <translation>正在投射</translation>
+    </message>
+    <message>
+        <source>Drawn by</source>
+        <translation>绘制方式</translation>
+    </message>
+    <message>
+        <source>Projectors</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>Projector</source>
+        <translation>投影机</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>地址</translation>
+    </message>
+    <message>
+        <source>Answers</source>
+        <translation>应答</translation>
+    </message>
+    <message>
+        <source>Problem</source>
+        <translation>问题</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>型号</translation>
+    </message>
+    <message>
+        <source>Power</source>
+        <translation>电源</translation>
+    </message>
+    <message>
+        <source>Shutter</source>
+        <translation>快门</translation>
+    </message>
+    <message>
+        <source>Lamp hours</source>
+        <translation>灯泡小时数</translation>
+    </message>
+    <message>
+        <source>Filter hours</source>
+        <translation>滤网小时数</translation>
+    </message>
+    <message>
+        <source>Input</source>
+        <translation>输入</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>信号</translation>
+    </message>
+    <message>
+        <source>Own pixels</source>
+        <translation>自身像素</translation>
+    </message>
+    <message>
+        <source>Remarks</source>
+        <translation>备注</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>是</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>否</translation>
+    </message>
+    <message>
+        <source>Relucent: %1</source>
+        <translation>Relucent：%1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::StatusStrip</name>
     <message>
         <source>Projector</source>
@@ -6339,6 +6770,13 @@ projector %2</source>
     <message>
         <source>Freeing space was stopped.</source>
         <translation>释放空间已停止。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::VenueNetwork</name>
+    <message>
+        <source>“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.</source>
+        <translation>“%1”不是投影机的网络地址。请写其数字地址或名称，例如 192.168.1.50。</translation>
     </message>
 </context>
 <context>
@@ -6959,6 +7397,40 @@ projector %2</source>
         <source>Projector whose screen is changed</source>
         <translation>要更改屏幕的投影机</translation>
     </message>
+    <message>
+        <source>Network address (PJLink)</source>
+        <translation>网络地址（PJLink）</translation>
+    </message>
+    <message>
+        <source>Password, if it has one</source>
+        <translation>密码（如有）</translation>
+    </message>
+    <message>
+        <source>On the network</source>
+        <translation>网络</translation>
+    </message>
+    <message>
+        <source>Optional: a projector with a network address is switched on, and its lamp waited for until it is steady, before anything is measured.</source>
+        <translation>可选：有网络地址的投影机会被开机，并在测量前等待其灯泡稳定。</translation>
+    </message>
+    <message>
+        <source>Find projectors</source>
+        <translation>查找投影机</translation>
+    </message>
+    <message>
+        <source>Looking for projectors…</source>
+        <translation>正在查找投影机…</translation>
+    </message>
+    <message>
+        <source>None answers. Only PJLink class 2 can be searched: type the address.</source>
+        <translation>没有应答。只能搜索 PJLink 2 类：请输入地址。</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n answer. Choose from the list of each.</source>
+        <translation>
+            <numerusform>%n 台应答。请在各自的列表中选择。</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7150,6 +7622,13 @@ projector %2</source>
     <message>
         <source>Assembling the light transport</source>
         <translation>正在组装光传输</translation>
+    </message>
+</context>
+<context>
+    <name>stage.awaiting-steady-light</name>
+    <message>
+        <source>Waiting until the lamps are steady</source>
+        <translation>等待灯泡稳定</translation>
     </message>
 </context>
 <context>
@@ -7625,6 +8104,13 @@ projector %2</source>
     <message>
         <source>Solving</source>
         <translation>正在求解</translation>
+    </message>
+</context>
+<context>
+    <name>stage.switching-projectors-on</name>
+    <message>
+        <source>Switching the projectors on</source>
+        <translation>正在打开投影机</translation>
     </message>
 </context>
 <context>

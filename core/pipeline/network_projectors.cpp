@@ -194,10 +194,11 @@ std::string passwordFrom(const std::filesystem::path& file) {
   std::string text = readFile(file);
   text.resize(std::min(text.find_first_of("\r\n"), text.size()));
   if (text.empty())
-    throw Error(ErrorKind::input,
-                RELUCENT_MESSAGE("pjlink.password-file-empty", "there is no password in this file"),
-                RELUCENT_MESSAGE("pjlink.write-password", "write the PJLink password into its first line"),
-                file.string());
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("pjlink.password-file-empty", "there is no password in this file"),
+        RELUCENT_ENGLISH_MESSAGE("pjlink.write-password", "write the PJLink password into its first line"),
+        file.string());
   return text;
 }
 

@@ -52,7 +52,7 @@ std::vector<ProjectorStatus> projectorStatuses(const ProjectorStatusSettings& se
   std::vector<pjlink::Address> addresses = settings.addresses;
   if (settings.search) {
     Progress searching = progress.part(
-        0.5, RELUCENT_MESSAGE("stage.searching-projectors", "Searching projectors on the network"));
+        0.5, RELUCENT_ENGLISH_MESSAGE("stage.searching-projectors", "Searching projectors on the network"));
     for (const pjlink::Found& found : pjlink::searchProjectors(*settings.search, searching))
       if (std::ranges::none_of(
               addresses, [&](const pjlink::Address& other) { return other.host == found.address.host; }))

@@ -89,8 +89,7 @@ pipeline::NetworkProjectors VenueNetwork::wanted(std::size_t projectors) const {
 QString VenueNetwork::problem(std::size_t projectors) const {
   for (std::size_t i = 0; i < std::min(projectors, typed_.size()); ++i)
     if (!typed_[i].address.isEmpty() && !pjlink::addressFrom(typed_[i].address.toStdString()))
-      return VenuePage::tr(
-                 "“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.")
+      return tr("“%1” is no network address of a projector. Write its number or name, as 192.168.1.50.")
           .arg(typed_[i].address);
   return {};
 }

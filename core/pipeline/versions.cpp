@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "relucent/pjlink/protocol.h"
+
 namespace relucent::pipeline {
 namespace {
 
@@ -29,6 +31,7 @@ std::vector<LibraryVersion> coreLibraries() {
   std::vector<LibraryVersion> libraries{
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Embree", RELUCENT_EMBREE_VERSION},
+      {"GLib", pjlink::glibVersion()},
       {"JSON for Modern C++",
        dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"OpenCV", cv::getVersionString()},

@@ -148,6 +148,10 @@ std::optional<Signal> signalFrom(std::string_view value) {
   return Signal{Signal::Kind::size, {*width, *height}};
 }
 
+std::string glibVersion() {
+  return fmt::format("{}.{}.{}", glib_major_version, glib_minor_version, glib_micro_version);
+}
+
 std::optional<std::string> foundFrom(std::string_view datagram) {
   while (!datagram.empty() && (datagram.back() == '\r' || datagram.back() == '\n')) datagram.remove_suffix(1);
   const std::optional<Answer> answer = answerFrom(datagram, "ACKN");

@@ -105,6 +105,9 @@ std::optional<Signal> signalFrom(std::string_view value);
 /// A whole number, 0 to 999999999.
 std::optional<int> numberFrom(std::string_view value);
 
+/// Of the library that carries the connections and computes MD5.
+std::string glibVersion();
+
 /// The hardware address in "%2ACKN=01:23:45:67:89:ab".
 std::optional<std::string> foundFrom(std::string_view datagram);
 

@@ -122,6 +122,51 @@ class TestShowArguments : public QObject {
     QVERIFY((again.osc == NetworkPlace{QHostAddress(QHostAddress::LocalHost), 7700}) && again.oscFeedback);
   }
 
+  void projectorsAndStatusAreSaidAndInstalled() {
+    const QStringList said{"show",
+                           "v",
+                           "--content",
+                           "chart:grid",
+                           "--status",
+                           "8080",
+                           "--switch-projectors",
+                           "--power-off-after",
+                           "10",
+                           "--close-shutter"};
+    const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    for (const ShowSettings& settings :
+         {parsed<PlayShow>(said).settings, parsed<PlayShow>(wanted.arguments).settings}) {
+      // Nobody else sees it unless told so.
+      QVERIFY((settings.status == NetworkPlace{QHostAddress(QHostAddress::LocalHost), 8080}));
+      QVERIFY(settings.switchesPower && settings.closesShutter);
+      QVERIFY(settings.powerOffAfter == std::chrono::minutes(10));
+    }
+    const ShowSettings usual = parsed<PlayShow>({"show", "v", "--content", "chart:grid"}).settings;
+    QVERIFY(!usual.status && !usual.switchesPower && !usual.closesShutter && !usual.powerOffAfter);
+  }
+
+  void wrongProjectorsAndStatus_data() {
+    QTest::addColumn<QStringList>("more");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("no port") << QStringList{"--status", "http"} << "the port of --status must be 1 to 65535";
+    QTest::newRow("no number") << QStringList{"--status", "80", "--status-address", "here"}
+                               << "must be a number";
+    QTest::newRow("address alone") << QStringList{"--status-address", "0.0.0.0"} << "needs --status PORT";
+    QTest::newRow("off after what") << QStringList{"--power-off-after", "10"} << "needs --switch-projectors";
+    QTest::newRow("off at once") << QStringList{"--switch-projectors", "--power-off-after", "0"}
+                                 << "1 to 1440 minutes";
+  }
+  void wrongProjectorsAndStatus() {
+    QFETCH(QStringList, more);
+    QFETCH(QString, sentence);
+    try {
+      parseShowArguments(QStringList{"relucent", "show", "v", "--content", "chart:grid"} + more);
+      QFAIL("it was understood");
+    } catch (const WrongArguments& error) {
+      QVERIFY2(QString(error.what()).contains(sentence), error.what());
+    }
+  }
+
   void itsWhiteIsTheSame() {
     const QStringList said{"show", "v", "--content", "chart:grid", "--brightness", "region"};
     const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});

@@ -5011,10 +5011,6 @@ projector %2</source>
         <translation>القياس ما زال صالحًا</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>تغيّر شيء ما. أعد قياس نقل الضوء.</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>لا يكاد شيء يتطابق. وجّه الأجهزة واضبط التركيز وأعد قياس كل شيء.</translation>
     </message>
@@ -5580,6 +5576,54 @@ projector %2</source>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>ربما تحركت الكاميرا ⁨%1⁩ أو أحد أجهزة العرض.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>تغيّر شيء ما. أصلِح المعايرة.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>تغيّر شيء ما منذ القياس. أصلِح المعايرة: لا يُعاد إلا قياس ما تغيّر.</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>إصلاح المعايرة</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>لا شيء يحتاج إلى إصلاح</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>الموقع كما كان عند القياس.</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>لم تُصلَح</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>لم تصبح الصورة أفضل: يُستخدم القياس كما كان.</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>أُصلِحت، %1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>خطأ ألوان صورة مُصوَّرة: %1 من قبل، و%2 الآن.</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>يعثر على ما تغيّر، ولا يعيد إلا قياسه، ويحتفظ به إذا تحسّنت به صورة فوتوغرافية للعرض.</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>استخدام القياس السابق</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>يتراجع عن الإصلاح.</translation>
     </message>
 </context>
 <context>
@@ -7713,6 +7757,55 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>تحرّك مجال رؤية الكاميرا {} بمقدار {} و{} بكسل ودار بمقدار {} درجة</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>يعطي جهاز العرض {} نسبة {} % من الضوء الأحمر و{} % من الأخضر و{} % من الأزرق مما كان يعطيه</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>في {} % من بكسلات الكاميرات يصل الضوء على غير ما كان</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>تحرّكت الصورة المعروضة بمقدار {} و{} بكسل كما تراها الكاميرا {}</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>الغرفة أسطع بنسبة {} % من الضوء الكامل لأجهزة العرض</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>الغرفة أعتم بنسبة {} % من الضوء الكامل لأجهزة العرض</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>{} % مما تراه الكاميرات أسطع أو أعتم أو بلون غير ما كان</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7843,6 +7936,13 @@ projector %2</source>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>يضع سطح المكتب صورة جهاز العرض على الشاشة {} بدلاً من ذلك</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>مواءمة نقل الضوء مع ما يُرى</translation>
     </message>
 </context>
 <context>
@@ -8127,6 +8227,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>البحث عمّا تغيّر</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -8180,6 +8287,13 @@ projector %2</source>
     <message>
         <source>Measuring {}</source>
         <translation>قياس {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>قياس ما لم يعد كما كان</translation>
     </message>
 </context>
 <context>

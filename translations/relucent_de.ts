@@ -4883,10 +4883,6 @@ Projektor %2</translation>
         <translation>Die Messung gilt noch</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>Etwas hat sich verändert. Messen Sie den Lichttransport neu.</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>Kaum etwas passt noch. Richten Sie aus, stellen Sie scharf und messen Sie alles neu.</translation>
     </message>
@@ -5448,6 +5444,54 @@ Projektor %2</translation>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>Kamera %1 oder ein Projektor kann sich bewegt haben.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>Etwas hat sich verändert. Reparieren Sie die Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>Seit der Messung hat sich etwas verändert. Reparieren Sie die Kalibrierung: Nur das wird neu gemessen.</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>Kalibrierung reparieren</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>Nichts zu reparieren</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>Der Spielort ist noch so, wie er gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>Nicht repariert</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>Das Bild wurde dadurch nicht besser: Die Messung wird verwendet wie bisher.</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>Repariert, %1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>Farbfehler eines fotografierten Bildes: vorher %1, jetzt %2.</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>Findet, was sich verändert hat, misst nur das neu und behält es, wenn ein Foto des Bildes dadurch besser ist.</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>Vorige Messung verwenden</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>Nimmt die Reparatur zurück.</translation>
     </message>
 </context>
 <context>
@@ -7525,6 +7569,55 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>der Blick der Kamera {} hat sich um {} und {} Pixel verschoben und um {} Grad gedreht</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>Projektor {} gibt {} % des roten, {} % des grünen und {} % des blauen Lichts, das er gab</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>in {} % der Kamerapixel kommt das Licht anders an als zuvor</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>das projizierte Bild hat sich, wie Kamera {2} es sieht, um {0} und {1} Pixel verschoben</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>der Raum ist um {} % des vollen Lichts der Projektoren heller</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>der Raum ist um {} % des vollen Lichts der Projektoren dunkler</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>{} % dessen, was die Kameras sehen, ist heller, dunkler oder anders gefärbt als zuvor</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7655,6 +7748,13 @@ Projektor %2</translation>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>der Desktop stellt das Bild des Projektors stattdessen auf den Bildschirm {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>Lichttransport wird dem Gesehenen angepasst</translation>
     </message>
 </context>
 <context>
@@ -7935,6 +8035,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>Veränderungen werden gesucht</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7988,6 +8095,13 @@ Projektor %2</translation>
     <message>
         <source>Measuring {}</source>
         <translation>Messung: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>was nicht mehr ist wie zuvor, wird gemessen</translation>
     </message>
 </context>
 <context>

@@ -4883,10 +4883,6 @@ proyector %2</translation>
         <translation>La medición sigue siendo válida</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>Algo ha cambiado. Mida de nuevo el transporte de luz.</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>Casi nada coincide. Apunte, enfoque y mida todo de nuevo.</translation>
     </message>
@@ -5448,6 +5444,54 @@ proyector %2</translation>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>La cámara %1 o un proyector pueden haberse movido.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>Algo ha cambiado. Repare la calibración.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>Algo ha cambiado desde la medición. Repare la calibración: solo eso se mide de nuevo.</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>Reparar la calibración</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>Nada que reparar</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>El lugar está como se midió.</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>No reparada</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>La imagen no mejoró con ello: la medición se usa como antes.</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>Reparada, %1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>Error de color de una imagen fotografiada: antes %1, ahora %2.</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>Encuentra lo que ha cambiado, mide de nuevo solo eso y lo conserva si una fotografía de la imagen mejora con ello.</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>Usar la medición anterior</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>Deshace la reparación.</translation>
     </message>
 </context>
 <context>
@@ -7525,6 +7569,55 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>la vista de la cámara {} se ha desplazado {} y {} píxeles y ha girado {} grados</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>el proyector {} da el {} % de la luz roja, el {} % de la verde y el {} % de la azul que daba</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>en el {} % de los píxeles de las cámaras la luz llega de otro modo que antes</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>la imagen proyectada se ha desplazado {} y {} píxeles según la ve la cámara {}</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>la sala es más clara en un {} % de la luz plena de los proyectores</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>la sala es más oscura en un {} % de la luz plena de los proyectores</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>el {} % de lo que ven las cámaras es más claro, más oscuro o de otro color que antes</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7655,6 +7748,13 @@ proyector %2</translation>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>el escritorio pone la imagen del proyector en la pantalla {} en su lugar</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>ajustando el transporte de luz a lo que se ve</translation>
     </message>
 </context>
 <context>
@@ -7935,6 +8035,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>Buscando lo que ha cambiado</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7988,6 +8095,13 @@ proyector %2</translation>
     <message>
         <source>Measuring {}</source>
         <translation>Midiendo: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>midiendo lo que ya no es como era</translation>
     </message>
 </context>
 <context>

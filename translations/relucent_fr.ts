@@ -4883,10 +4883,6 @@ projecteur %2</translation>
         <translation>La mesure reste valable</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>Quelque chose a changé. Remesurez le transport lumineux.</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>Presque rien ne correspond. Cadrez, faites la mise au point et remesurez tout.</translation>
     </message>
@@ -5448,6 +5444,54 @@ projecteur %2</translation>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>La caméra %1 ou un projecteur a pu bouger.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>Quelque chose a changé. Réparez la calibration.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>Quelque chose a changé depuis la mesure. Réparez la calibration&#x202f;: seul cela est mesuré à nouveau.</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>Réparer la calibration</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>Rien à réparer</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>Le lieu est tel qu’il a été mesuré.</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>Non réparée</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>L’image n’en est pas devenue meilleure&#x202f;: la mesure est utilisée comme avant.</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>Réparée, %1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>Erreur de couleur d’une image photographiée : %1 avant, %2 maintenant.</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>Trouve ce qui a changé, ne mesure que cela à nouveau et le garde si une photo de l’image en est meilleure.</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>Utiliser la mesure d’avant</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>Annule la réparation.</translation>
     </message>
 </context>
 <context>
@@ -7525,6 +7569,55 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>la vue de la caméra {} s’est déplacée de {} et {} pixels et a tourné de {} degrés</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>le projecteur {} donne {} % de la lumière rouge, {} % de la verte et {} % de la bleue qu’il donnait</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>dans {} % des pixels des caméras, la lumière arrive autrement qu’avant</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>l’image projetée s’est déplacée de {} et {} pixels, vue par la caméra {}</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>la salle est plus claire de {} % de la pleine lumière des projecteurs</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>la salle est plus sombre de {} % de la pleine lumière des projecteurs</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>{} % de ce que voient les caméras est plus clair, plus sombre ou d’une autre couleur qu’avant</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7655,6 +7748,13 @@ projecteur %2</translation>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>le bureau place l’image du projecteur sur l’écran {} à la place</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>adaptation du transport de lumière à ce qui est vu</translation>
     </message>
 </context>
 <context>
@@ -7935,6 +8035,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>Recherche de ce qui a changé</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7988,6 +8095,13 @@ projecteur %2</translation>
     <message>
         <source>Measuring {}</source>
         <translation>Mesure&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>mesure de ce qui n’est plus comme avant</translation>
     </message>
 </context>
 <context>

@@ -4883,10 +4883,6 @@ proiettore %2</translation>
         <translation>La misura è ancora valida</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>Qualcosa è cambiato. Misurare di nuovo il trasporto della luce.</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>Quasi nulla corrisponde. Puntare, mettere a fuoco e misurare tutto di nuovo.</translation>
     </message>
@@ -5448,6 +5444,54 @@ proiettore %2</translation>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>La fotocamera %1 o un proiettore può essersi mosso.</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>Qualcosa è cambiato. Riparare la calibrazione.</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>Qualcosa è cambiato dalla misura. Riparare la calibrazione: solo questo viene misurato di nuovo.</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>Ripara la calibrazione</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>Niente da riparare</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>Il luogo è come è stato misurato.</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>Non riparata</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>L’immagine non è migliorata: la misura si usa come prima.</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>Riparata, %1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>Errore di colore di un’immagine fotografata: prima %1, ora %2.</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>Trova ciò che è cambiato, misura di nuovo solo questo e lo mantiene se una fotografia dell’immagine ne risulta migliore.</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>Usa la misura precedente</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>Annulla la riparazione.</translation>
     </message>
 </context>
 <context>
@@ -7525,6 +7569,55 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>la vista della camera {} si è spostata di {} e {} pixel e ruotata di {} gradi</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>il proiettore {} dà il {} % della luce rossa, il {} % della verde e il {} % della blu che dava</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>nel {} % dei pixel delle camere la luce arriva in modo diverso da prima</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>l’immagine proiettata si è spostata di {} e {} pixel, vista dalla camera {}</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>la sala è più chiara del {} % della luce piena dei proiettori</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>la sala è più scura del {} % della luce piena dei proiettori</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>il {} % di ciò che vedono le camere è più chiaro, più scuro o di un altro colore rispetto a prima</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7655,6 +7748,13 @@ proiettore %2</translation>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>il desktop mette invece l’immagine del proiettore sullo schermo {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>adattamento del trasporto di luce a ciò che si vede</translation>
     </message>
 </context>
 <context>
@@ -7935,6 +8035,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>Ricerca di ciò che è cambiato</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7988,6 +8095,13 @@ proiettore %2</translation>
     <message>
         <source>Measuring {}</source>
         <translation>Misura: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>misura di ciò che non è più come prima</translation>
     </message>
 </context>
 <context>

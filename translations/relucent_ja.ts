@@ -4851,10 +4851,6 @@ projector %2</source>
         <translation>測定結果は今も有効です</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>何かが変化しています。光輸送を再測定してください。</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>ほとんど一致しません。向きとピントを合わせ、すべて再測定してください。</translation>
     </message>
@@ -5415,6 +5411,54 @@ projector %2</source>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>カメラ %1 かプロジェクターが動いた可能性があります。</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>何かが変わりました。校正を修復してください。</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>測定後に何かが変わりました。校正を修復してください。変わった部分だけが再測定されます。</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>校正を修復</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>修復するものはありません</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>会場は測定したときのままです。</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>修復されませんでした</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>画像は良くなりませんでした。測定はこれまでどおり使われます。</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>修復済み、%1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>撮影した画像の色の誤差：以前 %1、現在 %2。</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>変わった部分を見つけて、そこだけを測定し直し、撮影した画像が良くなればそれを保存します。</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>以前の測定を使う</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>修復を取り消します。</translation>
     </message>
 </context>
 <context>
@@ -7478,6 +7522,55 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>カメラ {} の視野が {} と {} ピクセル移動し、{} 度回転しました</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>プロジェクター {} の光は以前に比べて赤 {} %、緑 {} %、青 {} % です</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>カメラの画素の {} % で、光の届き方が以前と違います</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>投影された画像が {} と {} ピクセル移動しました（カメラ {} から見て）</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>部屋がプロジェクターの全光の {} % だけ明るくなりました</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>部屋がプロジェクターの全光の {} % だけ暗くなりました</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>カメラに見えるものの {} % が、以前より明るい、暗い、または色が違います</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7608,6 +7701,13 @@ projector %2</source>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>デスクトップがプロジェクターの画像を別の画面 {} に表示しています</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>光輸送を見えているものに合わせています</translation>
     </message>
 </context>
 <context>
@@ -7887,6 +7987,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>変わった部分を探しています</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7940,6 +8047,13 @@ projector %2</source>
     <message>
         <source>Measuring {}</source>
         <translation>{} の測定</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>以前と違うところを測定しています</translation>
     </message>
 </context>
 <context>

@@ -4851,10 +4851,6 @@ projector %2</source>
         <translation>测量仍然有效</translation>
     </message>
     <message>
-        <source>Something has changed. Measure the light transport again.</source>
-        <translation>有变化。请重新测量光传输。</translation>
-    </message>
-    <message>
         <source>Hardly anything fits. Aim, focus and measure everything again.</source>
         <translation>几乎全不吻合。请重新对准、对焦并测量全部内容。</translation>
     </message>
@@ -5415,6 +5411,54 @@ projector %2</source>
     <message>
         <source>Camera %1 or a projector may have moved.</source>
         <translation>相机 %1 或某台投影机可能移动了。</translation>
+    </message>
+    <message>
+        <source>Something has changed. Repair the calibration.</source>
+        <translation>有些东西变了。请修复校准。</translation>
+    </message>
+    <message>
+        <source>Something has changed since it was measured. Repair the calibration: only that is measured again.</source>
+        <translation>测量之后有些东西变了。请修复校准：只重新测量变化的部分。</translation>
+    </message>
+    <message>
+        <source>Repair the calibration</source>
+        <translation>修复校准</translation>
+    </message>
+    <message>
+        <source>Nothing to repair</source>
+        <translation>无需修复</translation>
+    </message>
+    <message>
+        <source>The venue is as it was measured.</source>
+        <translation>场地与测量时一样。</translation>
+    </message>
+    <message>
+        <source>Not repaired</source>
+        <translation>未修复</translation>
+    </message>
+    <message>
+        <source>No better picture came of it: the measurement is used as before.</source>
+        <translation>图像没有因此变好：仍照旧使用原来的测量。</translation>
+    </message>
+    <message>
+        <source>Repaired, %1</source>
+        <translation>已修复，%1</translation>
+    </message>
+    <message>
+        <source>Colour error of a photographed picture: %1 before, %2 now.</source>
+        <translation>所拍图像的颜色误差：之前 %1，现在 %2。</translation>
+    </message>
+    <message>
+        <source>Finds what has changed, measures only that again, and keeps it if a photograph of the picture is better by it.</source>
+        <translation>找出变化之处，只重新测量这些，如果所拍图像因此更好就保留。</translation>
+    </message>
+    <message>
+        <source>Use the measurement before</source>
+        <translation>使用之前的测量</translation>
+    </message>
+    <message>
+        <source>Takes the repair back.</source>
+        <translation>撤销修复。</translation>
     </message>
 </context>
 <context>
@@ -7478,6 +7522,55 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>repair.camera-moved</name>
+    <message>
+        <source>the view of camera {} has moved by {} and {} pixels and turned by {} degrees</source>
+        <translation>相机 {} 的视野移动了 {} 和 {} 像素，并转动了 {} 度</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-changed</name>
+    <message>
+        <source>projector {} gives {} % of the red, {} % of the green and {} % of the blue light that it gave</source>
+        <translation>投影机 {} 的光为原来的：红 {} %、绿 {} %、蓝 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>repair.light-elsewhere</name>
+    <message>
+        <source>in {} % of the cameras&apos; pixels light arrives otherwise than it did</source>
+        <translation>在 {} % 的相机像素中，光到达的方式与以前不同</translation>
+    </message>
+</context>
+<context>
+    <name>repair.picture-moved</name>
+    <message>
+        <source>the projected picture has moved by {} and {} pixels as camera {} sees it</source>
+        <translation>投影画面移动了 {} 和 {} 像素（从相机 {} 看）</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-brighter</name>
+    <message>
+        <source>the room is brighter by {} % of the projectors&apos; full light</source>
+        <translation>房间变亮了，相当于投影机全光的 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>repair.room-darker</name>
+    <message>
+        <source>the room is darker by {} % of the projectors&apos; full light</source>
+        <translation>房间变暗了，相当于投影机全光的 {} %</translation>
+    </message>
+</context>
+<context>
+    <name>repair.surface-changed</name>
+    <message>
+        <source>{} % of what the cameras see is brighter, darker or of another colour than it was</source>
+        <translation>相机所见的 {} % 比以前更亮、更暗或颜色不同</translation>
+    </message>
+</context>
+<context>
     <name>report.cannot-write</name>
     <message>
         <source>the report cannot be written</source>
@@ -7608,6 +7701,13 @@ projector %2</source>
     <message>
         <source>the desktop puts the projector&apos;s picture on the screen {} instead</source>
         <translation>桌面把投影机的画面放到了屏幕 {} 上</translation>
+    </message>
+</context>
+<context>
+    <name>stage.adapting-light-transport</name>
+    <message>
+        <source>fitting the light transport to what is seen</source>
+        <translation>使光传输与所见相符</translation>
     </message>
 </context>
 <context>
@@ -7887,6 +7987,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.looking-for-changes</name>
+    <message>
+        <source>Looking for what has changed</source>
+        <translation>正在寻找变化</translation>
+    </message>
+</context>
+<context>
     <name>stage.looking-for-hot-pixels</name>
     <message>
         <source>Looking for hot pixels of the camera</source>
@@ -7940,6 +8047,13 @@ projector %2</source>
     <message>
         <source>Measuring {}</source>
         <translation>正在测量：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stage.measuring-what-changed</name>
+    <message>
+        <source>measuring what is no longer as it was</source>
+        <translation>正在测量已与以前不同之处</translation>
     </message>
 </context>
 <context>

@@ -174,7 +174,8 @@ class Renewing {
     Progress referencePart =
         progress.part(referenceShare, RELUCENT_MESSAGE("stage.black-and-full-light", "black and full light"));
     const photography::References references = photography::measureReferences(
-        photographer_, run_.settings.references, run_.settings.dimShare, referencePart);
+        photographer_, referenceRounds(run_.settings, run_.shots.rig().projectors.size()),
+        run_.settings.dimShare, referencePart);
     requireLight(references);
     const Scheme scheme = schemeOf(run_.settings, references);
     sentinels::Watch watch(photographer_, references,

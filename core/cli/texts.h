@@ -13,6 +13,7 @@
 #include "relucent/pipeline/inverse_bench.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
+#include "relucent/pipeline/repair.h"
 #include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
 #include "relucent/pipeline/tidy.h"

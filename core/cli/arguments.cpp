@@ -44,6 +44,7 @@ constexpr Subcommand subcommands[] = {
     {"perfect", "Correct still pictures by photographs of themselves, for shows of them", addPerfectOptions},
     {"repair", "Make a calibration fit what has become of its venue, or go back to what it was",
      addRepairOptions},
+    {"night", "Repair, perfect and prove a calibration between two shows, unattended", addNightOptions},
     {"import", "Make a calibration from patterns and photographs taken elsewhere", addImportOptions},
     {"plan", "Write patterns to photograph without a connection, for import", addPlanOptions},
     {"compensate", "Compute the pattern that makes the surface look like an image", addCompensateOptions},

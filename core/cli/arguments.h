@@ -17,6 +17,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/export.h"
 #include "relucent/pipeline/import.h"
+#include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/plan.h"
 #include "relucent/pipeline/projector_statuses.h"
@@ -89,6 +90,14 @@ struct Repair {
   pipeline::RepairSettings settings;
   venue::Changes changes;  // of a simulated venue, to rehearse
   bool undo = false;       // the last repair, instead
+  std::filesystem::path cache;
+};
+struct TendNight {
+  std::filesystem::path calibration;
+  std::vector<std::filesystem::path> content;  // pictures, folders, playlists
+  pipeline::NightSettings settings;
+  venue::Changes changes;  // of a simulated venue, to rehearse
+  bool history = false;    // of the nights so far, instead
   std::filesystem::path cache;
 };
 struct ImportPictures {
@@ -172,8 +181,8 @@ struct Bench {
   std::filesystem::path cache;
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
-                             Repair, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export, Relight,
-                             Separate, Difference, Report, Tidy, Projectors, Bench>;
+                             Repair, TendNight, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export,
+                             Relight, Separate, Difference, Report, Tidy, Projectors, Bench>;
 
 struct Arguments {
   Command command;

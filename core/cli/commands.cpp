@@ -145,6 +145,21 @@ struct Executor {
     return outcome;
   }
 
+  CommandResult operator()(const TendNight& command) const {
+    if (command.history) return outcomeOf(pipeline::nightsOf(command.calibration));
+    pipeline::NightSettings settings = command.settings;
+    for (const std::filesystem::path& content : command.content)
+      for (std::filesystem::path& still : pipeline::stillsOf(content))
+        settings.images.push_back(std::move(still));
+    refuse(problems(settings));
+    settings.rig = rehearsedRig(command.calibration, command.changes);
+    const pipeline::NightRecord night =
+        pipeline::tendCalibration(command.calibration, settings, command.cache, progress);
+    CommandResult outcome = outcomeOf(night);
+    if (isAlarm(night)) outcome.status = remeasure;
+    return outcome;
+  }
+
   CommandResult operator()(const ImportPictures& command) const {
     refuse(problems(command.settings));
     return outcomeOf(pipeline::importPictures(command.calibration, command.settings, progress));

@@ -25,4 +25,32 @@ std::function<Command()> addRepairOptions(CLI::App* sub) {
   return [command] { return Command(*command); };
 }
 
+std::function<Command()> addNightOptions(CLI::App* sub) {
+  auto command = std::make_shared<TendNight>();
+  pipeline::NightSettings& settings = command->settings;
+  settings.canvas.size = {1920, 1080};  // as a show's
+  addFolder(sub, command->calibration, "Folder of the calibration");
+  CLI::Option* content =
+      sub->add_option(
+             "--content", command->content,
+             "A picture, a folder of pictures or a playlist, of which the stills are perfected; may be given "
+             "several times")
+          ->type_name("FILE");
+  addSize(sub, "--canvas", settings.canvas.size, "Size to which the show scales content")
+      ->default_str("1920x1080");
+  sub->add_option("--photographs", settings.photographs,
+                  "Photographs of a picture, at most, before the last two")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  sub->add_flag("--history", command->history, "Print what the nights so far came to. Takes no photographs")
+      ->excludes(content);
+  addChanges(sub, command->changes);
+  addCache(sub, command->cache);
+  sub->footer(
+      "Stop the show first: the camera must see the pictures. To be started by a timer of the system.\n"
+      "Exit status: 0 all is well, 3 somebody has to look, and the last line says why; 1, 2 and 130 as "
+      "usual.");
+  return [command] { return Command(*command); };
+}
+
 }  // namespace relucent::cli

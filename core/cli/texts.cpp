@@ -96,6 +96,26 @@ std::string textOf(const pipeline::RepairResult& result) {
   return text + fmt::format("{} photographs in {:.0f} s.\n", result.exposures, result.seconds);
 }
 
+std::string textOf(const pipeline::NightRecord& night) {
+  std::string text = fmt::format(
+      "{}  {}", night.when, night.repair ? descriptionOf(*night.repair) : "what has changed is not known");
+  if (night.measured)
+    text += fmt::format("; colour error {:.2f} ({:.1f} dB), predicted {:.2f}", night.measured->deltaE,
+                        night.measured->psnr, night.predicted->deltaE);
+  if (night.perfected > 0) text += fmt::format("; {} pictures perfected", night.perfected);
+  text += fmt::format("; {:.0f} s\n", night.seconds);
+  for (const Message& what : night.what) text += fmt::format("  {}\n", what);
+  if (!night.alarm.empty()) text += fmt::format("  Alarm: {}.\n", night.alarm);
+  return text;
+}
+
+std::string textOf(const std::vector<pipeline::NightRecord>& nights) {
+  if (nights.empty()) return "There was no night yet.\n";
+  std::string text;
+  for (const pipeline::NightRecord& night : nights) text += textOf(night);
+  return text;
+}
+
 std::string textOf(const pipeline::UndoneRepair& result) {
   return fmt::format("The measurement of {} is used again.\n", result.stored);
 }

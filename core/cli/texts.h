@@ -11,6 +11,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/inverse_bench.h"
+#include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/repair.h"
@@ -28,6 +29,8 @@ std::string textOf(const pipeline::WrittenFiles& result);
 std::string textOf(const pipeline::VerifyResult& result);
 std::string textOf(const pipeline::RepairResult& result);
 std::string textOf(const pipeline::UndoneRepair& result);
+std::string textOf(const pipeline::NightRecord& night);
+std::string textOf(const std::vector<pipeline::NightRecord>& nights);
 std::string textOf(const pipeline::ProveResult& result);
 std::string textOf(const pipeline::PerfectResult& result);
 std::string textOf(const pipeline::ForgottenPictures& result);

@@ -214,6 +214,26 @@ calibration::Json toJson(const RepairResult& result) {
           {"seconds", result.seconds}};
 }
 
+calibration::Json toJson(const NightRecord& night) {
+  const auto errorOf = [](const std::optional<PictureError>& error) {
+    return error ? calibration::Json{{"psnr", error->psnr}, {"delta_e", error->deltaE}} : calibration::Json();
+  };
+  return {{"when", night.when},
+          {"repair", night.repair ? calibration::Json(nameOf(*night.repair)) : calibration::Json()},
+          {"what", sentencesOf(night.what)},
+          {"perfected", night.perfected},
+          {"measured", errorOf(night.measured)},
+          {"predicted", errorOf(night.predicted)},
+          {"alarm", night.alarm.empty() ? calibration::Json() : calibration::Json(english(night.alarm))},
+          {"seconds", night.seconds}};
+}
+
+calibration::Json toJson(const std::vector<NightRecord>& nights) {
+  calibration::Json list = calibration::Json::array();
+  for (const NightRecord& night : nights) list.push_back(toJson(night));
+  return {{"nights", std::move(list)}};
+}
+
 calibration::Json toJson(const UndoneRepair& result) {
   return {{"measurement", result.stored}};
 }

@@ -11,6 +11,7 @@
 #include "relucent/pipeline/evaluate.h"
 #include "relucent/pipeline/import.h"
 #include "relucent/pipeline/inverse_bench.h"
+#include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/repair.h"
@@ -37,6 +38,8 @@ calibration::Json toJson(const PerfectResult& result);
 calibration::Json toJson(const ForgottenPictures& result);
 calibration::Json toJson(const RepairResult& result);
 calibration::Json toJson(const UndoneRepair& result);
+calibration::Json toJson(const NightRecord& night);
+calibration::Json toJson(const std::vector<NightRecord>& nights);
 calibration::Json toJson(const EvaluateResult& result);
 calibration::Json toJson(const WrittenFiles& result);
 calibration::Json toJson(const SeparateResult& result);

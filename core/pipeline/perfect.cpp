@@ -175,6 +175,13 @@ bool isPerfect(const PerfectResult& result) {
   });
 }
 
+bool isPerfected(const fs::path& path, const fs::path& image, const compensation::ContentCanvas& canvas) {
+  const calibration::CalibrationFolder folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  return findPerfected(path, keyOf(folder, image, image::readLinearContent(image).size(), canvas))
+      .has_value();
+}
+
 ForgottenPictures forgetPerfected(const fs::path& path, const std::vector<fs::path>& images,
                                   const compensation::ContentCanvas& canvas) {
   const calibration::CalibrationFolder folder =

@@ -63,6 +63,10 @@ PerfectResult perfectPictures(const std::filesystem::path& folder, const Perfect
 PerfectResult perfectPictures(const std::filesystem::path& folder, const PerfectSettings& settings,
                               rig::Rig& rig, const PerfectingObserver& observer, Progress& progress);
 
+/// Whether a still is kept perfected as it is shown now. Throws: Error{disk, format}.
+bool isPerfected(const std::filesystem::path& folder, const std::filesystem::path& image,
+                 const compensation::ContentCanvas& canvas);
+
 struct ForgottenPictures {
   std::vector<std::string> pictures;  // as they were named
 };

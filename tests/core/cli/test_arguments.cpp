@@ -309,6 +309,18 @@ class TestArguments : public QObject {
     QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<Perfect>("perfect d"));
   }
 
+  void nights() {
+    const TendNight night =
+        parsed<TendNight>("night d --content a.png --canvas 640x480 --photographs 3 --change dust:0.1");
+    QCOMPARE(night.content, (std::vector<std::filesystem::path>{"a.png"}));
+    QVERIFY((night.settings.canvas.size == Size{640, 480}));
+    QCOMPARE(night.settings.photographs, 3);
+    QCOMPARE(night.changes.dust, 0.1);
+    QVERIFY(!night.history && parsed<TendNight>("night d --history").history);
+    QVERIFY(parsed<TendNight>("night d").content.empty());  // a standard picture is proved
+    QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<TendNight>("night d --history --content a.png"));
+  }
+
   void repairsAndChanges() {
     QVERIFY(parsed<Repair>("repair d --undo").undo);
     QCOMPARE(parsed<Repair>("repair d --image p.png").settings.image, std::filesystem::path("p.png"));

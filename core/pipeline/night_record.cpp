@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/pipeline/night_record.h"
+
+#include <limits>
+#include <string_view>
+
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/calibration/enum_json.h"
+#include "relucent/calibration/message_json.h"
+
+namespace relucent::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using calibration::Json;
+
+Json toJson(const PictureError& error) {
+  return {{"psnr", error.psnr}, {"delta_e", error.deltaE}};
+}
+std::optional<PictureError> errorFrom(const Json& json, const char* key) {
+  if (!json.contains(key)) return std::nullopt;
+  const Json& error = json.at(key);
+  // JSON knows no NaN: nothing is reachable.
+  return PictureError{
+      error.at("psnr").is_null() ? std::numeric_limits<double>::quiet_NaN() : error.at("psnr").get<double>(),
+      error.at("delta_e").get<double>()};
+}
+
+Json toJson(const NightRecord& night) {
+  Json json{
+      {"when", night.when}, {"what", night.what}, {"perfected", night.perfected}, {"seconds", night.seconds}};
+  if (night.repair) json["repair"] = *night.repair;
+  if (night.measured) json["measured"] = toJson(*night.measured);
+  if (night.predicted) json["predicted"] = toJson(*night.predicted);
+  if (!night.alarm.empty()) json["alarm"] = night.alarm;
+  return json;
+}
+
+NightRecord nightFrom(const Json& json) {
+  NightRecord night;
+  night.when = json.at("when").get<std::string>();
+  if (json.contains("repair")) night.repair = json.at("repair").get<RepairEnd>();
+  night.what = json.at("what").get<std::vector<Message>>();
+  night.perfected = json.at("perfected").get<int>();
+  night.measured = errorFrom(json, "measured");
+  night.predicted = errorFrom(json, "predicted");
+  if (json.contains("alarm")) night.alarm = json.at("alarm").get<Message>();
+  night.seconds = json.at("seconds").get<double>();
+  return night;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end > begin) lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<NightRecord> nightsOf(const fs::path& calibration) {
+  const fs::path file = calibration / nightsName;
+  std::error_code code;
+  if (!fs::exists(file, code)) return {};
+  std::vector<NightRecord> nights;
+  try {
+    for (const std::string& line : linesOf(readFile(file))) nights.push_back(nightFrom(Json::parse(line)));
+  } catch (const Json::exception& cause) {
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("night.history-unreadable", "the history of the nights cannot be read ({})")
+            .with(cause.what()),
+        RELUCENT_ENGLISH_MESSAGE("night.history-advice",
+                                 "the next night begins a new one and keeps this file beside it"),
+        file.string());
+  }
+  return nights;
+}
+
+void addNight(const fs::path& calibration, const NightRecord& night) {
+  const fs::path file = calibration / nightsName;
+  std::vector<std::string> lines;
+  try {
+    nightsOf(calibration);
+    std::error_code code;
+    if (fs::exists(file, code)) lines = linesOf(readFile(file));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::format) throw;
+    std::error_code ignored;  // then it is overwritten
+    fs::rename(file, file.string() + ".unreadable", ignored);
+  }
+  lines.push_back(toJson(night).dump());
+  std::string text;
+  for (std::size_t i = lines.size() > mostNights ? lines.size() - mostNights : 0; i < lines.size(); ++i)
+    text += lines[i] + '\n';
+  writeFileAtomically(file, text);
+}
+
+}  // namespace relucent::pipeline

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// What a venue does by itself between two shows, and what is told of it.
+#include "relucent/pipeline/night.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+#include <fstream>
+
+#include "relucent/base/error.h"
+#include "relucent/base/file.h"
+#include "relucent/image/colour.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/standard_images.h"
+#include "relucent/venue/device_faults.h"
+
+using namespace relucent;
+using namespace relucent::pipeline;
+using namespace relucent::venue;
+namespace fs = std::filesystem;
+
+namespace {
+
+Progress quiet;
+
+VenueSettings venueWith(const Changes& changes = {}) {
+  VenueSettings venue;
+  venue.name = "corner";
+  venue.projector = {40, 30};
+  venue.camera = {32, 24};
+  venue.pathsPerPixel = 32;
+  venue.changes = changes;
+  return venue;
+}
+
+NightRecord nightNumber(int number) {
+  NightRecord night;
+  night.when = fmt::format("2026-01-{:02}T03:00:00Z", number);
+  night.repair = RepairEnd::repaired;
+  night.what = {Message::plain("somebody painted the wall")};
+  night.perfected = number;
+  night.measured = PictureError{30.5, 1.25};
+  night.predicted = PictureError{31.0, 1.0};
+  night.alarm = number % 2 == 0 ? Message::plain("the lamp is off") : Message();
+  night.seconds = 12.5;
+  return night;
+}
+
+bool areSame(const NightRecord& a, const NightRecord& b) {
+  return a.when == b.when && a.repair == b.repair && a.what.size() == b.what.size() &&
+         a.perfected == b.perfected && a.measured->deltaE == b.measured->deltaE &&
+         a.predicted->psnr == b.predicted->psnr && english(a.alarm) == english(b.alarm) &&
+         a.seconds == b.seconds;
+}
+
+}  // namespace
+
+class TestNight : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const { return root() / "cache"; }
+  fs::path picture() const { return root() / "picture.png"; }
+
+  fs::path copy(const char* name) {
+    const fs::path folder = root() / name;
+    fs::copy(root() / "measured", folder, fs::copy_options::recursive);
+    return folder;
+  }
+  static std::string correctionOf(const fs::path& folder) {
+    return fingerprintOfCorrection(
+        calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read));
+  }
+  NightSettings settingsFor(const Changes& changes = {}) {
+    NightSettings settings;
+    settings.images = {picture()};
+    settings.canvas.size = {480, 360};
+    settings.photographs = 3;
+    settings.rig = venueWith(changes);
+    return settings;
+  }
+
+ private slots:
+  void initTestCase() {
+    CalibrateSettings settings;
+    settings.rig = venueWith();
+    settings.linearization.levels = 9;
+    calibrate(root() / "measured", settings, cache(), quiet);
+    image::writePng(picture(), image::srgbEncoded(standardImages().front().linear), 8);
+  }
+
+  /// Law: quality stays, whatever happened by day, and each night has its line. A night after which nothing
+  /// has changed has nothing to do.
+  void weeksOfNights() {
+    const fs::path folder = copy("weeks");
+    Changes changes;
+    const auto night = [&] { return tendCalibration(folder, settingsFor(changes), cache(), quiet); };
+    NightRecord first = night();
+    QVERIFY(!isAlarm(first) && first.repair == RepairEnd::nothingToDo);
+    QVERIFY(isPerfected(folder, picture(), settingsFor().canvas) == (first.perfected == 1));
+    const double atFirst = first.measured->deltaE;
+    const auto day = [&](const std::function<void()>& happens, RepairEnd expected) {
+      happens();
+      const NightRecord after = night();
+      const QString figures = QString("ΔE %1, first %2").arg(after.measured->deltaE).arg(atFirst);
+      QVERIFY2(!isAlarm(after), english(after.alarm).c_str());
+      QVERIFY2(after.repair == expected, figures.toUtf8());
+      QVERIFY2(after.measured->deltaE < 1.2 * atFirst, figures.toUtf8());
+    };
+    day([&] { changes.painted.push_back({{0.4, 0.5}, 0.15}); }, RepairEnd::repaired);
+    day([] {}, RepairEnd::nothingToDo);
+    day([&] { changes.lamps = {0.9, 0.9, 0.8}; }, RepairEnd::repaired);
+    day([&] { changes.cameras.push_back({0, 0.8, 0.5, 0.0}); }, RepairEnd::repaired);
+    const std::vector<NightRecord> nights = nightsOf(folder);
+    QCOMPARE(nights.size(), 5);
+    QVERIFY(nights[1].when <= nights[2].when && !nights[1].what.empty() && nights[2].what.empty());
+  }
+
+  void whatGoesWrongIsAnAlarm_data() {
+    QTest::addColumn<int>("fault");
+    QTest::addColumn<QString>("stage");
+    QTest::addColumn<bool>("repaired");
+    const auto row = [](const char* name, FaultKind fault, const char* stage, bool repaired) {
+      QTest::newRow(name) << static_cast<int>(fault) << stage << repaired;
+    };
+    row("covered", FaultKind::coveredLens, "repair", false);
+    row("unplugged", FaultKind::unplugged, "repair", false);
+    row("unplugged before the proof of a repair", FaultKind::unplugged, "repair-proof", false);
+    row("unplugged while a picture is perfected", FaultKind::unplugged, "perfect", true);
+    row("covered at the proof", FaultKind::coveredLens, "prove", true);
+  }
+  /// Law: a night that cannot do its work says so in its line, and leaves what was finished.
+  void whatGoesWrongIsAnAlarm() {
+    QFETCH(int, fault);
+    QFETCH(QString, stage);
+    QFETCH(bool, repaired);
+    const fs::path folder = copy(QTest::currentDataTag());
+    const std::string correction = correctionOf(folder);
+    Changes changes;
+    changes.painted.push_back({{0.4, 0.5}, 0.15});
+    SimulatedVenue venue(venueWith(changes), cache(), quiet);
+    const auto schedule = std::make_shared<FaultSchedule>();
+    schedule->faults.push_back({static_cast<FaultKind>(fault), stage.toStdString(), 0, 100000});
+    rig::Rig rig = venue.rig(schedule);
+    const NightRecord night = tendCalibration(folder, settingsFor(), rig, quiet);
+    QVERIFY(isAlarm(night) && !english(night.alarm).empty());
+    QCOMPARE(night.repair.has_value(), repaired);
+    QCOMPARE(correctionOf(folder) != correction, repaired);
+    QCOMPARE(nightsOf(folder).size(), 1);
+    QCOMPARE(english(nightsOf(folder).front().alarm), english(night.alarm));
+  }
+
+  void aMissingPictureIsAnAlarm() {
+    const fs::path folder = copy("missing");
+    NightSettings settings = settingsFor();
+    settings.images.push_back(root() / "gone.png");
+    const NightRecord night = tendCalibration(folder, settings, cache(), quiet);
+    QVERIFY(isAlarm(night));
+    QVERIFY(night.measured && night.repair == RepairEnd::nothingToDo);
+  }
+
+  void whatCannotBeTendedIsNoNight() {
+    QVERIFY_THROWS_EXCEPTION(Error, tendCalibration(root() / "nowhere", settingsFor(), cache(), quiet));
+    NightSettings settings = settingsFor();
+    settings.photographs = 1;
+    const fs::path folder = copy("refused");
+    QVERIFY_THROWS_EXCEPTION(Error, tendCalibration(folder, settings, cache(), quiet));
+    QVERIFY(nightsOf(folder).empty());
+  }
+
+  void historyIsKept() {
+    const fs::path folder = root() / "history";
+    fs::create_directories(folder);
+    for (int number = 1; number <= 9; ++number) addNight(folder, nightNumber(number));
+    const std::vector<NightRecord> nights = nightsOf(folder);
+    QCOMPARE(nights.size(), 9);
+    for (int number = 1; number <= 9; ++number)
+      QVERIFY(areSame(nights[static_cast<std::size_t>(number - 1)], nightNumber(number)));
+    NightRecord bare;
+    bare.when = "2026-02-01T03:00:00Z";
+    addNight(folder, bare);
+    QVERIFY(!nightsOf(folder).back().repair && !nightsOf(folder).back().measured);
+  }
+  void historyDoesNotGrowForEver() {
+    const fs::path folder = root() / "long";
+    fs::create_directories(folder);
+    addNight(folder, nightNumber(1));
+    const std::string line = readFile(folder / nightsName);
+    std::string text;
+    for (std::size_t night = 0; night < mostNights; ++night) text += line;
+    std::ofstream(folder / nightsName) << text;
+    addNight(folder, nightNumber(2));
+    const std::vector<NightRecord> nights = nightsOf(folder);
+    QCOMPARE(nights.size(), mostNights);
+    QVERIFY(areSame(nights.back(), nightNumber(2)));
+  }
+  void aDamagedHistoryIsSetAside_data() {
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("no JSON") << QByteArray("{\n");
+    QTest::newRow("of another kind") << QByteArray("[1, 2]\n");
+    QTest::newRow("lacks") << QByteArray("{\"when\": \"2026\"}\n");
+    QTest::newRow("unknown name") << QByteArray(
+        "{\"when\":\"\",\"what\":[],\"perfected\":0,\"seconds\":0,\"repair\":\"eaten\"}\n");
+  }
+  void aDamagedHistoryIsSetAside() {
+    QFETCH(QByteArray, text);
+    const fs::path folder = root() / "damaged" / QTest::currentDataTag();
+    fs::create_directories(folder);
+    std::ofstream(folder / nightsName) << text.toStdString();
+    QVERIFY_THROWS_EXCEPTION(Error, nightsOf(folder));
+    addNight(folder, nightNumber(3));
+    QCOMPARE(nightsOf(folder).size(), 1);
+    QCOMPARE(readFile(folder / (std::string(nightsName) + ".unreadable")), text.toStdString());
+  }
+};
+
+QTEST_GUILESS_MAIN(TestNight)
+#include "test_night.moc"

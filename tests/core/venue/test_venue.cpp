@@ -191,7 +191,9 @@ class TestVenue : public QObject {
     const NodeLayout layout(Rasters(std::vector<Size>(2, settings.projector)));
     const ProjectorStack white(3 * layout.projectors().count(), 1.0f);
     const CameraStack flood(seen.cameraByNode.multiplyTransposed(layout.means(white)));
-    const TracedTransport hidden = traceHidden(scene, tracer, flood, progress);
+    Scene fromThere = scene;
+    fromThere.cameras = scene.hidden;
+    const TracedTransport hidden = traceInUnitsOf(scene, flood, fromThere, tracer, progress);
     const Stack there = hidden.cameraByNode.multiplyTransposed(layout.means(white));
     const std::size_t values = 3 * settings.camera.count();
     QCOMPARE(there.size(), values);

@@ -72,7 +72,7 @@ class TestSeveralScreens : public QObject {
         [this](const ScreenRigSettings& screen) {
           return std::make_unique<FileScreen>(screen.display.connector, lightOf(screen.display.connector));
         },
-        {2, 4}, nullptr);
+        {2, 4}, nullptr, pipeline::ProjectorWarmUp({}, rig));
     const QFuture<QString> answer = QtConcurrent::run([&devices]() -> QString {
       try {
         Progress quiet;

@@ -2290,6 +2290,13 @@
     </message>
 </context>
 <context>
+    <name>night.not-as-predicted</name>
+    <message>
+        <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
+        <translation>das Bild hat einen Farbfehler von {}, vorhergesagt waren {}, und keine Reparatur half</translation>
+    </message>
+</context>
+<context>
     <name>perfect.camera-blinded</name>
     <message>
         <source>something blinds the camera: {} of its view is overexposed</source>

@@ -2290,6 +2290,13 @@
     </message>
 </context>
 <context>
+    <name>night.not-as-predicted</name>
+    <message>
+        <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
+        <translation>la imagen tiene un error de color de {} donde se predecía {}, y ninguna reparación ayudó</translation>
+    </message>
+</context>
+<context>
     <name>perfect.camera-blinded</name>
     <message>
         <source>something blinds the camera: {} of its view is overexposed</source>

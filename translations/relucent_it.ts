@@ -2290,6 +2290,13 @@
     </message>
 </context>
 <context>
+    <name>night.not-as-predicted</name>
+    <message>
+        <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
+        <translation>l’immagine ha un errore di colore di {} dove era previsto {}, e nessuna riparazione ha aiutato</translation>
+    </message>
+</context>
+<context>
     <name>perfect.camera-blinded</name>
     <message>
         <source>something blinds the camera: {} of its view is overexposed</source>

@@ -2284,6 +2284,13 @@
     </message>
 </context>
 <context>
+    <name>night.not-as-predicted</name>
+    <message>
+        <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
+        <translation>画像の色の誤差は {} で、予測は {} でした。修復しても改善しませんでした</translation>
+    </message>
+</context>
+<context>
     <name>perfect.camera-blinded</name>
     <message>
         <source>something blinds the camera: {} of its view is overexposed</source>

@@ -2284,6 +2284,13 @@
     </message>
 </context>
 <context>
+    <name>night.not-as-predicted</name>
+    <message>
+        <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
+        <translation>图像的颜色误差为 {}，预测为 {}，修复也没有帮助</translation>
+    </message>
+</context>
+<context>
     <name>perfect.camera-blinded</name>
     <message>
         <source>something blinds the camera: {} of its view is overexposed</source>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "relucent/cli/device_choices.h"
 #include "relucent/cli/change_options.h"
+#include "relucent/cli/device_choices.h"
 #include "relucent/cli/options.h"
 #include "relucent/cli/projector_options.h"
 #include "relucent/pipeline/command_devices.h"

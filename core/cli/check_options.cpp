@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <memory>
 
-#include "relucent/cli/device_choices.h"
 #include "relucent/cli/change_options.h"
+#include "relucent/cli/device_choices.h"
 #include "relucent/cli/options.h"
 #include "relucent/devices/camera_registry.h"
 
@@ -32,12 +32,10 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
   CLI::Option* photograph = sub->add_option("--camera-command", commands.cameraCommand,
                                             "Command that photographs {exposure} seconds into {output}")
                                 ->type_name("CMD");
-  CLI::Option* camera =
-      sub->add_option_function<std::string>(
-             "--camera",
-             [places](const std::string& text) { places->cameras.read(text); },
-             "A camera by its address, see `devices`")
-          ->type_name("KIND:PLACE");
+  CLI::Option* camera = sub->add_option_function<std::string>(
+                               "--camera", [places](const std::string& text) { places->cameras.read(text); },
+                               "A camera by its address, see `devices`")
+                            ->type_name("KIND:PLACE");
   sub->add_option("--frame-rate", places->frameRate, "Frame rate of the projector")
       ->type_name("HZ")
       ->capture_default_str();
@@ -56,7 +54,8 @@ std::function<Command()> addCheckOptions(CLI::App* sub) {
       command->settings.rig = places->venue;
       return Command(*command);
     }
-    if (!places->cameras.addresses.empty()) places->commands.cameraAddress = places->cameras.addresses.front();
+    if (!places->cameras.addresses.empty())
+      places->commands.cameraAddress = places->cameras.addresses.front();
     const bool seen = photograph->count() > 0 || !places->commands.cameraAddress.empty();
     if (show->count() == 0 || projector->count() == 0 || !seen)
       throw WrongUsage(

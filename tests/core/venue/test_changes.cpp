@@ -106,9 +106,8 @@ class TestChanges : public QObject {
       now[i % 3] += static_cast<double>(after[i]);
     }
     const std::array<double, 3> left{now[0] / then[0], now[1] / then[1], now[2] / then[2]};
-    QVERIFY2(
-        std::abs(left[0] - 1.0) < 0.1 && std::abs(left[1] - 0.8) < 0.1 && std::abs(left[2] - 0.5) < 0.1,
-        qPrintable(QString("%1 %2 %3").arg(left[0]).arg(left[1]).arg(left[2])));
+    QVERIFY2(std::abs(left[0] - 1.0) < 0.1 && std::abs(left[1] - 0.8) < 0.1 && std::abs(left[2] - 0.5) < 0.1,
+             qPrintable(QString("%1 %2 %3").arg(left[0]).arg(left[1]).arg(left[2])));
   }
 
   void whatChangesInOnePlaceChangesThere_data() {

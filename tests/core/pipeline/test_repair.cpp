@@ -164,6 +164,9 @@ class TestRepair : public QObject {
     QVERIFY2(after.psnr > std::min(before.psnr, anew.psnr) - 0.1, qPrintable(figures));
     QVERIFY2(after.deltaE < 1.02 * before.deltaE, qPrintable(figures));
     QCOMPARE(correctionOf(folder) != correction, result.end == RepairEnd::repaired);
+    // What another light explains is not measured again.
+    if (change == "aged" || change == "filtered" || change == "brighter room")
+      QVERIFY2(result.measured < 0.1, qPrintable(figures));
     for (const Message& what : result.what) QVERIFY(!english(what).empty());
   }
 
@@ -174,6 +177,19 @@ class TestRepair : public QObject {
     QCOMPARE(result.end, RepairEnd::nothingToDo);
     QVERIFY(result.what.empty() && result.before.empty());
     QCOMPARE(result.measured, 0.0);
+    QCOMPARE(correctionOf(folder), correction);
+    QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
+  }
+
+  /// What photographs of a picture do not tell apart is not worth another measurement.
+  void whatNobodySeesIsLeft() {
+    const fs::path folder = copyOf("corner", acquisition::AcquisitionMode::multiplexed, "unseen");
+    const std::string correction = correctionOf(folder);
+    Changes changes;
+    changes.lamps = {0.98, 0.98, 0.975};
+    const RepairResult result = repairedAs(folder, "corner", changes);
+    QCOMPARE(result.end, RepairEnd::notBetter);
+    QVERIFY(!result.what.empty() && !result.after.empty());
     QCOMPARE(correctionOf(folder), correction);
     QVERIFY_THROWS_EXCEPTION(Error, undoRepair(folder));
   }

@@ -80,4 +80,9 @@ transport::TransportMatrix mixedRows(const transport::TransportMatrix& first,
           first.groups().without(chosen)};
 }
 
+void replaceRows(Stack& into, const Stack& from, const std::vector<std::uint8_t>& chosen) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (chosen[i / 3]) into[i] = from[i];
+}
+
 }  // namespace relucent::acquisition

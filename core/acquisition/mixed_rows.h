@@ -17,5 +17,7 @@ transport::BlockSparse mixedRows(const transport::BlockSparse& first, const tran
 transport::TransportMatrix mixedRows(const transport::TransportMatrix& first,
                                      const transport::TransportMatrix& second,
                                      const std::vector<std::uint8_t>& chosen);
+/// The same of what is known of rows, three values each.
+void replaceRows(Stack& into, const Stack& from, const std::vector<std::uint8_t>& chosen);
 
 }  // namespace relucent::acquisition

@@ -153,11 +153,6 @@ double sumOf(const Stack& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-void replaceRows(Stack& into, const Stack& from, const CameraMask& chosen) {
-  for (std::size_t i = 0; i < into.size(); ++i)
-    if (chosen[i / 3]) into[i] = from[i];
-}
-
 class Renewing {
  public:
   Renewing(const AcquisitionRun& run, const transport::Acquisition& former, const RenewalSettings& settings,

@@ -25,11 +25,6 @@ void adoptVerification(VerifiedTransport& verified, const Verification& verifica
   verified.residual = verification.residual;
 }
 
-void replaceRows(Stack& into, const Stack& from, const std::vector<std::uint8_t>& chosen) {
-  for (std::size_t i = 0; i < into.size(); ++i)
-    if (chosen[i / 3]) into[i] = from[i];
-}
-
 /// Rounds of measuring flagged camera pixels again.
 class Repair {
  public:

@@ -48,6 +48,13 @@ int statusOf(acquisition::Verdict verdict) {
   return failed;
 }
 
+std::vector<std::filesystem::path> stillsOf(const std::vector<std::filesystem::path>& contents) {
+  std::vector<std::filesystem::path> stills;
+  for (const std::filesystem::path& content : contents)
+    for (std::filesystem::path& still : pipeline::stillsOf(content)) stills.push_back(std::move(still));
+  return stills;
+}
+
 /// The calibration's venue as it has become; none: as it was.
 std::optional<pipeline::RigSettings> rehearsedRig(const std::filesystem::path& calibration,
                                                   const venue::Changes& changes) {
@@ -120,9 +127,7 @@ struct Executor {
 
   CommandResult operator()(const Perfect& command) const {
     pipeline::PerfectSettings settings = command.settings;
-    for (const std::filesystem::path& content : command.content)
-      for (std::filesystem::path& still : pipeline::stillsOf(content))
-        settings.images.push_back(std::move(still));
+    settings.images = stillsOf(command.content);
     if (command.forget)
       return outcomeOf(pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas));
     refuse(problems(settings));
@@ -148,9 +153,7 @@ struct Executor {
   CommandResult operator()(const TendNight& command) const {
     if (command.history) return outcomeOf(pipeline::nightsOf(command.calibration));
     pipeline::NightSettings settings = command.settings;
-    for (const std::filesystem::path& content : command.content)
-      for (std::filesystem::path& still : pipeline::stillsOf(content))
-        settings.images.push_back(std::move(still));
+    settings.images = stillsOf(command.content);
     refuse(problems(settings));
     settings.rig = rehearsedRig(command.calibration, command.changes);
     const pipeline::NightRecord night =

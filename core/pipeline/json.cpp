@@ -4,6 +4,7 @@
 #include <map>
 
 #include "relucent/base/message.h"
+#include "relucent/pipeline/picture_error_json.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -188,12 +189,6 @@ calibration::Json toJson(const RepairResult& result) {
     for (Eigen::Index row = 0; row < 3; ++row) rows.push_back({of(row, 0), of(row, 1), of(row, 2)});
     light.push_back(std::move(rows));
   }
-  const auto views = [](const std::vector<PictureError>& errors) {
-    calibration::Json json = calibration::Json::array();
-    for (const PictureError& error : errors)
-      json.push_back({{"psnr", error.psnr}, {"delta_e", error.deltaE}});
-    return json;
-  };
   return {{"outcome", nameOf(result.end)},
           {"what", sentencesOf(result.what)},
           {"moved", movements(result.change.moved)},
@@ -208,15 +203,15 @@ calibration::Json toJson(const RepairResult& result) {
           {"error_before", result.errorBefore},
           {"error_adapted", result.errorAdapted},
           {"error_after", result.errorAfter},
-          {"before", views(result.before)},
-          {"after", views(result.after)},
+          {"before", result.before},
+          {"after", result.after},
           {"exposures", result.exposures},
           {"seconds", result.seconds}};
 }
 
 calibration::Json toJson(const NightRecord& night) {
   const auto errorOf = [](const std::optional<PictureError>& error) {
-    return error ? calibration::Json{{"psnr", error->psnr}, {"delta_e", error->deltaE}} : calibration::Json();
+    return error ? calibration::Json(*error) : calibration::Json();
   };
   return {{"when", night.when},
           {"repair", night.repair ? calibration::Json(nameOf(*night.repair)) : calibration::Json()},
@@ -268,8 +263,7 @@ calibration::Json toJson(const PerfectResult& result) {
                            {"error_deviation", seen.error.deviation},
                            {"surprise", seen.surprise},
                            {"views", calibration::Json::array()}};
-    for (const PictureError& view : seen.views)
-      json["views"].push_back({{"psnr", view.psnr}, {"delta_e", view.deltaE}});
+    for (const PictureError& view : seen.views) json["views"].push_back(view);
     return json;
   };
   calibration::Json images = calibration::Json::array();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/night_record.h"
 
-#include <limits>
 #include <string_view>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/calibration/message_json.h"
+#include "relucent/pipeline/picture_error_json.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -15,24 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 using calibration::Json;
 
-Json toJson(const PictureError& error) {
-  return {{"psnr", error.psnr}, {"delta_e", error.deltaE}};
-}
-std::optional<PictureError> errorFrom(const Json& json, const char* key) {
-  if (!json.contains(key)) return std::nullopt;
-  const Json& error = json.at(key);
-  // JSON knows no NaN: nothing is reachable.
-  return PictureError{
-      error.at("psnr").is_null() ? std::numeric_limits<double>::quiet_NaN() : error.at("psnr").get<double>(),
-      error.at("delta_e").get<double>()};
-}
-
 Json toJson(const NightRecord& night) {
   Json json{
       {"when", night.when}, {"what", night.what}, {"perfected", night.perfected}, {"seconds", night.seconds}};
   if (night.repair) json["repair"] = *night.repair;
-  if (night.measured) json["measured"] = toJson(*night.measured);
-  if (night.predicted) json["predicted"] = toJson(*night.predicted);
+  if (night.measured) json["measured"] = *night.measured;
+  if (night.predicted) json["predicted"] = *night.predicted;
   if (!night.alarm.empty()) json["alarm"] = night.alarm;
   return json;
 }
@@ -43,8 +31,8 @@ NightRecord nightFrom(const Json& json) {
   if (json.contains("repair")) night.repair = json.at("repair").get<RepairEnd>();
   night.what = json.at("what").get<std::vector<Message>>();
   night.perfected = json.at("perfected").get<int>();
-  night.measured = errorFrom(json, "measured");
-  night.predicted = errorFrom(json, "predicted");
+  if (json.contains("measured")) night.measured = json.at("measured").get<PictureError>();
+  if (json.contains("predicted")) night.predicted = json.at("predicted").get<PictureError>();
   if (json.contains("alarm")) night.alarm = json.at("alarm").get<Message>();
   night.seconds = json.at("seconds").get<double>();
   return night;

@@ -2,13 +2,13 @@
 #include "relucent/pipeline/perfected.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
 #include "relucent/calibration/json.h"
 #include "relucent/image/exr.h"
+#include "relucent/pipeline/picture_error_json.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -19,21 +19,6 @@ constexpr int recordVersion = 1;
 
 fs::path recordOf(const fs::path& calibration, const std::string& key) {
   return perfectedFolder(calibration) / key / recordName;
-}
-
-calibration::Json toJson(const std::vector<PictureError>& errors) {
-  calibration::Json json = calibration::Json::array();
-  for (const PictureError& error : errors) json.push_back({{"psnr", error.psnr}, {"delta_e", error.deltaE}});
-  return json;
-}
-std::vector<PictureError> errorsFrom(const calibration::Json& json) {
-  std::vector<PictureError> errors;
-  for (const calibration::Json& error : json)
-    // JSON knows no NaN: nothing is reachable.
-    errors.push_back({error.at("psnr").is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                                 : error.at("psnr").get<double>(),
-                      error.at("delta_e").get<double>()});
-  return errors;
 }
 
 /// A file's name and nothing that leads elsewhere.
@@ -61,8 +46,8 @@ PerfectedPicture recordFrom(const fs::path& calibration, const std::string& key)
     picture.folder = calibration;
     picture.picture = json.at("picture").get<std::string>();
     picture.perfected = json.at("perfected").get<std::string>();
-    picture.figures = {errorsFrom(json.at("before")), errorsFrom(json.at("after")),
-                       json.at("photographs").get<int>()};
+    picture.figures = {json.at("before").get<std::vector<PictureError>>(),
+                       json.at("after").get<std::vector<PictureError>>(), json.at("photographs").get<int>()};
     for (const calibration::Json& name : json.at("files"))
       picture.files.push_back(plainName(name.get<std::string>()));
     return picture;
@@ -111,8 +96,8 @@ std::vector<fs::path> savePerfected(PerfectedPicture picture, const ProjectorSta
   writeFileAtomically(folder / recordName, calibration::Json{{"version", recordVersion},
                                                              {"picture", picture.picture},
                                                              {"perfected", picture.perfected},
-                                                             {"before", toJson(picture.figures.before)},
-                                                             {"after", toJson(picture.figures.after)},
+                                                             {"before", picture.figures.before},
+                                                             {"after", picture.figures.after},
                                                              {"photographs", picture.figures.photographs},
                                                              {"files", picture.files}}
                                                .dump(2));

@@ -6,6 +6,7 @@
 #include "relucent/base/fingerprint.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/picture_error_json.h"
 #include "relucent/pipeline/settings_json.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -16,20 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* fileName = "proof.json";
 
-calibration::Json toJson(const PictureError& error) {
-  return {{"psnr", error.psnr}, {"delta_e", error.deltaE}};
-}
-PictureError errorFrom(const calibration::Json& json) {
-  return {json.at("psnr").get<double>(), json.at("delta_e").get<double>()};
-}
-
 calibration::Json toJson(const ProvedProjection& projection) {
-  return {{"predicted", toJson(projection.predicted)},
-          {"measured", toJson(projection.measured)},
+  return {{"predicted", projection.predicted},
+          {"measured", projection.measured},
           {"surprise", projection.surprise}};
 }
 ProvedProjection projectionFrom(const calibration::Json& json) {
-  return {errorFrom(json.at("predicted")), errorFrom(json.at("measured")), json.at("surprise").get<double>()};
+  return {json.at("predicted").get<PictureError>(), json.at("measured").get<PictureError>(),
+          json.at("surprise").get<double>()};
 }
 
 calibration::Json toJson(const sentinels::Movement& moved) {

@@ -4,7 +4,9 @@
 
 #include <QTemporaryDir>
 #include <QtTest>
+#include <cmath>
 #include <fstream>
+#include <limits>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
@@ -182,6 +184,21 @@ class TestNight : public QObject {
     bare.when = "2026-02-01T03:00:00Z";
     addNight(folder, bare);
     QVERIFY(!nightsOf(folder).back().repair && !nightsOf(folder).back().measured);
+  }
+  /// Where nothing can be reached there is no PSNR: nights and proofs are read again all the same.
+  void aPictureOutOfReachIsKept() {
+    const fs::path folder = root() / "unreachable";
+    fs::create_directories(folder);
+    const PictureError none{std::numeric_limits<double>::quiet_NaN(), 40.0};
+    NightRecord night = nightNumber(1);
+    night.measured = none;
+    addNight(folder, night);
+    QVERIFY(std::isnan(nightsOf(folder).front().measured->psnr));
+    QCOMPARE(nightsOf(folder).front().measured->deltaE, 40.0);
+    ProofRecord proof;
+    proof.figures.after.measured = none;
+    saveProofRecord(proof, folder);
+    QVERIFY(std::isnan(loadProofRecord(folder)->figures.after.measured.psnr));
   }
   void historyDoesNotGrowForEver() {
     const fs::path folder = root() / "long";

@@ -166,17 +166,17 @@ class Propagation {
       if (score > best.correlation) best = {static_cast<std::int32_t>(node), score, 0.0f, 0.0f};
     };
     // Near neighbours and, as sweeps go on, less near ones: good places spread quickly.
-    int reach = 1 << (number % 4);
+    int apart = 1 << (number % 4);
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        Pixel neighbour{at.x + reach * dx, at.y + reach * dy};
+        Pixel neighbour{at.x + apart * dx, at.y + apart * dy};
         if (neighbour.x < 0 || neighbour.y < 0 || neighbour.x >= camera.width || neighbour.y >= camera.height)
           continue;
         const Decoded& there = before[indexOf(camera, neighbour)];
         if (there.pixel < 0) continue;
         Pixel place = pixelAt(projector, static_cast<std::size_t>(there.pixel));
         attempt(place);
-        attempt({place.x - reach * dx, place.y - reach * dy});
+        attempt({place.x - apart * dx, place.y - apart * dy});
       }
     if (best.pixel >= 0) {
       Pixel place = pixelAt(projector, static_cast<std::size_t>(best.pixel));

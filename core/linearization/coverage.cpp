@@ -147,12 +147,12 @@ class Looking {
     for (int bit = 0; bit < rowBits; ++bit) follow(picture, cells, {true, bit});
     std::vector<Coverage>& coverages = result.coverages.emplace_back();
     result.litBy.resize(cameras_.size());
-    for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
-      coverages.push_back(cameras_[camera].seenOf(cells));
-      std::vector<std::uint32_t>& lit = result.litBy[camera];
-      lit.resize(cameras_[camera].follows.size());
+    for (std::size_t number = 0; number < cameras_.size(); ++number) {
+      coverages.push_back(cameras_[number].seenOf(cells));
+      std::vector<std::uint32_t>& lit = result.litBy[number];
+      lit.resize(cameras_[number].follows.size());
       for (std::size_t i = 0; i < lit.size(); ++i)
-        if (cameras_[camera].isLit(i, columnBits, rowBits)) lit[i] |= std::uint32_t{1} << projector_;
+        if (cameras_[number].isLit(i, columnBits, rowBits)) lit[i] |= std::uint32_t{1} << projector_;
     }
   }
 

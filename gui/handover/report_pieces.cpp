@@ -136,7 +136,7 @@ class Parser {
     if (alone) keepPiece();
   }
 
-  void begin(const QString& name, const QString& style) {
+  void begin(const QString& name, const QString& kind) {
     const bool isGridsChild = !open_.isEmpty() && open_.last().columns > 0;
     if (name == "title")
       found_.title = xml_.readElementText();
@@ -145,18 +145,18 @@ class Parser {
     else if (isGridsChild)
       openCell();
     else if (name == "svg")
-      placeChart(style == "legend");
+      placeChart(kind == "legend");
     else if (name == "img") {
       open({}, {});
       placePicture();
-    } else if (style.startsWith("pictures"))
-      open({}, {}).columns = style.contains("large") ? 2 : 3;
-    else if (style == "charts")
+    } else if (kind.startsWith("pictures"))
+      open({}, {}).columns = kind.contains("large") ? 2 : 3;
+    else if (kind == "charts")
       open({}, {}).columns = 2;
     else if (name == "dl")
       beginCards();
     else
-      beginText(name, style);
+      beginText(name, kind);
   }
 
   void beginCards() {
@@ -164,7 +164,7 @@ class Parser {
     open_.last().isList = true;
   }
 
-  void beginText(const QString& name, const QString& style) {
+  void beginText(const QString& name, const QString& kind) {
     const bool isInList = !open_.isEmpty() && open_.last().isList;
     if (name == "div" && isInList)
       open("<td bgcolor=\"#F1EDE8\">", "</td>");
@@ -177,27 +177,27 @@ class Parser {
     else if (name == "h3")
       openPiece({{}, 8.0, true, false}, "<h3>", "</h3>");
     else if (name == "p")
-      openPiece({{}, 3.0, style == "soft", false}, style == "soft" ? "<p style=\"color:#555\">" : "<p>",
+      openPiece({{}, 3.0, kind == "soft", false}, kind == "soft" ? "<p style=\"color:#555\">" : "<p>",
                 "</p>");
     else if (name == "li")
-      beginItem(style);
+      beginItem(kind);
     else if (name == "table" || name == "tr")
-      beginTable(name, style);
+      beginTable(name, kind);
     else
-      beginWithin(name, style);
+      beginWithin(name, kind);
   }
 
-  void beginItem(const QString& style) {
-    if (!style.startsWith("note")) return openPiece({{}, 2.0, false, false}, "<ul><li>", "</li></ul>");
+  void beginItem(const QString& kind) {
+    if (!kind.startsWith("note")) return openPiece({{}, 2.0, false, false}, "<ul><li>", "</li></ul>");
     openPiece({{}, 4.0, false, false},
               QString("<table width=\"100%\" cellpadding=\"6\"><tr><td bgcolor=\"%1\">")
-                  .arg(style.contains("amber") ? "#FAEFD2" : "#E3F0E6"),
+                  .arg(kind.contains("amber") ? "#FAEFD2" : "#E3F0E6"),
               "</td></tr></table>");
   }
 
   /// Rows of long tables stand in tables of their own, whose columns are as wide as those of the others.
-  void beginTable(const QString& name, const QString& style) {
-    if (name == "table" && style == "long")
+  void beginTable(const QString& name, const QString& kind) {
+    if (name == "table" && kind == "long")
       open({}, {}).rowsBreak = true;
     else if (name == "table")
       openPiece({{}, 6.0, false, false}, "<table width=\"100%\" cellpadding=\"3\">", "</table>");
@@ -207,7 +207,7 @@ class Parser {
       open("<tr>", "</tr>");
   }
 
-  void beginWithin(const QString& name, const QString& style) {
+  void beginWithin(const QString& name, const QString& kind) {
     if (name == "figcaption")
       open("<p>", "</p>");
     else if (name == "caption" || name == "summary" || name == "footer")
@@ -215,15 +215,15 @@ class Parser {
     else if (name == "br")
       open("<br>", "");
     else if (name == "th" || name == "td")
-      open(cellOf(name, style), "</td>");
+      open(cellOf(name, kind), "</td>");
     else if (name == "b")
       open("<b>", "</b>");
     else
       open({}, {});
   }
-  QString cellOf(const QString& name, const QString& style) const {
+  QString cellOf(const QString& name, const QString& kind) const {
     // Figures are short and stay whole; what is read needs room, or it becomes a column of single words.
-    if (!isInLongTable() && style == "prose") return "<td width=\"25%\" style=\"font-size:7.5pt\">";
+    if (!isInLongTable() && kind == "prose") return "<td width=\"25%\" style=\"font-size:7.5pt\">";
     const bool isWhole = name == "td" || xml_.attributes().value("scope") == QLatin1String("row");
     if (!isInLongTable())
       return QString("<td style=\"font-size:7.5pt%1\">").arg(isWhole ? ";white-space:nowrap" : "");

@@ -112,12 +112,12 @@ class Slicer {
     std::vector<std::uint32_t> slot(runs.size());
     for (std::uint32_t i = 0; i < runs.size(); ++i) slot[runs[i].owner - patch.groupBegin] = first + i;
     for (const Run& run : runs) {
-      const PackedGroup& group = packed_.groups()[run.owner];
+      const PackedGroup& of = packed_.groups()[run.owner];
       const auto place = static_cast<std::uint32_t>(result_.backPlaces++);
       receivers.push_back({place - firstBack, run.leaves});
       result_.groups.push_back(
-          {group.parent == PackedGroup::none ? SlicedTransport::none : slot[group.parent - patch.groupBegin],
-           place, group.rowBegin, group.rowEnd, group.scale});
+          {of.parent == PackedGroup::none ? SlicedTransport::none : slot[of.parent - patch.groupBegin], place,
+           of.rowBegin, of.rowEnd, of.scale});
     }
     result_.groups.resize(lanes * result_.groupForward.slices.size());
     return slot;
@@ -135,9 +135,9 @@ class Slicer {
       result_.backPlaces += 2;
       receivers.push_back({back - firstBack, run.leaves});
       result_.groupBack[run.owner] = back + 1;
-      const std::uint32_t group =
+      const std::uint32_t slot =
           row.group == PackedGroup::none ? SlicedTransport::none : slotOfGroup[row.group - patch.groupBegin];
-      SlicedTransport::Row slotted{row.pixel, {}, {}, group, back};
+      SlicedTransport::Row slotted{row.pixel, {}, {}, slot, back};
       Eigen::Map<transport::ColourBlock>(slotted.own.data()) = packed_.ownMixing(row);
       Eigen::Map<transport::ColourBlock>(slotted.shared.data()) = packed_.sharedMixing(row);
       result_.rows.push_back(slotted);

@@ -15,14 +15,14 @@ namespace relucent::gui {
 namespace {
 
 QString nameOf(const pipeline::PixelForecast& forecast) {
-  using Kind = reduction::PixelUse::Kind;
+  using Use = reduction::PixelUse::Kind;
   const QString size = sizeText(forecast.used.width, forecast.used.height);
   switch (forecast.use.kind) {
-    case Kind::automatic:
+    case Use::automatic:
       return CameraPage::tr("As many as needed: %1").arg(size);
-    case Kind::all:
+    case Use::all:
       return CameraPage::tr("All: %1").arg(size);
-    case Kind::binned:
+    case Use::binned:
       break;
   }
   const QString bin = sizeText(forecast.use.bin, forecast.use.bin);

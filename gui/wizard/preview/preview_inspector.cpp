@@ -150,10 +150,10 @@ QWidget* previewInspector(PreviewPage& page) {
     apply(PreviewPage::tr("Lift of the blacks"),
           [value](pipeline::ContentSettings& s) { s.blackLift = value / 100.0; });
   });
-  QObject::connect(least, &Tick::toggled, &page, [apply, &page](bool automatic) {
-    apply(PreviewPage::tr("Lift of the blacks"), [automatic, &page](pipeline::ContentSettings& s) {
+  QObject::connect(least, &Tick::toggled, &page, [apply, &page](bool isLeast) {
+    apply(PreviewPage::tr("Lift of the blacks"), [isLeast, &page](pipeline::ContentSettings& s) {
       s.blackLift.reset();
-      if (!automatic) s.blackLift = page.preview() ? page.preview()->blackLift : 0.0;
+      if (!isLeast) s.blackLift = page.preview() ? page.preview()->blackLift : 0.0;
     });
   });
   auto refresh = [=, &page] {

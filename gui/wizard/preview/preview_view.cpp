@@ -36,10 +36,10 @@ QImage hatchesOf(const ViewPreview& preview) {
   QPainter painter(&overlay);
   painter.setRenderHint(QPainter::Antialiasing);
   if (!preview.corners) return overlay;
-  QPolygonF corners;
-  for (const auto& corner : *preview.corners) corners.append(QPointF(corner[0], corner[1]) * fine);
+  QPolygonF outline;
+  for (const auto& corner : *preview.corners) outline.append(QPointF(corner[0], corner[1]) * fine);
   painter.setPen(QPen(colours(Look::dark).accent, 3.0));
-  painter.drawPolygon(corners);
+  painter.drawPolygon(outline);
   return overlay;
 }
 

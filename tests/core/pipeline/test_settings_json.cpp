@@ -158,7 +158,7 @@ class TestSettingsJson : public QObject {
     QFETCH(QString, camera);
     QFETCH(QString, address);
     QFETCH(QByteArray, sentence);
-    CommandRigSettings rig{"show {image}", "shoot {exposure} {output}", {64, 48}};
+    CommandRigSettings rig{"show {image}", "shoot {exposure} {output}", {64, 48}, {}};
     rig.moreProjectors = {{projector.toStdString(), size}};
     rig.moreCameras = {{camera.toStdString(), address.toStdString()}};
     CalibrateSettings settings;

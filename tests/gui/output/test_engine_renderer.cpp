@@ -101,7 +101,8 @@ class TestEngineRenderer : public QObject {
     QTest::addColumn<int>("brightness");
     for (const char* venue : {"corner", "plain"})
       for (Brightness brightness : allValues<Brightness>())
-        QTest::addRow("%s, %s", venue, nameOf(brightness).data()) << venue << static_cast<int>(brightness);
+        QTest::addRow("%s, %s", venue, std::string(nameOf(brightness)).c_str())
+            << venue << static_cast<int>(brightness);
   }
   void aPictureThatStandsIsThePipelines() {
     QFETCH(QString, venue);

@@ -215,6 +215,9 @@ std::string textOf(const pipeline::CompensateResult& result) {
     std::replace(reason.begin(), reason.end(), '_', ' ');
     text += fmt::format("Cannot be corrected: {:.1f} % {}.\n", 100.0 * share, reason);
   }
+  if (result.expectedError)
+    text += fmt::format("Of what is seen 95 % should lie within {:.2f} % of white of this.\n",
+                        100.0 * *result.expectedError);
   if (result.contradiction)
     text += fmt::format("Visibly worse because of other views: {:.1f} % of what the views ask for.\n",
                         100.0 * result.contradiction->share);
@@ -263,6 +266,9 @@ std::string textOf(const pipeline::EvaluateResult& result) {
     if (image.contradiction)
       text += fmt::format("Visibly worse because of other views: {:.1f} %.\n",
                           100.0 * image.contradiction->share);
+    if (image.asExpected)
+      text +=
+          fmt::format("Within what the measurement expects of 95 %: {:.1f} %.\n", 100.0 * *image.asExpected);
   }
   for (const pipeline::SeamScore& seams : result.seams)
     text += fmt::format(

@@ -43,13 +43,19 @@ struct CompensateResult {
   /// (compensation/contradiction.h). Empty with one.
   std::optional<ContradictionShares> contradiction{};
   std::vector<Message> notes{};  // on the views
+  /// Half of the interval about the prediction within which 95 % of what is seen are expected, as a share of
+  /// white: root of the mean square over the content (compensation/expected_error.h). None: it was not
+  /// measured, but imported.
+  std::optional<double> expectedError{};
 };
 
 /// Computes the pattern that makes the venue look like an image, and what the camera should then see.
 /// Writes pattern.png (8-bit drive), pattern.exr (linear), target.exr, predicted.exr (camera signal per
 /// second), target.png, predicted.png (to look at), delta_e.exr (CIEDE2000) and uncorrectable.exr, .png (the
 /// number of its reason a pixel, see Uncorrectable; colours) into `out`; where several cameras see it,
-/// contradiction.exr and .png too (CIEDE2000, a file each).
+/// contradiction.exr and .png too (CIEDE2000, a file each); of what was measured, expected_error.exr (camera
+/// signal per second, half of the interval that is expected to hold 95 % of what is seen about the
+/// prediction).
 CompensateResult compensate(const std::filesystem::path& folder, const CompensateSettings& settings,
                             Progress& progress);
 

@@ -18,6 +18,7 @@
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/judge.h"
 #include "relucent/pipeline/perfecting_loop.h"
+#include "relucent/pipeline/projection.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/standard_images.h"
 
@@ -44,6 +45,25 @@ double shareOf(const std::vector<std::uint8_t>& part, const std::vector<std::uin
     inPart += whole[i] != 0 && part[i] != 0;
   }
   return inWhole > 0 ? static_cast<double>(inPart) / static_cast<double>(inWhole) : 0.0;
+}
+
+/// Of what is shown, with the codes of a projector: they are no errors of T.
+std::optional<double> asExpected(const MeasuredCalibration& measured, const compensation::Target& target,
+                                 const compensation::Compensation& compensation, const CameraStack& seen) {
+  const compensation::MeasuredVenue& venue = measured.venue;
+  if (measured.acquisition.variance.leaf.empty()) return std::nullopt;
+  const ProjectorStack shown =
+      shownLight(compensation.projector, venue.transport.projectors(), measured.linearization);
+  const CameraStack predicted = venue.transport.apply(shown),
+                    deviation = expectedDeviation(venue.transport, measured.acquisition.variance, shown);
+  std::size_t all = 0, within = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (target.inside[i / 3] == 0 || venue.usable[i / 3] == 0) continue;
+    ++all;
+    within += std::abs(seen[i] - predicted[i] - venue.black[i]) <= compensation::within95 * deviation[i];
+  }
+  if (all == 0) return std::nullopt;
+  return static_cast<double>(within) / static_cast<double>(all);
 }
 
 std::vector<NamedImage> contentOf(const EvaluateSettings& settings) {
@@ -227,6 +247,7 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
         }
       }
       pictures.seen.emplace(method, judge.view(seen, 0));
+      if (method == methods.back()) score.asExpected = asExpected(measured, target, compensation, seen);
       if (judge.views() > 1 && method == methods.back()) {
         Progress comparing;
         const compensation::Contradiction contradiction =

@@ -89,6 +89,9 @@ struct ImageScore {
   std::vector<ViewScore> others{};       // camera after camera
   std::vector<ViewScore> unseen{};       // what viewers see who stand where no camera does, place after place
   std::optional<ContradictionShares> contradiction{};  // of several views, as the last method has it
+  /// Share of all views' values, where pixels are usable, that the last method's prediction is as near to as
+  /// it expects for 95 % of them (compensation/expected_error.h).
+  std::optional<double> asExpected{};
 };
 
 /// What is seen of the edges of projectors' pictures where a flat grey is wanted (compensation/seams.h).

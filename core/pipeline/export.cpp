@@ -33,7 +33,7 @@ void writeMaps(const fs::path& folder, const MeasuredCalibration& measured, Writ
   Stack brightest = venue.flood;
   for (std::size_t i = 0; i < brightest.size(); ++i) brightest[i] += venue.black[i];
   Stack noise(venue.flood.size());
-  std::transform(measured.acquisition.floodVariance.begin(), measured.acquisition.floodVariance.end(),
+  std::transform(measured.acquisition.variance.flood.begin(), measured.acquisition.variance.flood.end(),
                  noise.begin(), [](float variance) { return std::sqrt(variance); });
   const char* radiance = "camera signal per second";
   auto write = [&](const std::string& name, const Stack& stack, const std::string& units) {

@@ -107,6 +107,7 @@ calibration::Json scoreToJson(const ImageScore& image) {
   addRivals(json, image.rivals);
   addPerfected(json, image.perfected);
   if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
+  if (image.asExpected) json["as_expected"] = *image.asExpected;
   return json;
 }
 
@@ -301,6 +302,7 @@ calibration::Json toJson(const CompensateResult& result) {
       {"reachable", result.reachable},   {"uncorrectable", sharesToJson(result.uncorrectable)},
       {"seconds", result.seconds},       {"files", pathsToJson(result.files)}};
   if (result.contradiction) json["contradiction"] = contradictionToJson(*result.contradiction);
+  if (result.expectedError) json["expected_error"] = *result.expectedError;
   if (!result.notes.empty()) json["notes"] = sentencesOf(result.notes);
   return json;
 }

@@ -69,8 +69,11 @@ CameraMask usablePixels(const transport::Acquisition& acquisition) {
 }
 
 AcquisitionFigures figuresOf(const transport::Acquisition& acquisition) {
-  return {acquisition.flagged, acquisition.floodVariance, acquisition.unresolvedEnergy,
-          acquisition.verificationError, acquisition.findings};
+  return {acquisition.flagged,
+          {acquisition.blackVariance, acquisition.floodVariance, acquisition.leafVariance},
+          acquisition.unresolvedEnergy,
+          acquisition.verificationError,
+          acquisition.findings};
 }
 
 compensation::MeasuredVenue measuredVenueOf(const transport::Acquisition& acquisition,

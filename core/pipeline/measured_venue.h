@@ -3,6 +3,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/compensation/expected_error.h"
 #include "relucent/compensation/ridge_choice.h"
 #include "relucent/compensation/target.h"
 #include "relucent/inverse/windows.h"
@@ -16,7 +17,7 @@ namespace relucent::pipeline {
 /// What is told of an acquisition once its T has become a venue: all but what a venue holds.
 struct AcquisitionFigures {
   CameraMask flagged;
-  CameraStack floodVariance;
+  compensation::TransportVariance variance;  // of an import nothing is known of the leaves': empty
   double unresolvedEnergy = 0.0;
   double verificationError = 0.0;
   std::vector<Message> findings;

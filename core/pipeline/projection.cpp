@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/projection.h"
 
+#include <cmath>
+
 #include "relucent/base/error.h"
 #include "relucent/image/resample.h"
 
@@ -15,6 +17,17 @@ std::vector<image::Image> encodedDrive(const ProjectorStack& linear, const Raste
     drive.push_back(
         linearization.projectors[projector].encode(image::imageFromStack(linear, projectors, projector)));
   return drive;
+}
+
+ProjectorStack shownLight(const ProjectorStack& linear, const Rasters& projectors,
+                          const linearization::Linearization& linearization) {
+  constexpr float codes = 255.0f;
+  std::vector<image::Image> light = encodedDrive(linear, projectors, linearization);
+  for (std::size_t projector = 0; projector < light.size(); ++projector) {
+    for (float& drive : light[projector].data()) drive = std::round(drive * codes) / codes;
+    light[projector] = linearization.projectors[projector].decode(light[projector]);
+  }
+  return ProjectorStack(image::stackFromImages(light, projectors));
 }
 
 Stack patternFrom(const image::Image& linearContent, const Rasters& projectors) {

@@ -108,6 +108,20 @@ class TestJson : public QObject {
     QCOMPARE(images[1]["contradiction"]["share"].get<double>(), 0.25);
   }
 
+  /// What a measurement says of its own errors stands where there was one.
+  void expectedErrors() {
+    CompensateResult compensated;
+    QVERIFY(!toJson(compensated).contains("expected_error"));
+    compensated.expectedError = 0.0625;
+    QCOMPARE(toJson(compensated)["expected_error"].get<double>(), 0.0625);
+    EvaluateResult evaluated;
+    evaluated.images.resize(2);
+    evaluated.images[1].asExpected = 0.9375;
+    const Json images = toJson(evaluated)["images"];
+    QVERIFY(!images[0].contains("as_expected"));
+    QCOMPARE(images[1]["as_expected"].get<double>(), 0.9375);
+  }
+
   /// Unseen places, and what blended projectors make of it.
   void placesAndProjectors() {
     EvaluateResult result;

@@ -317,6 +317,10 @@ class TestPipeline : public QObject {
         QCOMPARE(std::isfinite(score.encodedPsnrReachable), image.reachable > 0.0);
         QCOMPARE(std::isfinite(score.deltaEReachable), image.reachable > 0.0);
       }
+    // 95 % are expected; on venues that took no part in the fit 79 to 100 % were seen
+    // (compensation/README.md).
+    for (const ImageScore& image : result.images)
+      QVERIFY2(image.asExpected > 0.75, qPrintable(QString::number(image.asExpected.value_or(0.0))));
     // A flat textured wall is what per-pixel methods are made for: knowing more must not do worse there, up
     // to the noise of a measured T.
     auto mean = [&](Method method) {

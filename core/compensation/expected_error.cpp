@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "relucent/compensation/expected_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relucent/base/parallel.h"
+#include "relucent/base/require.h"
+
+namespace relucent::compensation {
+namespace {
+
+// Fitted, see the README.
+constexpr float ofBlack = 0.88f, ofFlood = 0.71f, ofLeaves = 0.13f, ofInside = 24.0f;
+
+/// What a row's leaves look at, and how much of it their errors would let through.
+struct Looks {
+  Eigen::Array3f light = Eigen::Array3f::Zero();       // T p, per camera channel
+  Eigen::Array3f brightest = Eigen::Array3f::Zero();   // T 1
+  Eigen::Array3f unresolved = Eigen::Array3f::Zero();  // sum of t^2 s^2 / n
+  float spread = 0.0f;                                 // sum of (v - a)^2, all projector channels
+};
+
+class Picture {
+ public:
+  Picture(const transport::TransportMatrix& transport, const ProjectorStack& picture)
+      : transport_(transport), mean_(transport.layout().means(picture)) {
+    ProjectorStack squares(picture.size());
+    parallelFor(0, picture.size(), 4096, [&](std::size_t j) { squares[j] = picture[j] * picture[j]; });
+    square_ = transport.layout().means(squares);
+  }
+
+  Looks lookedAtBy(std::size_t pixel) const {
+    const transport::LeafRow row = transport_.row(pixel);
+    Looks looks;
+    Eigen::Array3f white = Eigen::Array3f::Zero(), seen = white;  // per projector channel
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const transport::ColourBlock block = row.block(k);
+      const Eigen::Array3f of = block.colwise().sum().transpose().array();
+      white += of;
+      seen += of * mean(row.column(k));
+      looks.light += (block * mean(row.column(k)).matrix()).array();
+      looks.brightest += block.rowwise().sum().array();
+    }
+    const Eigen::Array3f average = (white > 0.0f).select(seen / white, 0.0f);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::uint32_t node = row.column(k);
+      const auto pixels =
+          static_cast<float>(transport_.layout().block(transport_.layout().node(node)).count());
+      const transport::ColourBlock squares = row.block(k).array().square().matrix();
+      const Eigen::Array3f within =
+          (Eigen::Map<const Eigen::Array3f>(&square_[3 * std::size_t{node}]) - mean(node).square()).max(0.0f);
+      looks.spread += (mean(node) - average).square().sum();
+      looks.unresolved += (squares * (within / pixels).matrix()).array();
+    }
+    return looks;
+  }
+
+ private:
+  Eigen::Map<const Eigen::Array3f> mean(std::uint32_t node) const {
+    return Eigen::Map<const Eigen::Array3f>(&mean_[3 * std::size_t{node}]);
+  }
+
+  const transport::TransportMatrix& transport_;
+  transport::NodeStack mean_, square_;
+};
+
+}  // namespace
+
+CameraStack expectedDeviation(const transport::TransportMatrix& transport, const TransportVariance& variance,
+                              const ProjectorStack& picture) {
+  const std::size_t pixels = transport.cameras().count();
+  require(variance.black.size() == 3 * pixels && variance.flood.size() == 3 * pixels &&
+              variance.leaf.size() == 3 * pixels && picture.size() == 3 * transport.projectors().count(),
+          "variances of {}, {} and {} values and a picture of {} for {} camera and {} projector pixels",
+          variance.black.size(), variance.flood.size(), variance.leaf.size(), picture.size(), pixels,
+          transport.projectors().count());
+  const Picture seen(transport, picture);
+  CameraStack deviation(3 * pixels, 0.0f);
+  parallelFor(0, pixels, 256, [&](std::size_t i) {
+    const Looks looks = seen.lookedAtBy(i);
+    const auto at = [i](const CameraStack& of) { return Eigen::Map<const Eigen::Array3f>(&of[3 * i]); };
+    const Eigen::Array3f share = (looks.brightest > 0.0f).select(looks.light / looks.brightest, 0.0f);
+    const Eigen::Array3f sum = ofBlack * at(variance.black) + ofFlood * share.square() * at(variance.flood) +
+                               ofLeaves * looks.spread * at(variance.leaf) + ofInside * looks.unresolved;
+    Eigen::Map<Eigen::Array3f> here(&deviation[3 * i]);
+    here = sum.max(0.0f).sqrt();
+  });
+  return deviation;
+}
+
+}  // namespace relucent::compensation

@@ -112,8 +112,8 @@ void FakeGigeCamera::unplug() {
 
 void FakeGigeCamera::plug() {
   unplug();
-  parts_->camera =
-      arv_gv_fake_camera_new_full("127.0.0.1", parts_->settings.serial.c_str(), parts_->description.c_str());
+  parts_->camera = arv_gv_fake_camera_new_full(parts_->settings.address.c_str(),
+                                               parts_->settings.serial.c_str(), parts_->description.c_str());
   ArvFakeCamera* camera = arv_gv_fake_camera_get_fake_camera(parts_->camera);
   arv_fake_camera_set_fill_pattern(camera, &Parts::fill, parts_.get());
   arv_fake_camera_set_trigger_frequency(camera, parts_->settings.framesPerSecond);

@@ -17,10 +17,11 @@ struct FakeGigeSettings {
   double lostPackets = 0.0;        // share of the packets that never arrive
   std::uint32_t longestKept = 0;   // microseconds; longer exposures are cut to this without a word; 0: none
   double framesPerSecond = 400.0;  // how often it looks whether a photograph is wanted
+  std::string address = "127.0.0.1";
 };
 
-/// A GigE Vision camera on 127.0.0.1: Aravis' own, with real sockets and registers. What it "sees" comes from
-/// a function. One at a time on a machine: the port is fixed by the standard.
+/// A GigE Vision camera on the loopback network: Aravis' own, with real sockets and registers. What it "sees"
+/// comes from a function. One at a time at an address: the port is fixed by the standard.
 class FakeGigeCamera {
  public:
   struct View {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QtTest>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -15,14 +17,16 @@
 #include "relucent/devices/check/latency.h"
 #include "relucent/devices/sensor_frame.h"
 #include "relucent/pipeline/calibrate_settings.h"
+#include "relucent/reduction/reduced_rig.h"
 #include "relucent/venue/device_faults.h"
 #include "relucent/venue/venue.h"
 #include "support/fake_gige_camera.h"
+#include "support/own_network.h"
 #include "support/screen_light.h"
 
-/// A simulated venue behind real devices: the projector is a window on the second screen of an X server,
-/// whose pixels are read from that screen; the camera is a GigE Vision one on a loopback network.
-/// $RELUCENT_REAL_SIZES "256x192 160x120" makes it as large as wanted.
+/// A simulated venue behind real devices: the projectors are windows on screens of an X server beside the
+/// operator's, whose pixels are read from those screens; the cameras are GigE Vision ones on a loopback
+/// network. $RELUCENT_REAL_SIZES "256x192 160x120" makes it as large as wanted.
 namespace relucent::gui {
 
 /// Of the projector: frames so short that a test need not wait for light.
@@ -57,31 +61,72 @@ inline pipeline::CalibrateSettings simulatedSettings() {
   return settings;
 }
 
-/// A venue's light where the screen shines, photographed by a camera on the network.
+/// A camera of the room.
+struct RoomCamera {
+  std::string serial = "RL01";
+  /// The sensor, where that is another than the venue's camera has; see reduction::reductionTo().
+  std::optional<reduction::Reduction> sensor{};
+  double gamma = 1.0;  // signal = light^(1 / gamma)
+};
+
+/// What stands in it: screens that are a venue's projectors, and cameras in the places of its own.
+struct RoomDevices {
+  std::vector<std::string> screens{"DUMMY1"};
+  std::vector<RoomCamera> cameras{RoomCamera{}};
+};
+
+/// A venue's light where the screens shine, photographed by cameras on the network. A projector or camera of
+/// the venue for which nothing stands here is dark or does not look.
 class Room {
  public:
-  Room(const venue::VenueSettings& settings, const std::filesystem::path& cache) : light_("DUMMY1") {
+  Room(const venue::VenueSettings& settings, const std::filesystem::path& cache, RoomDevices devices = {})
+      : devices_(std::move(devices)) {
     Progress silent;
     venue_.emplace(settings, cache, silent);
     rig_ = venue_->rig([this](const rig::ShotId&) { return faultsNow(); });
+    std::vector<reduction::Reduction> sensors;
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      const bool isOwn = i < devices_.cameras.size() && devices_.cameras[i].sensor;
+      sensors.push_back(isOwn ? *devices_.cameras[i].sensor
+                              : reduction::noReduction(rig_.cameras[i]->size()));
+    }
+    seen_ = reduction::reduced(rig_, sensors);
+    for (const std::string& screen : devices_.screens)
+      screens_.push_back(std::make_unique<test::ScreenLight>(screen));
+    requests_.resize(rig_.cameras.size(), {{"none", 0}, 0, 1.0});
+    covered_.resize(rig_.projectors.size());
     brightness_ = 8.0 / frameRate / wellExposed();
-    test::FakeGigeSettings camera;
-    camera.sensor = sensor();
-    fake_ = std::make_unique<test::FakeGigeCamera>(
-        camera, [this](const test::FakeGigeCamera::View& view) { look(view); });
+    for (std::size_t i = 0; i < devices_.cameras.size(); ++i) {
+      test::FakeGigeSettings camera;
+      camera.serial = devices_.cameras[i].serial;
+      camera.address = test::ownAddress(static_cast<int>(i));
+      camera.sensor = devices::sensorSize(size(i), format);
+      fakes_.push_back(std::make_unique<test::FakeGigeCamera>(
+          camera, [this, i](const test::FakeGigeCamera::View& view) { look(i, view); }));
+    }
   }
-  ~Room() { fake_.reset(); }
+  ~Room() { fakes_.clear(); }
 
-  bool isRunning() const { return fake_->isRunning(); }
-  test::FakeGigeCamera& camera() { return *fake_; }
+  bool isRunning() const {
+    return std::ranges::all_of(fakes_, [](const auto& fake) { return fake->isRunning(); });
+  }
+  test::FakeGigeCamera& camera(std::size_t index = 0) { return *fakes_[index]; }
+  /// Of a camera's photographs.
+  Size size(std::size_t camera = 0) const { return seen_.cameras[camera]->size(); }
+  /// By all cameras.
   int photographs() const { return photographs_; }
-  /// Seconds of the camera's that are one of the venue's: its exposures need not be waited for in full.
+  /// Seconds of the cameras' that are one of the venue's: its exposures need not be waited for in full.
   double brightness() const { return brightness_; }
-  /// Somebody bumps the camera: what it sees has moved by so many pixels to the right and down. 0: it is put
-  /// back.
+  /// Somebody bumps the first camera: what it sees has moved by so many pixels to the right and down. 0: it
+  /// is put back.
   void bump(double pixels) {
     std::lock_guard guard(lock_);
     bumped_ = pixels;
+  }
+  /// A projector's lens is covered.
+  void cover(std::size_t projector, bool covered) {
+    std::lock_guard guard(lock_);
+    covered_[projector] = covered;
   }
   /// No photograph follows the one before in less.
   void setLeastInterval(std::chrono::milliseconds time) {
@@ -93,24 +138,54 @@ class Room {
     std::lock_guard guard(lock_);
     return patterns_;
   }
-  /// Which photograph comes next: what noise depends on.
-  void expect(const rig::CaptureRequest& request) {
+  /// Which photograph of a camera's comes next: what noise depends on.
+  void expect(const rig::CaptureRequest& request, std::size_t camera = 0) {
     std::lock_guard guard(lock_);
-    request_ = request;
+    requests_[camera] = request;
+  }
+  /// A photograph of what the screens show now, exposed so long from now on. From any thread.
+  image::Image photograph(std::size_t camera, double seconds) {
+    using Clock = std::chrono::steady_clock;
+    auto end =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    std::vector<image::Image> shone = shining();
+    {
+      std::lock_guard guard(lock_);
+      end = std::max(end, lastEnd_ + leastInterval_);
+      lastEnd_ = end;
+    }
+    std::this_thread::sleep_until(end);  // what a sensor does
+    const std::vector<image::Image> after = shining();
+    for (std::size_t p = 0; p < shone.size(); ++p)
+      for (std::size_t i = 0; i < shone[p].data().size(); ++i)
+        if (after[p].data()[i] != shone[p].data()[i])
+          shone[p].data()[i] = 0.5f * (shone[p].data()[i] + after[p].data()[i]);
+    rig::CaptureRequest request;
+    {
+      std::lock_guard guard(lock_);
+      request = requests_[camera];
+    }
+    request.seconds = seconds / brightness_;
+    image::Image signal = lit(shone, camera, request);
+    if (camera < devices_.cameras.size() && devices_.cameras[camera].gamma != 1.0)
+      for (float& value : signal.data())
+        value = std::pow(std::max(value, 0.0f), static_cast<float>(1.0 / devices_.cameras[camera].gamma));
+    remember(shone);
+    ++photographs_;
+    return signal;
   }
 
  private:
+  static constexpr devices::SensorFormat format{devices::SensorLayout::bayerRG, 12};
+
   double wellExposed() {
-    rig_.projectors[0]->show(image::Image(rig_.projectors[0]->size(), 3, 1.0f));
+    for (const auto& projector : rig_.projectors) projector->show(image::Image(projector->size(), 3, 1.0f));
     double seconds = 1e-4;
-    while (seconds < 10.0 && devices::meanSignal(rig_.cameras[0]->capture({{"try", 0}, 0, seconds})) < 0.3)
+    while (seconds < 10.0 && devices::meanSignal(seen_.cameras[0]->capture({{"try", 0}, 0, seconds})) < 0.3)
       seconds *= 1.3;
     return seconds;
   }
 
-  Size sensor() const {
-    return devices::sensorSize(rig_.cameras[0]->size(), {devices::SensorLayout::bayerRG, 12});
-  }
   std::vector<venue::DeviceFault> faultsNow() const {
     std::lock_guard guard(lock_);
     if (bumped_ == 0.0) return {};
@@ -119,60 +194,71 @@ class Room {
     bump.amount = bumped_;
     return {bump};
   }
-  void remember(const image::Image& shone) {
-    const auto* bytes = reinterpret_cast<const char*>(shone.data().data());
-    const std::size_t pattern = std::hash<std::string_view>()({bytes, shone.data().size() * sizeof(float)});
+  void remember(const std::vector<image::Image>& shone) {
+    std::size_t pattern = 0;
+    for (const image::Image& one : shone) {
+      const auto* bytes = reinterpret_cast<const char*>(one.data().data());
+      pattern = 31 * pattern + std::hash<std::string_view>()({bytes, one.data().size() * sizeof(float)});
+    }
     std::lock_guard guard(lock_);
     patterns_.push_back(pattern);
   }
 
-  /// Called from the camera's thread.
-  void look(const test::FakeGigeCamera::View& view) {
-    using Clock = std::chrono::steady_clock;
-    auto end = Clock::now() +
-               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(view.seconds));
-    const Size size = rig_.projectors[0]->size();
-    image::Image shone = light_.look(size);
-    {
-      std::lock_guard guard(lock_);
-      end = std::max(end, lastEnd_ + leastInterval_);
-      lastEnd_ = end;
+  /// On each projector's screen.
+  std::vector<image::Image> shining() const {
+    std::vector<image::Image> all;
+    for (std::size_t i = 0; i < rig_.projectors.size(); ++i) {
+      const Size size = rig_.projectors[i]->size();
+      all.push_back(i < screens_.size() ? screens_[i]->look(size) : image::Image(size, 3));
     }
-    std::this_thread::sleep_until(end);  // what a sensor does
-    const image::Image after = light_.look(size);
-    for (std::size_t i = 0; i < shone.data().size(); ++i)
-      if (after.data()[i] != shone.data()[i]) shone.data()[i] = 0.5f * (shone.data()[i] + after.data()[i]);
-    rig::CaptureRequest request;
-    {
-      std::lock_guard guard(lock_);
-      request = request_;
-    }
-    if (view.format != "BayerRG12" || view.sensor != sensor()) return;
-    request.seconds = view.seconds / brightness_;
-    rig_.projectors[0]->show(shone);
-    test::fillBayerRG12(rig_.cameras[0]->capture(request).signal, view.bytes);
-    remember(shone);
-    ++photographs_;
+    std::lock_guard guard(lock_);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (covered_[i]) all[i] = image::Image(all[i].size(), 3);
+    return all;
+  }
+  image::Image lit(const std::vector<image::Image>& shone, std::size_t camera,
+                   const rig::CaptureRequest& request) {
+    std::lock_guard guard(light_);
+    for (std::size_t i = 0; i < shone.size(); ++i) rig_.projectors[i]->show(shone[i]);
+    return seen_.cameras[camera]->capture(request).signal;
   }
 
-  test::ScreenLight light_;
+  /// Called from the camera's thread.
+  void look(std::size_t camera, const test::FakeGigeCamera::View& view) {
+    const Size sensor = devices::sensorSize(size(camera), format);
+    if (view.format != devices::nameOf(format) || view.begin.x + view.sensor.width > sensor.width ||
+        view.begin.y + view.sensor.height > sensor.height)
+      return;
+    const int cell = devices::sensorSize({1, 1}, format).width;
+    const reduction::Reducer part(reduction::reductionTo(size(camera),
+                                                         {view.begin.x / cell, view.begin.y / cell},
+                                                         devices::photographSize(view.sensor, format), 1));
+    const rig::RawFrame whole{photograph(camera, view.seconds), 0, view.seconds};
+    test::fillBayerRG12(part(whole).signal, view.bytes);
+  }
+
+  RoomDevices devices_;
+  std::vector<std::unique_ptr<test::ScreenLight>> screens_;
   std::optional<venue::SimulatedVenue> venue_;
-  rig::Rig rig_;
+  rig::Rig rig_, seen_;  // the venue's devices, and the same through the room's sensors
   double brightness_ = 1.0;
+  std::mutex light_;  // one camera looks at a time
   mutable std::mutex lock_;
   double bumped_ = 0.0;
+  std::vector<bool> covered_;
   std::chrono::milliseconds leastInterval_{0};
   std::chrono::steady_clock::time_point lastEnd_;
   std::vector<std::size_t> patterns_;
-  rig::CaptureRequest request_{{"none", 0}, 0, 1.0};
+  std::vector<rig::CaptureRequest> requests_;
   std::atomic<int> photographs_ = 0;
-  std::unique_ptr<test::FakeGigeCamera> fake_;
+  std::vector<std::unique_ptr<test::FakeGigeCamera>> fakes_;
 };
 
 /// A camera whose seconds are those of the venue.
 class VenueTime : public rig::Camera {
  public:
-  VenueTime(std::unique_ptr<rig::Camera> camera, Room& room) : camera_(std::move(camera)), room_(room) {}
+  VenueTime(std::unique_ptr<rig::Camera> camera, Room& room, std::size_t index = 0)
+      : camera_(std::move(camera)), room_(room), index_(index) {}
   std::string name() const override { return camera_->name(); }
   Size size() const override { return camera_->size(); }
   rig::ExposureRange exposures() const override {
@@ -180,7 +266,7 @@ class VenueTime : public rig::Camera {
     return {range.shortest / room_.brightness(), std::min(0.2, range.longest) / room_.brightness()};
   }
   rig::RawFrame capture(const rig::CaptureRequest& request) override {
-    room_.expect(request);
+    room_.expect(request, index_);
     rig::CaptureRequest shortened = request;
     shortened.seconds *= room_.brightness();
     rig::RawFrame frame = camera_->capture(shortened);
@@ -191,6 +277,7 @@ class VenueTime : public rig::Camera {
  private:
   std::unique_ptr<rig::Camera> camera_;
   Room& room_;
+  std::size_t index_;
 };
 
 inline void switchScreen(bool on) {

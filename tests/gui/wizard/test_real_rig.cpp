@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// A venue of several projectors and cameras, all of them real to the program: a window on each of two screens
+// beside the operator's, and GigE Vision cameras in subnets of their own that photograph both.
+#include <QGuiApplication>
+#include <QTemporaryDir>
+#include <QThread>
+#include <QtTest>
+#include <atomic>
+
+#include "gui/wizard/gige_room.h"
+#include "output/window_projector.h"
+#include "relucent/base/file.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/driven_camera.h"
+#include "relucent/devices/genicam/genicam_driver.h"
+#include "relucent/image/picture_files.h"
+#include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/measuring.h"
+#include "relucent/pipeline/screen_devices.h"
+#include "support/sentences.h"
+
+using namespace relucent;
+using namespace relucent::calibration;
+using namespace relucent::compensation;
+using namespace relucent::devices;
+using namespace relucent::gui;
+using namespace relucent::pipeline;
+using namespace relucent::rig;
+using namespace relucent::venue;
+using namespace relucent::test;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> screens{"DUMMY1", "DUMMY2"};
+constexpr std::size_t cameras = 3;
+
+/// A bust between two projectors that shine into each other's shadows, seen from three sides.
+CalibrateSettings statue() {
+  CalibrateSettings settings = simulatedSettings();
+  VenueSettings venue = std::get<VenueSettings>(settings.rig);
+  venue.name = "statue3";
+  settings.rig = venue;
+  settings.acquisition = acquisition::settingsOf(acquisition::AcquisitionMode::multiplexed);
+  return settings;
+}
+
+/// What one method makes of a picture in one view.
+struct Seen {
+  double reachable = 0.0;
+  double uncorrected = 0.0, refined = 0.0;  // dB
+  std::vector<AloneScore> alone;            // projector after projector
+};
+Seen seenFrom(const ImageScore& image, std::size_t view) {
+  const auto from = [](const auto& score) {
+    return Seen{score.reachable, score.methods[0].psnrReachable, score.methods[1].psnrReachable, score.alone};
+  };
+  return view == 0 ? from(image) : from(image.others[view - 1]);
+}
+
+std::string addressOf(std::size_t camera) {
+  return "genicam:" + ownAddress(static_cast<int>(camera));
+}
+
+}  // namespace
+
+class TestRealRig : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir temporary_;
+  std::unique_ptr<Room> room_;
+  int undisturbed_ = 0;  // photographs of all that is measured
+  fs::path root() const { return temporary_.path().toStdString(); }
+  fs::path cache() const {
+    const QString given = qEnvironmentVariable("RELUCENT_TEST_CACHE");
+    return given.isEmpty() ? root() / "cache" : fs::path(given.toStdString());
+  }
+
+  /// Both screens and all cameras of the room.
+  ScreenRigSettings devices() const {
+    std::vector<ScreenRigSettings::Screen> projectors;
+    for (const std::string& screen : screens)
+      projectors.push_back(
+          {displayOf(*screenOn(QString::fromStdString(screen))), wantedSizes().projector, frameRate, {}});
+    std::vector<ScreenRigSettings::Camera> all;
+    for (std::size_t i = 0; i < cameras; ++i) all.push_back({addressOf(i), room_->size(i), {}});
+    return withCameras(withScreens({}, projectors), all);
+  }
+
+  /// The devices as openRig() makes them, but for how long the cameras are waited for.
+  ScreenRig hastyDevices(std::atomic<int>& waiting) const {
+    std::vector<std::unique_ptr<ScreenProjector>> projectors;
+    for (const ScreenRigSettings::Screen& screen : screensOf(devices()))
+      projectors.push_back(
+          std::make_unique<WindowProjector>(identityOf(screen.display), screen.projector,
+                                            [&waiting](bool missing) { waiting += missing ? 1 : -1; }));
+    DrivenCameraSettings hasty;
+    hasty.reconnectFor = 2000ms;
+    std::vector<std::unique_ptr<Camera>> all;
+    for (std::size_t i = 0; i < cameras; ++i) {
+      GenicamSettings genicam;
+      genicam.camera = ownAddress(static_cast<int>(i));
+      genicam.photograph = room_->size(i);
+      all.push_back(std::make_unique<DrivenCamera>(makeGenicamDriver(genicam), hasty));
+    }
+    return screenRig(std::move(projectors), std::move(all), {0.0, 1.0 / frameRate}, sleepFor);
+  }
+
+  /// All stages with real devices, or what is left of them; the manifest says "simulated", so that the truth
+  /// can be asked for. `meanwhile` is called again and again. What failed, a sentence; empty: nothing.
+  std::string measured(const std::string& name, const std::function<void(int waiting)>& meanwhile = {}) {
+    std::string failure;
+    std::atomic<int> waiting = 0;
+    std::unique_ptr<QThread> worker(QThread::create([&] {
+      try {
+        Progress silent;
+        ScreenRig opened = hastyDevices(waiting);
+        for (std::size_t i = 0; i < cameras; ++i)
+          opened.rig.cameras[i] = std::make_unique<VenueTime>(std::move(opened.rig.cameras[i]), *room_, i);
+        CalibrationFolder folder =
+            fs::exists(root() / name)
+                ? CalibrationFolder::open(root() / name, CalibrationFolder::Access::write)
+                : beginCalibration(root() / name, statue());
+        const linearization::Linearization linearization = measureLinearization(folder, opened.rig, silent);
+        measureInverse(folder,
+                       measuredVenueOf(measureAcquisition(folder, opened.rig, linearization, {}, silent), {}),
+                       silent);
+      } catch (const std::exception& error) {
+        failure = error.what();
+      }
+    }));
+    QElapsedTimer timer;
+    timer.start();
+    const int before = room_->photographs();
+    worker->start();
+    while (!worker->isFinished()) {
+      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+      if (meanwhile) meanwhile(waiting);
+    }
+    worker->wait();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    qInfo("%s: %d photographs in %.1f s", name.c_str(), room_->photographs() - before,
+          1e-3 * static_cast<double>(timer.elapsed()));
+    return failure;
+  }
+
+  EvaluateResult quality(const std::string& name) const {
+    EvaluateSettings settings;
+    settings.methods = {Method::none, Method::refined};
+    settings.fewImages = true;
+    settings.blended = true;
+    Progress silent;
+    return evaluate(root() / name, settings, cache(), silent);
+  }
+
+  std::string transportBytes(const std::string& name) const {
+    for (const auto& entry : fs::recursive_directory_iterator(root() / name))
+      if (entry.path().filename() == "transport.npz") return readFile(entry.path());
+    return {};
+  }
+
+ private slots:
+  void initTestCase() {
+    if (!cameraRegistry().find("genicam")->isBuiltIn)
+      QSKIP("this build has no Aravis, which both ends of this test need");
+    QVERIFY(screenOn("DUMMY1") != nullptr);
+    switchThirdScreen(true);
+    RoomDevices devices;
+    devices.screens = screens;
+    devices.cameras = {{"RL01"}, {"RL02"}, {"RL03"}};
+    room_ = std::make_unique<Room>(std::get<VenueSettings>(statue().rig), cache(), devices);
+    if (!room_->isRunning())
+      QSKIP("no GigE Vision cameras can be simulated: is there a loopback network of this test's own?");
+  }
+  void cleanupTestCase() {
+    room_.reset();
+    switchThirdScreen(false);
+  }
+
+  /// Law: windows, screens and networks take nothing away, in no view; and both projectors together reach
+  /// what neither does alone.
+  void throughWindowsAndSocketsEveryViewIsAsGoodAsDirectly() {
+    Progress silent;
+    calibrate(root() / "direct", statue(), cache(), silent);
+    const int before = room_->photographs();
+    QCOMPARE(measured("real"), std::string());
+    undisturbed_ = room_->photographs() - before;
+    const EvaluateResult direct = quality("direct"), real = quality("real");
+    qInfo("frobenius %.4f directly, %.4f through devices", direct.transport.frobenius,
+          real.transport.frobenius);
+    QVERIFY(std::abs(direct.transport.frobenius - real.transport.frobenius) < 0.02);
+    for (std::size_t image = 0; image < real.images.size(); ++image)
+      for (std::size_t view = 0; view < cameras; ++view) {
+        const Seen directly = seenFrom(direct.images[image], view),
+                   through = seenFrom(real.images[image], view);
+        qInfo("%s, view %zu: %.2f dB uncorrected, %.2f dB directly, %.2f dB through devices",
+              real.images[image].name.c_str(), view + 1, through.uncorrected, directly.refined,
+              through.refined);
+        QVERIFY(std::abs(through.refined - directly.refined) < 0.7);  // less than anybody could see
+        QVERIFY(through.refined > through.uncorrected + 6.0);
+        double best = 0.0;
+        for (const AloneScore& alone : through.alone) {
+          const double dB = alone.optimum ? alone.optimum->psnrReachable : 0.0;
+          qInfo("  %.1f %% in reach, %.1f %% of one projector alone, %.2f dB", 100.0 * through.reachable,
+                100.0 * alone.reachable, dB);
+          QVERIFY(through.reachable > alone.reachable);
+          best = std::max(best, dB);
+        }
+        QVERIFY(through.refined > best + 3.0);
+      }
+  }
+
+  /// Law: whichever screen or camera goes away for a while, in turn, nothing is told and nothing is lost. A
+  /// camera that stays away is named, and what all of them photographed stays: it ends in the same bits.
+  void whateverGoesAwayItEndsInTheSameBits() {
+    if (transportBytes("real").empty()) QSKIP("there is nothing to compare with");
+    const std::vector<std::function<void(bool)>> cables{
+        switchThirdScreen,
+        [this](bool on) { on ? room_->camera(1).plug() : room_->camera(1).unplug(); },
+        [](bool on) {
+          switchScreen(on);
+          if (on) switchThirdScreen(on);  // its place depends on the other's
+        },
+        [this](bool on) { on ? room_->camera(2).plug() : room_->camera(2).unplug(); },
+    };
+    constexpr int every = 60;  // photographs
+    const int begun = room_->photographs();
+    std::size_t gone = 0;
+    bool isOut = false;
+    QElapsedTimer since;
+    const std::string failure = measured("disturbed", [&](int waiting) {
+      const int next = begun + every * (static_cast<int>(gone) + 1);
+      const bool isScreen = gone % 2 == 0;
+      if (!isOut && room_->photographs() >= next) {
+        if (gone == cables.size()) return room_->camera(1).unplug();
+        cables[gone](false);
+        isOut = true;
+        since.start();
+      } else if (isOut && (isScreen ? waiting > 0 : since.hasExpired(500))) {
+        cables[gone++](true);
+        isOut = false;
+      }
+    });
+    QCOMPARE(gone, cables.size());
+    QVERIFY(mentions(failure, addressOf(1) + ": the camera has been gone for"));
+    QVERIFY(mentions(failure, "every photograph so far is kept"));
+    for (std::size_t other : {std::size_t{0}, std::size_t{2}})
+      QVERIFY2(failure.find(addressOf(other)) == std::string::npos, failure.c_str());
+    room_->camera(1).plug();
+    const int kept = room_->photographs() - begun;
+    QCOMPARE(measured("disturbed"), std::string());
+    const int all = room_->photographs() - begun;
+    qInfo("%d photographs, then %d; %d undisturbed", kept, all - kept, undisturbed_);
+    // Each time a pattern at most, and what a new camera is tried with, are photographed anew.
+    QVERIFY(all < undisturbed_ + 60);
+    QVERIFY(transportBytes("real") == transportBytes("disturbed"));
+  }
+};
+
+int main(int argc, char** argv) {
+  enterOwnNetwork(cameras);
+  QGuiApplication application(argc, argv);
+  TestRealRig test;
+  return QTest::qExec(&test, argc, argv);
+}
+#include "test_real_rig.moc"

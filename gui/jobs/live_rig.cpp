@@ -84,16 +84,18 @@ LiveRig::Clock::duration LiveRig::paused() const {
   return pauses_ + (pausedSince_ ? now_() - *pausedSince_ : Clock::duration{});
 }
 
-bool LiveRig::isCameraSilent() const {
-  return isCameraSilent(now_());
+std::optional<std::size_t> LiveRig::silentCamera() const {
+  return silentCamera(now_());
 }
 
-bool LiveRig::isCameraSilent(Clock::time_point now) const {
+std::optional<std::size_t> LiveRig::silentCamera(Clock::time_point now) const {
   QMutexLocker lock(&guard_);
   const Clock::duration usual = usualArrival();
-  return std::any_of(asked_.begin(), asked_.end(), [&](const std::optional<Asked>& asked) {
+  const auto silent = std::ranges::find_if(asked_, [&](const std::optional<Asked>& asked) {
     return asked && now - asked->when > asked->exposure + patience + 2 * usual;
   });
+  if (silent == asked_.end()) return std::nullopt;
+  return static_cast<std::size_t>(silent - asked_.begin());
 }
 
 /// Contract: guard_ is held.

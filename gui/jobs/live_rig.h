@@ -47,8 +47,9 @@ class LiveRig : public QObject, public rig::RigWatcher {
   /// A photograph is overdue: by three seconds beyond its exposure, and by twice as long as photographs
   /// before took to arrive, as still cameras need some: the second slowest of the last ones, so that one that
   /// was held up does not count.
-  bool isCameraSilent() const;
-  bool isCameraSilent(Clock::time_point now) const;
+  /// The first camera of which one is; none: no photograph is.
+  std::optional<std::size_t> silentCamera() const;
+  std::optional<std::size_t> silentCamera(Clock::time_point now) const;
   /// By all cameras, since the start.
   int photographs() const;
   /// Photographs of one stage, and the number of the last one's shot: others may look through the cameras

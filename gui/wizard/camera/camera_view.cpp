@@ -21,6 +21,7 @@
 #include "wizard/camera/checks_view.h"
 #include "wizard/camera/pixel_use_view.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/session/device_label.h"
 
 namespace relucent::gui {
 namespace {
@@ -84,11 +85,6 @@ double tallest(const image::PhotographCheck& check) {
 
 /// Of the best so far: what noise alone takes away is no fault of the lens.
 constexpr double goodFocus = 0.9;
-
-QString nameOfCamera(const CameraPage& model, std::size_t camera) {
-  const QString name = model.session().cameraName(camera);
-  return name.isEmpty() ? CameraPage::tr("Camera %1").arg(camera + 1) : name;
-}
 
 /// The more projectors, the brighter.
 QColor overlapColour(std::size_t projectors, std::size_t of) {
@@ -173,7 +169,7 @@ class CameraTile : public QFrame {
   }
 
   void show(bool hasPeaks, bool isOverlap, bool isAlone) {
-    const QString name = nameOfCamera(model_, camera_);
+    const QString name = cameraLabel(model_.session(), camera_);
     line_->setVisible(!isAlone);
     name_->setText(name);
     const bool isShown = !isAlone && camera_ == model_.camera();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/devices/device_selector.h"
 
+#include "wizard/session/device_label.h"
+
 namespace relucent::gui {
 
 DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
@@ -20,7 +22,9 @@ DeviceSelector::DeviceSelector(Kind kind, DevicePage& page, QWidget* parent)
 void DeviceSelector::refresh() {
   std::size_t devices = kind_ == Kind::projector ? page_.projectors() : page_.cameras();
   QStringList names, shown;
-  for (std::size_t device = 0; device < devices; ++device) names << nameOf(device);
+  for (std::size_t device = 0; device < devices; ++device)
+    names << (kind_ == Kind::projector ? projectorLabel(page_.session(), device)
+                                       : cameraLabel(page_.session(), device));
   for (int i = 0; i < count(); ++i) shown << itemText(i);
   if (shown != names) {
     clear();
@@ -28,13 +32,6 @@ void DeviceSelector::refresh() {
   }
   setCurrentIndex(static_cast<int>(kind_ == Kind::projector ? page_.projector() : page_.camera()));
   setVisible(devices > 1);
-}
-
-QString DeviceSelector::nameOf(std::size_t device) const {
-  const bool isProjector = kind_ == Kind::projector;
-  const QString name =
-      isProjector ? page_.session().projectorName(device) : page_.session().cameraName(device);
-  return name.isEmpty() ? (isProjector ? tr("Projector %1") : tr("Camera %1")).arg(device + 1) : name;
 }
 
 }  // namespace relucent::gui

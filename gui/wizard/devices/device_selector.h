@@ -18,7 +18,6 @@ class DeviceSelector : public QComboBox {
 
  private:
   void refresh();
-  QString nameOf(std::size_t device) const;
 
   Kind kind_;
   DevicePage& page_;

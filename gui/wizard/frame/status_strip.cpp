@@ -13,6 +13,7 @@
 #include "relucent/calibration/patient_shot_log.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
+#include "wizard/session/device_label.h"
 
 namespace relucent::gui {
 namespace {
@@ -148,10 +149,13 @@ void StatusStrip::refresh() {
   if (const auto cameras = static_cast<int>(session_.cameras()); cameras > 1)
     kind = session_.isSimulated() ? tr("%n, simulated", "cameras", cameras)
                                   : tr("%n camera(s)", nullptr, cameras);
-  camera_->setWhole(session_.isCameraSilent()   ? tr("%1, silent").arg(kind)
+  // Of several, the one that is.
+  const std::optional<std::size_t> silent = session_.silentCamera();
+  const QString asked = silent && session_.cameras() > 1 ? cameraLabel(session_, *silent) : kind;
+  camera_->setWhole(silent                      ? tr("%1, silent").arg(asked)
                     : session_.areDevicesFree() ? kind
                                                 : tr("%1, in use").arg(kind));
-  setRole(camera_, session_.isCameraSilent() ? "amber" : "note");
+  setRole(camera_, silent ? "amber" : "note");
   showDisk(QString::fromStdString(session_.path().string()));
   QString latest;
   for (calibration::Stage stage : allValues<calibration::Stage>())

@@ -11,16 +11,12 @@
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/preview/viewer_plan.h"
+#include "wizard/session/device_label.h"
 
 namespace relucent::gui {
 namespace {
 
 constexpr int stepsBetweenCameras = 20;  // of the slider
-
-QString nameOf(const PreviewPage& page, std::size_t camera) {
-  const QString name = page.session().cameraName(camera);
-  return name.isEmpty() ? PreviewPage::tr("Camera %1").arg(camera + 1) : name;
-}
 
 /// A row for each view: its error as predicted, and how much it counts for the viewer.
 class QualityRows : public QWidget {
@@ -37,7 +33,7 @@ class QualityRows : public QWidget {
       rows_.pop_back();
     }
     while (rows_.size() < page_.cameras()) {
-      rows_.push_back(new ValueRow(nameOf(page_, rows_.size())));
+      rows_.push_back(new ValueRow(cameraLabel(page_.session(), rows_.size())));
       column_->addWidget(rows_.back());
     }
     const auto& preview = page_.preview();

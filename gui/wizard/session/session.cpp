@@ -267,6 +267,16 @@ QString Session::cameraName(std::size_t camera) const {
   return camera < cameras.size() ? QString::fromStdString(cameras[camera].name) : QString();
 }
 
+std::optional<std::size_t> Session::projectorWithoutScreen() const {
+  if (screenRig() == nullptr) return std::nullopt;
+  const auto screens = pipeline::screensOf(*screenRig());
+  const auto missing = std::ranges::find_if(screens, [this](const auto& screen) {
+    return missingScreens_.contains(screen.display.connector);
+  });
+  if (missing == screens.end()) return std::nullopt;
+  return static_cast<std::size_t>(missing - screens.begin());
+}
+
 pipeline::ScreenRigSettings::Display Session::measuredDisplay(std::size_t projector) const {
   return projector < measuredDisplays_.size() ? measuredDisplays_[projector]
                                               : pipeline::ScreenRigSettings::Display();
@@ -385,11 +395,11 @@ QString Session::whyLocked(const StepName& step) const {
 }
 
 void Session::listenForCamera() {
-  const bool isSilent = live_->isCameraSilent();
-  const std::optional<Failure> failure = isSilent ? devices_->patience().failure() : std::nullopt;
+  const std::optional<std::size_t> silent = live_->silentCamera();
+  const std::optional<Failure> failure = silent ? devices_->patience().failure() : std::nullopt;
   const QString why = failure ? failure->what : QString();
-  const bool isNews = cameraSilent_ != isSilent || cameraFailure_ != why;
-  cameraSilent_ = isSilent;
+  const bool isNews = silentCamera_ != silent || cameraFailure_ != why;
+  silentCamera_ = silent;
   cameraFailure_ = why;
   if (isNews) Q_EMIT devicesChanged();
 }
@@ -401,7 +411,7 @@ void Session::giveUpCamera() {
 void Session::takeBackDevices() {
   devicesUser_.reset();
   silence_.stop();
-  cameraSilent_ = false;
+  silentCamera_.reset();
   cameraFailure_.clear();
   if (devices_) devices_->rest();
 }

@@ -254,9 +254,13 @@ class Session : public QObject {
 
   /// A projector's screen is unplugged, and work waits for it.
   bool isScreenMissing() const { return !missingScreens_.empty(); }
+  /// The first one whose screen is; none: none is missing, or it is no projector's of the venue.
+  std::optional<std::size_t> projectorWithoutScreen() const;
 
   /// A photograph does not come.
-  bool isCameraSilent() const { return cameraSilent_; }
+  bool isCameraSilent() const { return silentCamera_.has_value(); }
+  /// The first camera whose photograph does not come.
+  std::optional<std::size_t> silentCamera() const { return silentCamera_; }
   /// Why, as far as its driver knows, in a sentence; empty: nobody knows.
   QString cameraFailure() const { return cameraFailure_; }
   /// Work that waits for a device: the projector's screen or the camera.
@@ -338,7 +342,7 @@ class Session : public QObject {
   int flashLimit_ = 0;
   bool roomClear_ = false;
   std::set<std::string> missingScreens_;  // by connector
-  bool cameraSilent_ = false;
+  std::optional<std::size_t> silentCamera_;
   QString cameraFailure_;
   QTimer silence_;  // runs while somebody uses the devices
   std::optional<RoomLight> roomLight_;

@@ -110,6 +110,7 @@ class Room {
   bool isRunning() const {
     return std::ranges::all_of(fakes_, [](const auto& fake) { return fake->isRunning(); });
   }
+  std::size_t cameras() const { return fakes_.size(); }
   test::FakeGigeCamera& camera(std::size_t index = 0) { return *fakes_[index]; }
   /// Of a camera's photographs.
   Size size(std::size_t camera = 0) const { return seen_.cameras[camera]->size(); }

@@ -33,6 +33,9 @@ struct CameraKind {
   std::function<std::unique_ptr<rig::Camera>(const std::string& place, const CameraWishes& wishes)> open;
   /// Cameras that answer now, each opened for a moment. Empty: such cameras cannot be looked for.
   std::function<std::vector<ListedCamera>()> list = {};
+  /// Of several places, which device each is: equal texts, for people to read, where one can be given in
+  /// more than one way. Of a camera that does not answer its place. Empty: each place is a device.
+  std::function<std::vector<std::string>(const std::vector<std::string>& places)> devices = {};
 };
 
 }  // namespace relucent::devices

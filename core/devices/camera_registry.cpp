@@ -64,6 +64,20 @@ std::unique_ptr<rig::Camera> CameraRegistry::open(const CameraAddress& address,
   return kind->open(address.place, wishes);
 }
 
+std::vector<std::string> CameraRegistry::devicesAt(const std::vector<CameraAddress>& addresses) const {
+  std::vector<std::string> devices(addresses.size());
+  for (const CameraKind& kind : kinds_) {
+    std::vector<std::string> places;
+    for (const CameraAddress& address : addresses)
+      if (address.kind == kind.prefix) places.push_back(address.place);
+    if (kind.devices && !places.empty()) places = kind.devices(places);
+    auto place = places.begin();
+    for (std::size_t i = 0; i < addresses.size(); ++i)
+      if (addresses[i].kind == kind.prefix) devices[i] = toString({kind.prefix, *place++});
+  }
+  return devices;
+}
+
 CameraList CameraRegistry::list() const {
   CameraList found;
   for (const CameraKind& kind : kinds_) {

@@ -45,6 +45,9 @@ class CameraRegistry {
   /// The camera at an address, ready for use. Throws: as CameraKind::open; std::logic_error for a kind that
   /// is not here, which addressFrom() never gives.
   std::unique_ptr<rig::Camera> open(const CameraAddress& address, const CameraWishes& wishes) const;
+  /// Which device each address is, "genicam:192.168.1.20": equal texts for one that is given in two ways, by
+  /// its serial number and by its network address. May take a second for the network.
+  std::vector<std::string> devicesAt(const std::vector<CameraAddress>& addresses) const;
   /// Looks for cameras of all kinds and opens each of them for a moment to learn what it can do and what is
   /// wrong with it. Takes a second for the network and up to some seconds for a camera that does not answer.
   CameraList list() const;

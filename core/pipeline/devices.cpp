@@ -14,6 +14,7 @@
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/warm_up.h"
+#include "relucent/rig/distinct_cameras.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -31,6 +32,11 @@ devices::CameraAddress addressFrom(const std::string& text) {
 devices::CameraAddress addressOf(const CommandRigSettings::Camera& camera) {
   if (camera.address.empty()) return {devices::CommandCamera::kind, camera.command};
   return addressFrom(camera.address);
+}
+
+/// Else the second one would be said to be another program's.
+void requireOwnCameras(const std::vector<devices::CameraAddress>& addresses) {
+  if (addresses.size() > 1) rig::requireDistinctCameras(devices::cameraRegistry().devicesAt(addresses));
 }
 
 /// One overload a kind of rig.
@@ -60,11 +66,13 @@ struct Opener {
         opened = devices::delayed(std::move(opened), settings.latency, devices::sleepFor);
     }
     const std::vector<CommandRigSettings::Camera> cameras = camerasOf(settings);
+    std::vector<devices::CameraAddress> addresses;
+    for (const CommandRigSettings::Camera& camera : cameras) addresses.push_back(addressOf(camera));
+    requireOwnCameras(addresses);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       devices::CameraWishes wishes{cameras[i].size, {settings.shortestExposure, settings.longestExposure}};
       if (cameras.size() > 1) wishes.ofSeveral = static_cast<int>(i) + 1;
-      auto& opened =
-          result.rig.cameras.emplace_back(devices::cameraRegistry().open(addressOf(cameras[i]), wishes));
+      auto& opened = result.rig.cameras.emplace_back(devices::cameraRegistry().open(addresses[i], wishes));
       if (settings.frameRate > 0.0)
         opened = devices::inWholeFrames(std::move(opened), 1.0 / settings.frameRate);
     }
@@ -85,6 +93,10 @@ struct Opener {
                   RELUCENT_ENGLISH_MESSAGE("calibration.no-camera-chosen", "no camera is chosen"),
                   RELUCENT_ENGLISH_MESSAGE("calibration.choose-camera", "choose one in the Camera step"));
     OpenedRig result;
+    std::vector<devices::CameraAddress> addresses;
+    for (const ScreenRigSettings::Camera& camera : camerasOf(settings))
+      addresses.push_back(addressFrom(camera.address));
+    requireOwnCameras(addresses);
     std::vector<std::unique_ptr<rig::Camera>> cameras;
     for (const ScreenRigSettings::Camera& camera : camerasOf(settings))
       cameras.push_back(devices::cameraRegistry().open(

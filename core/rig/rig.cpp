@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "relucent/base/error.h"
+#include "relucent/rig/distinct_cameras.h"
 
 namespace relucent::rig {
 namespace {
@@ -26,14 +27,20 @@ Rasters Rig::cameraRasters() const {
 }
 
 void checkDevices(const Rig& rig) {
-  for (std::size_t camera = 1; camera < rig.cameras.size(); ++camera)
+  std::vector<std::string> names;
+  for (const std::unique_ptr<Camera>& camera : rig.cameras) names.push_back(camera->name());
+  requireDistinctCameras(names);
+}
+
+void requireDistinctCameras(const std::vector<std::string>& devices) {
+  for (std::size_t camera = 1; camera < devices.size(); ++camera)
     for (std::size_t other = 0; other < camera; ++other)
-      if (rig.cameras[camera]->name() == rig.cameras[other]->name())
+      if (devices[camera] == devices[other])
         throw Error(
             ErrorKind::input,
             RELUCENT_ENGLISH_MESSAGE("device.two-cameras-are-one",
                                      "cameras {} and {} are the same device: both are {}")
-                .with(as::label(other + 1), as::label(camera + 1), rig.cameras[camera]->name()),
+                .with(as::label(other + 1), as::label(camera + 1), devices[camera]),
             RELUCENT_ENGLISH_MESSAGE("device.choose-other-camera",
                                      "choose another camera for one of them, by its own serial number"));
 }

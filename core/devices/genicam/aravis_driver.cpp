@@ -23,17 +23,23 @@ bool isNetworkAddress(const std::string& name) {
   return g_hostname_is_ip_address(name.c_str()) != FALSE;
 }
 
+/// Contract: listLock() is held.
+std::optional<unsigned int> placeInList(const std::string& wanted) {
+  for (unsigned int i = 0; i < arv_get_n_devices(); ++i) {
+    const std::array names{textOf(arv_get_device_serial_nbr(i)), textOf(arv_get_device_id(i)),
+                           textOf(arv_get_device_physical_id(i)), textOf(arv_get_device_address(i))};
+    if (std::find(names.begin(), names.end(), wanted) != names.end()) return i;
+  }
+  return std::nullopt;
+}
+
 /// Aravis' own name for the camera that is meant; empty if none answers.
 std::string identityOf(const std::string& wanted) {
   if (isNetworkAddress(wanted)) return wanted;
   std::lock_guard guard(listLock());
   arv_update_device_list();
-  for (unsigned int i = 0; i < arv_get_n_devices(); ++i) {
-    const std::array names{textOf(arv_get_device_serial_nbr(i)), textOf(arv_get_device_id(i)),
-                           textOf(arv_get_device_physical_id(i)), textOf(arv_get_device_address(i))};
-    if (std::find(names.begin(), names.end(), wanted) != names.end()) return textOf(arv_get_device_id(i));
-  }
-  return {};
+  const std::optional<unsigned int> camera = placeInList(wanted);
+  return camera ? textOf(arv_get_device_id(*camera)) : std::string();
 }
 
 Message reasonOf(ArvBufferStatus status) {
@@ -235,6 +241,20 @@ std::vector<GenicamCamera> findGenicamCameras() {
                      textOf(arv_get_device_vendor(i)) + " " + textOf(arv_get_device_model(i)),
                      textOf(arv_get_device_protocol(i)), textOf(arv_get_device_address(i))});
   return found;
+}
+
+std::vector<std::string> genicamDevices(const std::vector<std::string>& cameras) {
+  std::lock_guard guard(listLock());
+  arv_update_device_list();
+  std::vector<std::string> devices;
+  for (const std::string& camera : cameras) {
+    // A network address is a camera whatever the list says: that holds one camera of a serial number.
+    const std::optional<unsigned int> place = isNetworkAddress(camera) ? std::nullopt : placeInList(camera);
+    const std::string address = place ? textOf(arv_get_device_address(*place)) : std::string();
+    const std::string serial = place ? textOf(arv_get_device_serial_nbr(*place)) : std::string();
+    devices.push_back(isNetworkAddress(address) ? address : serial.empty() ? camera : serial);
+  }
+  return devices;
 }
 
 std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings) {

@@ -30,6 +30,9 @@ struct GenicamCamera {
 
 /// All cameras that answer within a second.
 std::vector<GenicamCamera> findGenicamCameras();
+/// Where on the network, or by which serial number, each of these is found that GenicamSettings::camera may
+/// be: equal texts for one camera. Of one that does not answer what it was given by.
+std::vector<std::string> genicamDevices(const std::vector<std::string>& cameras);
 std::unique_ptr<CameraDriver> makeGenicamDriver(const GenicamSettings& settings);
 
 }  // namespace relucent::devices

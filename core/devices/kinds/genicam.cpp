@@ -33,7 +33,8 @@ CameraKind genicamKind() {
       .help = "GigE Vision or USB3 Vision; also its network address",
       .support = RELUCENT_ENGLISH_MESSAGE("device.genicam-cameras", "GigE Vision and USB3 Vision cameras"),
       .open = openGenicam,
-      .list = listGenicam};
+      .list = listGenicam,
+      .devices = genicamDevices};
 }
 
 }  // namespace relucent::devices

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "relucent/base/message.h"
 #include "relucent/devices/camera_kind.h"
 #include "relucent/devices/gphoto/gphoto_driver.h"
@@ -27,6 +29,18 @@ std::vector<ListedCamera> listGphoto() {
   return cameras;
 }
 
+/// By the ports that they are plugged in at.
+std::vector<std::string> gphotoDevices(const std::vector<std::string>& places) {
+  const std::vector<GphotoCamera> found = makeGphotoPort()->list();
+  std::vector<std::string> devices;
+  for (const std::string& place : places) {
+    const auto camera = std::ranges::find_if(
+        found, [&place](const GphotoCamera& other) { return isSameModel(other.model, place); });
+    devices.push_back(camera == found.end() ? place : camera->port);
+  }
+  return devices;
+}
+
 }  // namespace
 
 CameraKind gphoto2Kind() {
@@ -36,7 +50,8 @@ CameraKind gphoto2Kind() {
           .support =
               RELUCENT_ENGLISH_MESSAGE("device.gphoto-cameras", "DSLR and mirrorless cameras with raw files"),
           .open = openGphoto,
-          .list = listGphoto};
+          .list = listGphoto,
+          .devices = gphotoDevices};
 }
 
 }  // namespace relucent::devices

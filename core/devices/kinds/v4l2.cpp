@@ -67,6 +67,17 @@ std::vector<ListedCamera> listVideo() {
   return cameras;
 }
 
+/// Links are other names for what they lead to.
+std::vector<std::string> videoDevicesAt(const std::vector<std::string>& places) {
+  std::vector<std::string> devices;
+  for (const std::string& place : places) {
+    std::error_code code;
+    const fs::path device = fs::canonical(place, code);
+    devices.push_back(code ? place : device.string());
+  }
+  return devices;
+}
+
 }  // namespace
 
 CameraKind v4l2Kind() {
@@ -75,7 +86,8 @@ CameraKind v4l2Kind() {
           .help = "a webcam with manual exposure, /dev/v4l/by-id/...",
           .support = RELUCENT_ENGLISH_MESSAGE("device.webcams", "webcams with manual exposure"),
           .open = openVideo,
-          .list = listVideo};
+          .list = listVideo,
+          .devices = videoDevicesAt};
 }
 
 }  // namespace relucent::devices

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double handleRadius = 7.0, activeRadius = 11.0, grip = 14.0, dividerStep = 0.1;
 constexpr double fromEdge = 12.0;
-constexpr int corners = 4;
+constexpr int cornerCount = 4;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ QRectF CornerView::handleArea(int corner) const {
 
 std::vector<QRectF> CornerView::keptFree() const {
   std::vector<QRectF> kept;
-  for (int corner = 0; corners_ && corner < corners; ++corner) kept.push_back(handleArea(corner));
+  for (int corner = 0; corners_ && corner < cornerCount; ++corner) kept.push_back(handleArea(corner));
   return kept;
 }
 
@@ -75,7 +75,7 @@ QRectF CornerView::cornerTag() const {
 
 int CornerView::handleAt(QPointF place) const {
   if (!corners_ || picture().isNull()) return -1;
-  for (int corner = 0; corner < corners; ++corner)
+  for (int corner = 0; corner < cornerCount; ++corner)
     if (QLineF(handle(corner), place).length() < grip) return corner;
   return -1;
 }
@@ -148,7 +148,7 @@ void CornerView::keyPressEvent(QKeyEvent* event) {
 
 void CornerView::focusInEvent(QFocusEvent* event) {
   if (corners_ && event->reason() == Qt::TabFocusReason) activate(0);
-  if (corners_ && event->reason() == Qt::BacktabFocusReason) activate(corners - 1);
+  if (corners_ && event->reason() == Qt::BacktabFocusReason) activate(cornerCount - 1);
   ImageView::focusInEvent(event);
 }
 
@@ -159,7 +159,7 @@ void CornerView::focusOutEvent(QFocusEvent* event) {
 
 bool CornerView::focusNextPrevChild(bool next) {
   int to = active_ + (next ? 1 : -1);
-  if (!corners_ || active_ < 0 || to < 0 || to >= corners) return ImageView::focusNextPrevChild(next);
+  if (!corners_ || active_ < 0 || to < 0 || to >= cornerCount) return ImageView::focusNextPrevChild(next);
   activate(to);
   return true;
 }
@@ -172,11 +172,11 @@ void CornerView::paintEvent(QPaintEvent* event) {
   const Colours& dark = gui::colours(Look::dark);
   const QColor& colour = wrong_ ? dark.amber : dark.accent;
   QPolygonF outline;
-  for (int corner = 0; corner < corners; ++corner) outline.append(handle(corner));
+  for (int corner = 0; corner < cornerCount; ++corner) outline.append(handle(corner));
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(colour, 1.5, wrong_ ? Qt::DashLine : Qt::SolidLine));
   painter.drawPolygon(outline);
-  for (int corner = 0; corner < corners; ++corner) {
+  for (int corner = 0; corner < cornerCount; ++corner) {
     painter.setPen(QPen(dark.picture, 1.5));
     painter.setBrush(colour);
     painter.drawEllipse(handle(corner), handleRadius, handleRadius);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
+#include <algorithm>
 
 #include "relucent/base/error.h"
 #include "relucent/devices/camera_registry.h"
@@ -38,6 +39,11 @@ CameraKind darkKind() {
           .list =
               [] {
                 return std::vector<ListedCamera>{{"dark:cellar", Message::plain("Dark"), true}};
+              },
+          .devices =
+              [](std::vector<std::string> places) {
+                std::ranges::replace(places, "under the stairs", "cellar");
+                return places;
               }};
 }
 
@@ -60,6 +66,16 @@ class TestCameraRegistry : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Law: an address is one device, in whatever order and beside whatever others it stands; of a kind that
+  /// cannot tell, its place is.
+  void eachAddressIsADevice() {
+    const CameraRegistry registry({darkKind(), missingKind()});
+    const std::vector<std::string> devices = registry.devicesAt(
+        {{"dark", "under the stairs"}, {"light", "cellar"}, {"dark", "attic"}, {"dark", "cellar"}});
+    QCOMPARE(devices, (std::vector<std::string>{"dark:cellar", "light:cellar", "dark:attic", "dark:cellar"}));
+    QVERIFY(registry.devicesAt({}).empty());
+  }
+
   void addressesComeAndGo_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("kind");

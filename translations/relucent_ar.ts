@@ -13,6 +13,17 @@
     </message>
 </context>
 <context>
+    <name>DeviceLabel</name>
+    <message>
+        <source>Projector %1</source>
+        <translation>جهاز العرض %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>الكاميرا %1</translation>
+    </message>
+</context>
+<context>
     <name>EndQuestion</name>
     <message>
         <source>A measurement is under way</source>
@@ -130,6 +141,16 @@
     <message>
         <source>Camera silent</source>
         <translation>الكاميرا صامتة</translation>
+    </message>
+    <message>
+        <source>%1: its screen is unplugged</source>
+        <extracomment>%1 is a projector: its name, or &quot;Projector 2&quot;</extracomment>
+        <translation>%1: شاشته غير موصولة</translation>
+    </message>
+    <message>
+        <source>%1 does not answer</source>
+        <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
+        <translation>%1 لا تستجيب</translation>
     </message>
 </context>
 <context>
@@ -3938,10 +3959,6 @@
         <translation>الكاميرا ⁨%1⁩: ⁨%2⁩ ساطع أكثر من اللازم في كل تعريض.</translation>
     </message>
     <message>
-        <source>Camera %1</source>
-        <translation>الكاميرا %1</translation>
-    </message>
-    <message>
         <source>What %1 sees now</source>
         <translation>ما تراه ⁨%1⁩ الآن</translation>
     </message>
@@ -4321,14 +4338,6 @@
     <message>
         <source>Camera that is shown</source>
         <translation>الكاميرا المعروضة</translation>
-    </message>
-    <message>
-        <source>Projector %1</source>
-        <translation>جهاز العرض %1</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>الكاميرا %1</translation>
     </message>
 </context>
 <context>
@@ -6136,10 +6145,6 @@ projector %2</source>
     <message>
         <source>Place of a camera</source>
         <translation>موضع كاميرا</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>الكاميرا %1</translation>
     </message>
     <message>
         <source>no content</source>

@@ -13,6 +13,17 @@
     </message>
 </context>
 <context>
+    <name>DeviceLabel</name>
+    <message>
+        <source>Projector %1</source>
+        <translation>Proyector %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Cámara %1</translation>
+    </message>
+</context>
+<context>
     <name>EndQuestion</name>
     <message>
         <source>A measurement is under way</source>
@@ -130,6 +141,16 @@
     <message>
         <source>Camera silent</source>
         <translation>Cámara sin respuesta</translation>
+    </message>
+    <message>
+        <source>%1: its screen is unplugged</source>
+        <extracomment>%1 is a projector: its name, or &quot;Projector 2&quot;</extracomment>
+        <translation>%1: su pantalla está desconectada</translation>
+    </message>
+    <message>
+        <source>%1 does not answer</source>
+        <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
+        <translation>%1 no responde</translation>
     </message>
 </context>
 <context>
@@ -3850,10 +3871,6 @@
         <translation>Cámara %1: %2 es demasiado claro en toda exposición.</translation>
     </message>
     <message>
-        <source>Camera %1</source>
-        <translation>Cámara %1</translation>
-    </message>
-    <message>
         <source>What %1 sees now</source>
         <translation>Lo que ve ahora %1</translation>
     </message>
@@ -4205,14 +4222,6 @@
     <message>
         <source>Camera that is shown</source>
         <translation>Cámara mostrada</translation>
-    </message>
-    <message>
-        <source>Projector %1</source>
-        <translation>Proyector %1</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>Cámara %1</translation>
     </message>
 </context>
 <context>
@@ -5996,10 +6005,6 @@ proyector %2</translation>
     <message>
         <source>Place of a camera</source>
         <translation>Lugar de una cámara</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>Cámara %1</translation>
     </message>
     <message>
         <source>no content</source>

@@ -13,6 +13,17 @@
     </message>
 </context>
 <context>
+    <name>DeviceLabel</name>
+    <message>
+        <source>Projector %1</source>
+        <translation>Projecteur %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>Caméra %1</translation>
+    </message>
+</context>
+<context>
     <name>EndQuestion</name>
     <message>
         <source>A measurement is under way</source>
@@ -130,6 +141,16 @@
     <message>
         <source>Camera silent</source>
         <translation>Caméra muette</translation>
+    </message>
+    <message>
+        <source>%1: its screen is unplugged</source>
+        <extracomment>%1 is a projector: its name, or &quot;Projector 2&quot;</extracomment>
+        <translation>%1 : son écran est débranché</translation>
+    </message>
+    <message>
+        <source>%1 does not answer</source>
+        <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
+        <translation>%1 ne répond pas</translation>
     </message>
 </context>
 <context>
@@ -3850,10 +3871,6 @@
         <translation>Caméra %1&#x202f;: %2 est trop clair à chaque temps de pose.</translation>
     </message>
     <message>
-        <source>Camera %1</source>
-        <translation>Caméra %1</translation>
-    </message>
-    <message>
         <source>What %1 sees now</source>
         <translation>Ce que voit %1 maintenant</translation>
     </message>
@@ -4205,14 +4222,6 @@
     <message>
         <source>Camera that is shown</source>
         <translation>Caméra affichée</translation>
-    </message>
-    <message>
-        <source>Projector %1</source>
-        <translation>Projecteur %1</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>Caméra %1</translation>
     </message>
 </context>
 <context>
@@ -5996,10 +6005,6 @@ projecteur %2</translation>
     <message>
         <source>Place of a camera</source>
         <translation>Place d’une caméra</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>Caméra %1</translation>
     </message>
     <message>
         <source>no content</source>

@@ -13,6 +13,17 @@
     </message>
 </context>
 <context>
+    <name>DeviceLabel</name>
+    <message>
+        <source>Projector %1</source>
+        <translation>プロジェクター %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>カメラ %1</translation>
+    </message>
+</context>
+<context>
     <name>EndQuestion</name>
     <message>
         <source>A measurement is under way</source>
@@ -130,6 +141,16 @@
     <message>
         <source>Camera silent</source>
         <translation>カメラ応答なし</translation>
+    </message>
+    <message>
+        <source>%1: its screen is unplugged</source>
+        <extracomment>%1 is a projector: its name, or &quot;Projector 2&quot;</extracomment>
+        <translation>%1：画面が外れています</translation>
+    </message>
+    <message>
+        <source>%1 does not answer</source>
+        <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
+        <translation>%1が応答しません</translation>
     </message>
 </context>
 <context>
@@ -3828,10 +3849,6 @@
         <translation>カメラ %1: どの露出でも %2 が明るすぎます。</translation>
     </message>
     <message>
-        <source>Camera %1</source>
-        <translation>カメラ %1</translation>
-    </message>
-    <message>
         <source>What %1 sees now</source>
         <translation>%1 に今見えているもの</translation>
     </message>
@@ -4176,14 +4193,6 @@
     <message>
         <source>Camera that is shown</source>
         <translation>表示中のカメラ</translation>
-    </message>
-    <message>
-        <source>Projector %1</source>
-        <translation>プロジェクター %1</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>カメラ %1</translation>
     </message>
 </context>
 <context>
@@ -5961,10 +5970,6 @@ projector %2</source>
     <message>
         <source>Place of a camera</source>
         <translation>カメラの位置</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>カメラ %1</translation>
     </message>
     <message>
         <source>no content</source>

@@ -13,6 +13,17 @@
     </message>
 </context>
 <context>
+    <name>DeviceLabel</name>
+    <message>
+        <source>Projector %1</source>
+        <translation>投影机 %1</translation>
+    </message>
+    <message>
+        <source>Camera %1</source>
+        <translation>相机 %1</translation>
+    </message>
+</context>
+<context>
     <name>EndQuestion</name>
     <message>
         <source>A measurement is under way</source>
@@ -130,6 +141,16 @@
     <message>
         <source>Camera silent</source>
         <translation>相机无响应</translation>
+    </message>
+    <message>
+        <source>%1: its screen is unplugged</source>
+        <extracomment>%1 is a projector: its name, or &quot;Projector 2&quot;</extracomment>
+        <translation>%1：屏幕已断开</translation>
+    </message>
+    <message>
+        <source>%1 does not answer</source>
+        <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
+        <translation>%1没有响应</translation>
     </message>
 </context>
 <context>
@@ -3828,10 +3849,6 @@
         <translation>相机 %1：%2 在所有曝光中都过亮。</translation>
     </message>
     <message>
-        <source>Camera %1</source>
-        <translation>相机 %1</translation>
-    </message>
-    <message>
         <source>What %1 sees now</source>
         <translation>%1 现在看到的画面</translation>
     </message>
@@ -4176,14 +4193,6 @@
     <message>
         <source>Camera that is shown</source>
         <translation>所显示的相机</translation>
-    </message>
-    <message>
-        <source>Projector %1</source>
-        <translation>投影机 %1</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>相机 %1</translation>
     </message>
 </context>
 <context>
@@ -5961,10 +5970,6 @@ projector %2</source>
     <message>
         <source>Place of a camera</source>
         <translation>相机的位置</translation>
-    </message>
-    <message>
-        <source>Camera %1</source>
-        <translation>相机 %1</translation>
     </message>
     <message>
         <source>no content</source>

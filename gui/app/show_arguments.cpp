@@ -200,8 +200,8 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.setApplicationDescription(
       "Plays content in a calibrated venue, with compensation, until it is terminated.\n"
       "Keys at the projector: C compensation on and off, space freeze, B black, T test charts,\n"
-      "O overlay. Arrow keys and page up and down move the viewer where the cameras' positions\n"
-      "are known, Home ends that.");
+      "O overlay. Arrow keys, page up and down, and the mouse, dragged, move the viewer where\n"
+      "the cameras' positions are known, Home ends that.");
   QCommandLineOption help = parser.addHelpOption(), version = parser.addVersionOption();
   parser.addPositionalArgument("show", "Play a calibrated venue.", "show");
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");

@@ -51,6 +51,9 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
   connect(&working_, &QFutureWatcherBase::finished, this, &Player::frameReady);
   for (ProjectorWindow* window : windows_) {
     connect(window, &ProjectorWindow::keyPressed, this, [this](int key) { handleKey(key); });
+    connect(window, &ProjectorWindow::dragged, this, [this](double right, double up) {
+      walk({right, up, 0.0});
+    });
     connect(window, &ProjectorWindow::displayFound, this, &Player::present);
   }
 }
@@ -207,15 +210,15 @@ std::optional<FrameViewer> Player::viewer() const {
   return FrameViewer{*viewer_.last(), presence};
 }
 
-bool Player::walk(std::size_t axis, double steps) {
+bool Player::walk(const compensation::Position& by) {
   if (!canFollowViewers()) return false;
   compensation::Position place{};
   for (const compensation::Position& camera : cameras_)
     for (std::size_t k = 0; k < place.size(); ++k)
       place[k] += camera[k] / static_cast<double>(cameras_.size());
   if (viewer()) place = *viewer_.last();
-  constexpr double stepsAcross = 20.0;
-  place[axis] += steps / stepsAcross * compensation::widestDistance(cameras_);
+  const double across = compensation::widestDistance(cameras_);
+  for (std::size_t k = 0; k < place.size(); ++k) place[k] += by[k] * across;
   return moveViewer(place);
 }
 
@@ -242,6 +245,7 @@ void Player::nextChart() {
 }
 
 bool Player::handleKey(int key) {
+  constexpr double step = 1.0 / 20.0;
   switch (key) {
     case Qt::Key_C:
       setCompensated(!isCompensated());
@@ -259,17 +263,17 @@ bool Player::handleKey(int key) {
       setOverlay(!hasOverlay());
       return true;
     case Qt::Key_Left:
-      return walk(0, -1.0);
+      return walk({-step, 0.0, 0.0});
     case Qt::Key_Right:
-      return walk(0, 1.0);
+      return walk({step, 0.0, 0.0});
     case Qt::Key_Down:
-      return walk(1, -1.0);
+      return walk({0.0, -step, 0.0});
     case Qt::Key_Up:
-      return walk(1, 1.0);
+      return walk({0.0, step, 0.0});
     case Qt::Key_PageDown:
-      return walk(2, -1.0);
+      return walk({0.0, 0.0, -step});
     case Qt::Key_PageUp:
-      return walk(2, 1.0);
+      return walk({0.0, 0.0, step});
     case Qt::Key_Home:
       if (!canFollowViewers()) return false;
       viewer_.leave();

@@ -71,7 +71,8 @@ class Player : public QObject {
   /// Handles a key pressed at a projector's window or the operator's view: C compensation on and off, space
   /// freeze, B black, T the next test chart and after the last one the content, O overlay; where the cameras'
   /// places are known, the arrow keys and page up and down walk along the axes x, y and z, a twentieth of the
-  /// widest distance of two cameras each, and Home ends it. Returns whether the key is used.
+  /// widest distance of two cameras each, and Home ends it; the mouse, dragged on a projector's window, walks
+  /// along x and y by that distance from edge to edge. Returns whether the key is used.
   bool handleKey(int key);
 
  Q_SIGNALS:
@@ -100,7 +101,8 @@ class Player : public QObject {
   void frameReady();
   void present();
   void nextChart();
-  bool walk(std::size_t axis, double steps);
+  /// By so many of the cameras' widest distances along the axes.
+  bool walk(const compensation::Position& by);
   compensation::MovingViewer::Time viewerTime() const { return clock_.now().time_since_epoch(); }
 
   std::shared_ptr<FrameRenderer> renderer_;

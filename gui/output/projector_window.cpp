@@ -3,6 +3,7 @@
 
 #include <QGuiApplication>
 #include <QKeyEvent>
+#include <QMouseEvent>
 #include <QScreen>
 #include <algorithm>
 #include <chrono>
@@ -221,6 +222,16 @@ void ProjectorWindow::resizeEvent(QResizeEvent*) {
 
 void ProjectorWindow::keyPressEvent(QKeyEvent* event) {
   Q_EMIT keyPressed(event->key(), event->modifiers());
+}
+
+void ProjectorWindow::mousePressEvent(QMouseEvent* event) {
+  mouse_ = event->position();
+}
+
+void ProjectorWindow::mouseMoveEvent(QMouseEvent* event) {
+  if (!(event->buttons() & Qt::LeftButton)) return;
+  const QPointF by = event->position() - std::exchange(mouse_, event->position());
+  Q_EMIT dragged(by.x() / width(), -by.y() / height());
 }
 
 }  // namespace relucent::gui

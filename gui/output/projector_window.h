@@ -64,11 +64,16 @@ class ProjectorWindow : public QWindow {
   void displayChanged();
   /// A key was pressed at the projector's window.
   void keyPressed(int key, Qt::KeyboardModifiers modifiers);
+  /// The mouse was moved on it with its left button held: by so much to the right and up, as shares of the
+  /// window's width and height.
+  void dragged(double right, double up);
 
  protected:
   bool event(QEvent* event) override;
   void exposeEvent(QExposeEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
   void moveEvent(QMoveEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
@@ -87,6 +92,7 @@ class ProjectorWindow : public QWindow {
   void drawn();
 
   ScreenIdentity display_;
+  QPointF mouse_;  // where it was last seen with its button held
   bool wanted_ = false;
   QScreen* on_ = nullptr;  // where it is shown; nullptr while hidden
   bool proven_ = false;    // to stand there

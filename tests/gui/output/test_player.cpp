@@ -161,6 +161,25 @@ class TestPlayer : public QObject {
     QVERIFY(player->handleKey(Qt::Key_Home) && !player->viewer());
   }
 
+  /// From edge to edge it is as far as the cameras are apart. Without its button the mouse moves nobody.
+  void theMouseWalks() {
+    auto player = playerOf(still(), {{0, 4, 1}, {2, 4, 1}});
+    const QPoint from(window_->width() / 2, window_->height() / 2),
+        by(window_->width() / 4, -window_->height() / 8);
+    QTest::mouseMove(window_.get(), from);
+    QTest::mouseMove(window_.get(), from + by);
+    QVERIFY(!player->viewer());
+    QTest::mousePress(window_.get(), Qt::LeftButton, {}, from);
+    QTest::mouseMove(window_.get(), from + by / 2);
+    QTest::mouseMove(window_.get(), from + by);
+    QTest::mouseRelease(window_.get(), Qt::LeftButton, {}, from + by);
+    QTRY_VERIFY(player->viewer());
+    const Position at = player->viewer()->position;
+    QVERIFY(std::abs(at[0] - 1.5) < 0.01 && std::abs(at[1] - 4.25) < 0.01 && at[2] == 1.0);
+    QTest::mouseMove(window_.get(), from);
+    QCOMPARE(player->viewer()->position, at);
+  }
+
   void withoutPlacesNobodyIsFollowed() {
     auto player = playerOf(still());
     QVERIFY(!player->canFollowViewers() && !player->moveViewer({1, 0, 0}) && !player->viewer());

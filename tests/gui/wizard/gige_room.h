@@ -94,7 +94,6 @@ class Room {
     for (const std::string& screen : devices_.screens)
       screens_.push_back(std::make_unique<test::ScreenLight>(screen));
     requests_.resize(rig_.cameras.size(), {{"none", 0}, 0, 1.0});
-    covered_.resize(rig_.projectors.size());
     brightness_ = 8.0 / frameRate / wellExposed();
     for (std::size_t i = 0; i < devices_.cameras.size(); ++i) {
       test::FakeGigeSettings camera;
@@ -123,11 +122,6 @@ class Room {
   void bump(double pixels) {
     std::lock_guard guard(lock_);
     bumped_ = pixels;
-  }
-  /// A projector's lens is covered.
-  void cover(std::size_t projector, bool covered) {
-    std::lock_guard guard(lock_);
-    covered_[projector] = covered;
   }
   /// No photograph follows the one before in less.
   void setLeastInterval(std::chrono::milliseconds time) {
@@ -212,9 +206,6 @@ class Room {
       const Size size = rig_.projectors[i]->size();
       all.push_back(i < screens_.size() ? screens_[i]->look(size) : image::Image(size, 3));
     }
-    std::lock_guard guard(lock_);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (covered_[i]) all[i] = image::Image(all[i].size(), 3);
     return all;
   }
   image::Image lit(const std::vector<image::Image>& shone, std::size_t camera,
@@ -246,7 +237,6 @@ class Room {
   std::mutex light_;  // one camera looks at a time
   mutable std::mutex lock_;
   double bumped_ = 0.0;
-  std::vector<bool> covered_;
   std::chrono::milliseconds leastInterval_{0};
   std::chrono::steady_clock::time_point lastEnd_;
   std::vector<std::size_t> patterns_;

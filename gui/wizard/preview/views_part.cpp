@@ -2,6 +2,7 @@
 #include "wizard/preview/views_part.h"
 
 #include <QSlider>
+#include <QTimer>
 #include <cmath>
 
 #include "theme/controls.h"
@@ -104,9 +105,14 @@ QWidget* viewsPart(PreviewPage& page) {
     view.weight = percent / 100.0;
     page.setView(page.camera(), view, PreviewPage::tr("Weight of a view"));
   });
-  QObject::connect(one, &Tick::toggled, &page, [&page](bool wanted) {
+  QObject::connect(one, &Tick::toggled, &page, [&page, plan, place](bool wanted) {
     if (!wanted) return page.setViewer(std::nullopt);
     if (!page.viewer()) page.setViewerOnPath(0.5 * static_cast<double>(page.cameras() - 1));
+    // In a low window it is below what can be seen. Once it has its place:
+    QTimer::singleShot(0, plan, [plan, place] {
+      bringIntoSight(place);
+      bringIntoSight(plan);
+    });
   });
   QObject::connect(walk, &QSlider::valueChanged, &page, [&page](int value) {
     page.setViewerOnPath(static_cast<double>(value) / stepsBetweenCameras);

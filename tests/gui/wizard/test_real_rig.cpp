@@ -273,7 +273,8 @@ class TestRealRig : public QObject {
           const double dB = alone.optimum ? alone.optimum->psnrReachable : 0.0;
           qInfo("  %.1f %% in reach, %.1f %% of one projector alone, %.2f dB", 100.0 * through.reachable,
                 100.0 * alone.reachable, dB);
-          QVERIFY(through.reachable > alone.reachable);
+          // The statue's front has places that only one of them lights; a side is nearly all one's.
+          QVERIFY(through.reachable >= alone.reachable + (view == 0 ? 0.1 : 0.0));
           best = std::max(best, dB);
         }
         QVERIFY(through.refined > best + 3.0);
@@ -331,7 +332,7 @@ class TestRealRig : public QObject {
     replaceCameras(unlike());
     QSettings settings(QString::fromStdString((root() / "settings.ini").string()), QSettings::IniFormat);
     Session session(cache());
-    session.setPatience({2, 4});
+    session.setPatience({4, 8});
     VenuePage venue(session, RecentVenues(settings));
     CameraPage camera(session);
     LinearizePage linearize(session);
@@ -341,7 +342,7 @@ class TestRealRig : public QObject {
     for (PageModel* page : std::initializer_list<PageModel*>{&venue, &camera, &linearize, &acquire}) {
       wizard.add(*page);
       connect(page, &PageModel::failed, this, [&failures](const FailureReport& report) {
-        failures << report.failure.what + ' ' + report.failure.advice;
+        failures << report.failure.what + report.failure.details;
       });
     }
     const auto hasWorked = [&failures] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A statue seen from three sides: what each view asks for, and a viewer who walks between them.
+#include <QScrollArea>
 #include <QSlider>
 #include <QtTest>
 #include <numeric>
@@ -7,6 +8,7 @@
 #include "gui/wizard/simulated_session.h"
 #include "relucent/pipeline/calibrate.h"
 #include "theme/controls.h"
+#include "theme/tick.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/preview/viewer_plan.h"
 #include "wizard/preview/views_part.h"
@@ -51,6 +53,25 @@ class TestViewPlaces : public QObject {
     }
     std::unique_ptr<QWidget> part(viewsPart(*page_));
     QCOMPARE(part->findChild<QWidget*>("view-quality")->findChildren<ValueRow*>().size(), 3);
+  }
+
+  /// Law: however low the window, whoever asks for one viewer sees the plan to move him in.
+  void thePlanComesIntoSight() {
+    QScrollArea scroll;
+    scroll.setWidgetResizable(true);
+    scroll.setWidget(viewsPart(*page_));
+    scroll.resize(300, 220);
+    scroll.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&scroll));
+    auto* one = scroll.findChild<Tick*>("one-viewer");
+    const auto* plan = scroll.findChild<ViewerPlan*>();
+    QVERIFY(!plan->isVisible());
+    one->click();
+    QTRY_VERIFY(plan->isVisible() && scroll.viewport()->rect().contains(
+                                         QRect(plan->mapTo(scroll.viewport(), QPoint()), plan->size())));
+    one->click();
+    QTRY_VERIFY(!plan->isVisible());
+    settle();
   }
 
   /// Law: content lies on the surface in the other views, and has corners there only where it has a place of
@@ -110,8 +131,8 @@ class TestViewPlaces : public QObject {
     QVERIFY(std::abs(shares[before] - (1.0 - (place - static_cast<double>(before)))) < 0.02);
   }
 
-  /// Law: cameras and the viewer stand where they were placed, for all time, and content is for him wherever it
-  /// is shown; before, cameras stand all round the surface.
+  /// Law: cameras and the viewer stand where they were placed, for all time, and content is for him wherever
+  /// it is shown; before, cameras stand all round the surface.
   void camerasAreKeptWhereTheyWerePlaced() {
     QVERIFY(!page_->areCamerasPlaced());
     const std::vector<Position> round = page_->cameraPositions();

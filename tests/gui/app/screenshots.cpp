@@ -21,6 +21,7 @@
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/venue/venue.h"
 #include "theme/theme.h"
+#include "theme/tick.h"
 #include "views/map_view.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/camera/camera_page.h"
@@ -209,6 +210,7 @@ void takeViewer(WizardWindow& wizard, Photographs& photographs) {
   if (preview.cameras() < 2) return;
   const auto ready = [&preview] { return !preview.isComputing() && preview.table().size() >= 5; };
   preview.showCamera(1);
+  wizard.window().findChild<Tick*>("one-viewer")->click();
   preview.setViewerOnPath(0.7);
   until(ready);
   photographs.take("07-preview-viewer");

@@ -105,13 +105,12 @@ QWidget* viewsPart(PreviewPage& page) {
     view.weight = percent / 100.0;
     page.setView(page.camera(), view, PreviewPage::tr("Weight of a view"));
   });
-  QObject::connect(one, &Tick::toggled, &page, [&page, plan, place](bool wanted) {
+  QObject::connect(one, &Tick::toggled, &page, [&page, one, plan, place](bool wanted) {
     if (!wanted) return page.setViewer(std::nullopt);
     if (!page.viewer()) page.setViewerOnPath(0.5 * static_cast<double>(page.cameras() - 1));
-    // In a low window it is below what can be seen. Once it has its place:
-    QTimer::singleShot(0, plan, [plan, place] {
-      bringIntoSight(place);
-      bringIntoSight(plan);
+    // In a low window the plan is below what can be seen. Once all have their places, the last one above all:
+    QTimer::singleShot(0, plan, [one, plan, place] {
+      for (QWidget* widget : std::initializer_list<QWidget*>{place, one, plan}) bringIntoSight(widget);
     });
   });
   QObject::connect(walk, &QSlider::valueChanged, &page, [&page](int value) {

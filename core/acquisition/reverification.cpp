@@ -127,13 +127,13 @@ Message roomChange(double ambient) {
   return ambient > 0.0
              ? RELUCENT_ENGLISH_MESSAGE(
                    "verify.room-brighter",
-                   "Re-measure: the room is brighter by {} % of the projector's full light than it was; "
-                   "restore the light and verify once more, or measure the light transport again.")
+                   "Repair: the room is brighter by {} % of the projector's full light than it was; "
+                   "restore the light and verify once more, or repair the calibration.")
                    .with(share)
              : RELUCENT_ENGLISH_MESSAGE(
                    "verify.room-darker",
-                   "Re-measure: the room is darker by {} % of the projector's full light than it was; "
-                   "restore the light and verify once more, or measure the light transport again.")
+                   "Repair: the room is darker by {} % of the projector's full light than it was; "
+                   "restore the light and verify once more, or repair the calibration.")
                    .with(share);
 }
 
@@ -149,32 +149,34 @@ Judgement judge(const Reverification& found, double errorThen) {
                                  "chosen, and verify once more before you measure everything again.")};
   if (found.changedShare > mostlyChanged)
     return {Verdict::startAgain,
-            RELUCENT_ENGLISH_MESSAGE("verify.moved",
-                                     "Start again: {} % of the camera's pixels do not see what was "
-                                     "predicted, as when the camera, the projector or its zoom has moved; "
-                                     "put them back and verify once more, or measure everything again.")
+            RELUCENT_ENGLISH_MESSAGE(
+                "verify.moved",
+                "Start again: {} % of the camera's pixels do not see what was "
+                "predicted, as when the camera, the projector or its zoom has moved; "
+                "put them back and verify once more, repair the calibration, or measure everything "
+                "again.")
                 .with(as::share(found.changedShare, as::decimals(0)))};
   if (std::abs(found.ambient) > ambientLimit) return {Verdict::remeasure, roomChange(found.ambient)};
   if (found.changedShare > changedLimit)
     return {Verdict::remeasure,
             RELUCENT_ENGLISH_MESSAGE("verify.view-changed",
-                                     "Re-measure: {} % of the camera's pixels do not see what was predicted; "
+                                     "Repair: {} % of the camera's pixels do not see what was predicted; "
                                      "the map of changes shows where something was moved. Put it back and "
-                                     "verify once more, or measure the light transport again.")
+                                     "verify once more, or repair the calibration.")
                 .with(as::share(found.changedShare, as::decimals(1)))};
   if (std::abs(found.lamp - 1.0) > lampLimit)
     return {Verdict::remeasure,
             RELUCENT_ENGLISH_MESSAGE(
                 "verify.lamp-changed",
-                "Re-measure: the projector gives {} % of the light that it gave; let it warm up, restore its "
-                "settings and verify once more, or measure the light transport again.")
+                "Repair: the projector gives {} % of the light that it gave; let it warm up, restore its "
+                "settings and verify once more, or repair the calibration.")
                 .with(as::share(found.lamp, as::decimals(0)))};
   if (found.adapted > errorLimit * errorThen + errorFloor)
     return {Verdict::remeasure,
             RELUCENT_ENGLISH_MESSAGE(
                 "verify.prediction-worse",
-                "Re-measure: T predicts photographs to {} % where it was {} %, though no place stands out; "
-                "the focus or the picture settings may have changed. Measure the light transport again.")
+                "Repair: T predicts photographs to {} % where it was {} %, though no place stands out; the "
+                "focus or the picture settings may have changed. Repair the calibration.")
                 .with(as::share(found.adapted, as::decimals(1)), as::share(errorThen, as::decimals(1)))};
   return {Verdict::stillGood,
           RELUCENT_ENGLISH_MESSAGE("verify.still-good",

@@ -72,7 +72,7 @@ std::function<Command()> addVerifyOptions(CLI::App* sub) {
       ->type_name("DIR");
   addChanges(sub, command->changes);
   addCache(sub, command->cache);
-  sub->footer("Exit status: 0 still good, 3 re-measure, 4 start again; 1, 2 and 130 as usual.");
+  sub->footer("Exit status: 0 still good, 3 repair or measure again, 4 start again; 1, 2 and 130 as usual.");
   return [command] { return Command(*command); };
 }
 

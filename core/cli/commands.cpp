@@ -127,6 +127,7 @@ struct Executor {
 
   CommandResult operator()(const Perfect& command) const {
     pipeline::PerfectSettings settings = command.settings;
+    refuse(problems(settings.canvas));
     settings.images = stillsOf(command.content);
     if (command.forget)
       return outcomeOf(pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas));

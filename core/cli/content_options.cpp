@@ -191,19 +191,9 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
 std::function<Command()> addPerfectOptions(CLI::App* sub) {
   auto command = std::make_shared<Perfect>();
   pipeline::PerfectSettings& settings = command->settings;
-  settings.canvas.size = {1920, 1080};  // as a show's
   addFolder(sub, command->calibration, "Folder of the calibration");
   CLI::Option* content =
-      sub->add_option(
-             "--content", command->content,
-             "A picture, a folder of pictures or a playlist, of which the stills; may be given several times")
-          ->type_name("FILE");
-  addSize(sub, "--canvas", settings.canvas.size, "Size to which the show scales content")
-      ->default_str("1920x1080");
-  sub->add_option("--photographs", settings.photographs,
-                  "Photographs of a picture, at most, before the last two")
-      ->type_name("COUNT")
-      ->capture_default_str();
+      addStills(sub, command->content, settings.canvas, settings.photographs, "are perfected");
   sub->add_flag("--forget", command->forget,
                 "Show these pictures as before; without --content all of them. Takes no photographs");
   addChanges(sub, command->changes);

@@ -90,6 +90,24 @@ CLI::Option* addNamed(CLI::App* sub, const char* option, const std::string& what
       ->check(CLI::IsMember(allNames<Enum>()));
 }
 
+/// Stills that a show has: --content, --canvas as it scales them, --photographs of each. `what` is done to
+/// them. Returns the first.
+inline CLI::Option* addStills(CLI::App* sub, std::vector<std::filesystem::path>& content,
+                              compensation::ContentCanvas& canvas, int& photographs,
+                              const std::string& what) {
+  canvas.size = {1920, 1080};  // as a show's
+  CLI::Option* option =
+      sub->add_option("--content", content,
+                      "A picture, a folder of pictures or a playlist, of which the stills " + what +
+                          "; may be given several times")
+          ->type_name("FILE");
+  addSize(sub, "--canvas", canvas.size, "Size to which the show scales content")->default_str("1920x1080");
+  sub->add_option("--photographs", photographs, "Photographs of a picture, at most, before the last two")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  return option;
+}
+
 /// What to do where the disk is full: --full-disk.
 inline void addFullDisk(CLI::App* sub, FullDiskAction& action) {
   addNamed(sub, "--full-disk", "Where the disk is full: " + listOfNames<FullDiskAction>(), action)

@@ -28,26 +28,22 @@ std::function<Command()> addRepairOptions(CLI::App* sub) {
 std::function<Command()> addNightOptions(CLI::App* sub) {
   auto command = std::make_shared<TendNight>();
   pipeline::NightSettings& settings = command->settings;
-  settings.canvas.size = {1920, 1080};  // as a show's
   addFolder(sub, command->calibration, "Folder of the calibration");
   CLI::Option* content =
-      sub->add_option(
-             "--content", command->content,
-             "A picture, a folder of pictures or a playlist, of which the stills are perfected; may be given "
-             "several times")
-          ->type_name("FILE");
-  addSize(sub, "--canvas", settings.canvas.size, "Size to which the show scales content")
-      ->default_str("1920x1080");
-  sub->add_option("--photographs", settings.photographs,
-                  "Photographs of a picture, at most, before the last two")
-      ->type_name("COUNT")
-      ->capture_default_str();
+      addStills(sub, command->content, settings.canvas, settings.photographs, "are perfected");
+  CLI::Option* alarm =
+      sub->add_option("--alarm", settings.alarmCommand,
+                      "Command that tells somebody when there is an alarm, once for each: {sentence} becomes "
+                      "why, {calibration} the folder")
+          ->type_name("COMMAND");
   sub->add_flag("--history", command->history, "Print what the nights so far came to. Takes no photographs")
-      ->excludes(content);
+      ->excludes(content)
+      ->excludes(alarm);
   addChanges(sub, command->changes);
   addCache(sub, command->cache);
   sub->footer(
-      "Stop the show first: the camera must see the pictures. To be started by a timer of the system.\n"
+      "Stop the show first: the camera must see the pictures. To be started by a timer of the system; a\n"
+      "show does the same by itself: relucent show --night.\n"
       "Exit status: 0 all is well, 3 somebody has to look, and the last line says why; 1, 2 and 130 as "
       "usual.");
   return [command] { return Command(*command); };

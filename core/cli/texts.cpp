@@ -97,15 +97,18 @@ std::string textOf(const pipeline::RepairResult& result) {
 }
 
 std::string textOf(const pipeline::NightRecord& night) {
+  if (!night.skipped.empty()) return fmt::format("{}  skipped: {}\n", night.when, night.skipped);
   std::string text = fmt::format(
       "{}  {}", night.when, night.repair ? descriptionOf(*night.repair) : "what has changed is not known");
   if (night.measured)
-    text += fmt::format("; colour error {:.2f} ({:.1f} dB), predicted {:.2f}", night.measured->deltaE,
-                        night.measured->psnr, night.predicted->deltaE);
+    text += fmt::format("; colour error {:.2f} ({:.1f} dB), predicted {:.2f}{}", night.measured->deltaE,
+                        night.measured->psnr, night.predicted->deltaE,
+                        night.ofPerfected ? ", of a perfected picture" : "");
   if (night.perfected > 0) text += fmt::format("; {} pictures perfected", night.perfected);
   text += fmt::format("; {:.0f} s\n", night.seconds);
   for (const Message& what : night.what) text += fmt::format("  {}\n", what);
   if (!night.alarm.empty()) text += fmt::format("  Alarm: {}.\n", night.alarm);
+  if (!night.untold.empty()) text += fmt::format("  Nobody was told of it: {}.\n", night.untold);
   return text;
 }
 
@@ -315,11 +318,12 @@ std::string textOf(const pipeline::TidyResult& result) {
     const std::string freed = tidied.freed() == 0 ? "nothing to free"
                                                   : fmt::format("{} {}", bytesText(tidied.freed()),
                                                                 result.dryRun ? "would be freed" : "freed");
-    text += fmt::format("{}: {}{}{}{}{}{}.\n", tidied.folder.string(), freed,
+    text += fmt::format("{}: {}{}{}{}{}{}{}.\n", tidied.folder.string(), freed,
                         part(tidied.photographs, result.dryRun ? "patterns' photographs to remove"
                                                                : "patterns' photographs removed"),
                         part(tidied.compressed, result.dryRun ? "to compress" : "compressed"),
                         part(tidied.results, "files of results that were replaced"),
+                        part(tidied.perfected, "files of perfected pictures that are out of date"),
                         part(tidied.leftovers, "files left by interrupted writes"),
                         part(tidied.kept, "patterns' photographs stay"));
     if (!tidied.isComplete && tidied.kept.files > 0)

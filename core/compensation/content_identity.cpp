@@ -32,6 +32,14 @@ Size scaledSize(Size picture, const ContentCanvas& canvas) {
 
 }  // namespace
 
+std::vector<Message> problems(const ContentCanvas& canvas) {
+  const auto isSide = [](int pixels) { return pixels >= leastCanvasSide && pixels <= mostCanvasSide; };
+  if (canvas.size == Size{} || (isSide(canvas.size.width) && isSide(canvas.size.height))) return {};
+  return {RELUCENT_ENGLISH_MESSAGE("content.canvas-out-of-range",
+                                   "a canvas of {} pixels is impossible: each side is {} to {}")
+              .with(as::size(canvas.size), leastCanvasSide, mostCanvasSide)};
+}
+
 std::string contentIdentity(std::string_view file, Size picture, const ContentCanvas& canvas) {
   Fingerprint fingerprint;
   fingerprint.add(file);

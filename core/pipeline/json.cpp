@@ -211,6 +211,9 @@ calibration::Json toJson(const RepairResult& result) {
 }
 
 calibration::Json toJson(const NightRecord& night) {
+  const auto sentenceOf = [](const Message& sentence) {
+    return sentence.empty() ? calibration::Json() : calibration::Json(english(sentence));
+  };
   const auto errorOf = [](const std::optional<PictureError>& error) {
     return error ? calibration::Json(*error) : calibration::Json();
   };
@@ -220,7 +223,11 @@ calibration::Json toJson(const NightRecord& night) {
           {"perfected", night.perfected},
           {"measured", errorOf(night.measured)},
           {"predicted", errorOf(night.predicted)},
-          {"alarm", night.alarm.empty() ? calibration::Json() : calibration::Json(english(night.alarm))},
+          {"of_perfected", night.ofPerfected},
+          {"alarm", sentenceOf(night.alarm)},
+          {"told", night.told},
+          {"untold", sentenceOf(night.untold)},
+          {"skipped", sentenceOf(night.skipped)},
           {"seconds", night.seconds}};
 }
 
@@ -443,6 +450,7 @@ calibration::Json toJson(const TidyResult& result) {
                             {"photographs", share(tidied.photographs)},
                             {"results", share(tidied.results)},
                             {"leftovers", share(tidied.leftovers)},
+                            {"perfected", share(tidied.perfected)},
                             {"compressed", share(tidied.compressed)},
                             {"kept", share(tidied.kept)}});
   }

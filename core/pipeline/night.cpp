@@ -7,6 +7,7 @@
 #include "relucent/base/stopwatch.h"
 #include "relucent/base/utc.h"
 #include "relucent/image/picture_files.h"
+#include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -26,6 +27,24 @@ struct Devices {
   }
 };
 
+/// Whether there is anything to tend, which no morning changes.
+void requireFinished(const fs::path& path) {
+  const auto folder =
+      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  if (!isComplete(folder))
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("night.not-finished", "the calibration is not finished"),
+                RELUCENT_ENGLISH_MESSAGE("night.finish-first",
+                                         "finish it with resume or the wizard, then let it be tended"),
+                path.string());
+  if (std::holds_alternative<ImportedRigSettings>(settingsOf(folder).rig))
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_ENGLISH_MESSAGE("night.imported", "the calibration was imported and knows of no devices"),
+        RELUCENT_ENGLISH_MESSAGE("night.measure-here", "measure the venue here to have it tended"),
+        path.string());
+}
+
 /// Those that are not perfected as they are shown now, or cannot be read, which perfecting tells of.
 std::vector<fs::path> unperfected(const fs::path& folder, const NightSettings& settings) {
   const auto isKept = [&](const fs::path& image) {
@@ -41,9 +60,20 @@ std::vector<fs::path> unperfected(const fs::path& folder, const NightSettings& s
   return images;
 }
 
-/// The first still, or a picture that everybody has.
-fs::path provedPicture(const fs::path& folder, const NightSettings& settings) {
-  if (!settings.images.empty()) return settings.images.front();
+/// The first still that can be read; empty: none can.
+fs::path firstReadable(const std::vector<fs::path>& images) {
+  for (const fs::path& image : images) {
+    try {
+      image::readLinearContent(image);
+      return image;
+    } catch (const Error&) {  // which perfecting tells of
+    }
+  }
+  return {};
+}
+
+/// A picture that everybody has.
+fs::path standardPicture(const fs::path& folder) {
   const fs::path standard = folder / "night" / "picture.png";
   std::error_code code;
   if (!fs::exists(standard, code)) {
@@ -65,27 +95,20 @@ class Night {
   Night(const fs::path& folder, const NightSettings& settings, Devices devices)
       : folder_(folder), settings_(settings), devices_(devices) {
     record_.when = utcNow();
+    proved_ = firstReadable(settings.images);
   }
 
   NightRecord run(Progress& progress) {
     Stopwatch watch;
     try {
       repair(progress);
-    } catch (const Error& error) {
-      // Of the calibration itself: there is nothing to tend.
-      if (error.kind() != ErrorKind::device && error.kind() != ErrorKind::disk) throw;
+      perfect(progress);
+      prove(progress);
+    } catch (const Error& error) {  // of devices, of the disk, of a picture, or of what was measured
       record_.alarm = error.sentence();
     }
-    if (record_.repair) {
-      try {
-        perfect(progress);
-        prove(progress);
-      } catch (const Error& error) {  // of devices, of the disk, or of a picture
-        record_.alarm = error.sentence();
-      }
-    }
     record_.seconds = watch.seconds();
-    addNight(folder_, record_);
+    closeNight(folder_, record_, settings_.alarmCommand);
     progress.report(1.0);
     return record_;
   }
@@ -95,7 +118,7 @@ class Night {
     Progress part =
         progress.part(0.5, RELUCENT_MESSAGE("stage.looking-for-changes", "Looking for what has changed"));
     RepairSettings settings;
-    if (!settings_.images.empty()) settings.image = settings_.images.front();
+    settings.image = proved_;
     settings.rig = settings_.rig;
     const RepairResult result =
         devices_.with([&](auto& devices) { return repairCalibration(folder_, settings, devices, part); });
@@ -116,7 +139,7 @@ class Night {
         devices_.with([&](auto& devices) { return perfectPictures(folder_, settings, devices, {}, part); });
     for (const PerfectedImage& image : result.images) {
       record_.perfected += image.kept ? 1 : 0;
-      if (!image.failure.empty()) record_.alarm = image.failure;
+      if (!image.failure.empty() && record_.alarm.empty()) record_.alarm = image.failure;
     }
   }
 
@@ -125,7 +148,8 @@ class Night {
                                                    folder_, calibration::CalibrationFolder::Access::read))
                                         .content;
     ProveSettings settings;
-    settings.image = provedPicture(folder_, settings_);
+    settings.image = proved_.empty() ? standardPicture(folder_) : proved_;
+    settings.canvas = settings_.canvas;
     settings.method = content.method;
     settings.target = targetOf(content);
     settings.out = folder_ / "night";
@@ -136,12 +160,14 @@ class Night {
         devices_.with([&](auto& devices) { return proveCalibration(folder_, settings, devices, part); });
     record_.measured = proof.after.measured;
     record_.predicted = proof.after.predicted;
+    record_.ofPerfected = proof.perfected;
     if (!isAsPredicted(proof)) record_.alarm = notAsPredicted(proof);
   }
 
   const fs::path& folder_;
   const NightSettings& settings_;
   Devices devices_;
+  fs::path proved_;  // of the stills; empty: there is none
   NightRecord record_;
 };
 
@@ -151,15 +177,17 @@ NightRecord tended(const fs::path& folder, const NightSettings& settings, Device
     throw Error(
         ErrorKind::input, found.front(),
         RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
+  requireFinished(folder);
   return Night(folder, settings, devices).run(progress);
 }
 
 }  // namespace
 
 std::vector<Message> problems(const NightSettings& settings) {
+  std::vector<Message> found = problems(settings.canvas);
   if (settings.photographs < 2 || settings.photographs > mostPerfectingPhotographs)
-    return {perfectingPhotographsOutOfRange()};
-  return {};
+    found.push_back(perfectingPhotographsOutOfRange());
+  return found;
 }
 
 NightRecord tendCalibration(const fs::path& folder, const NightSettings& settings, const fs::path& cache,

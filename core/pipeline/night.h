@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "relucent/base/progress.h"
-#include "relucent/pipeline/night_record.h"
+#include "relucent/pipeline/night_alarm.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/rig_settings.h"
 #include "relucent/rig/rig.h"
@@ -14,25 +14,21 @@
 namespace relucent::pipeline {
 
 struct NightSettings {
-  std::vector<std::filesystem::path> images;  // stills of the show; the first one is proved
+  std::vector<std::filesystem::path> images;  // stills of the show; the first that can be read is proved
   compensation::ContentCanvas canvas;         // that the show puts them on
   int photographs = 6;                        // of each still at most, before the last two
   std::optional<RigSettings> rig;             // none: the calibration's own; others must have its sizes
+  std::string alarmCommand{};                 // tells of an alarm, see closeNight(); empty: nobody is told
 };
 std::vector<Message> problems(const NightSettings& settings);
 
-/// Whether somebody has to look in the morning.
-inline bool isAlarm(const NightRecord& night) {
-  return !night.alarm.empty();
-}
-
 /// What a venue does by itself between two shows: the calibration is made to fit what has become of it
 /// (repair.h), stills that are not perfected as they are shown now are (perfect.h), and one is proved by
-/// photograph (prove.h), into `night` of the calibration. One line of its history tells what came of it. What
-/// the devices or the disk refuse, and pictures that cannot be read, are an alarm of that night and no
-/// failure: the calibration is then as the last step that was finished left it.
-/// Throws: Error{input} if the calibration is not finished or was imported; Error{disk} if not even the
-/// history can be written; Cancelled.
+/// photograph as a show has it (prove.h), into `night` of the calibration. One line of its history tells what
+/// came of it. What cannot be done, because of devices, the disk or pictures that cannot be read, is an alarm
+/// of that night and no failure: the calibration is then as the last step that was finished left it.
+/// Throws: as CalibrationFolder::open(); Error{input} if the calibration is not finished or was imported;
+/// Error{disk} if not even the history can be written; Cancelled, and then there is no line.
 NightRecord tendCalibration(const std::filesystem::path& folder, const NightSettings& settings,
                             const std::filesystem::path& cache, Progress& progress);
 /// The same with devices that somebody has open already.

@@ -22,6 +22,10 @@ Json toJson(const NightRecord& night) {
   if (night.measured) json["measured"] = *night.measured;
   if (night.predicted) json["predicted"] = *night.predicted;
   if (!night.alarm.empty()) json["alarm"] = night.alarm;
+  if (!night.skipped.empty()) json["skipped"] = night.skipped;
+  if (night.ofPerfected) json["of_perfected"] = true;
+  if (night.told) json["told"] = true;
+  if (!night.untold.empty()) json["untold"] = night.untold;
   return json;
 }
 
@@ -35,6 +39,11 @@ NightRecord nightFrom(const Json& json) {
   if (json.contains("predicted")) night.predicted = json.at("predicted").get<PictureError>();
   if (json.contains("alarm")) night.alarm = json.at("alarm").get<Message>();
   night.seconds = json.at("seconds").get<double>();
+  // Not in histories of earlier versions.
+  if (json.contains("skipped")) night.skipped = json.at("skipped").get<Message>();
+  night.ofPerfected = json.value("of_perfected", false);
+  night.told = json.value("told", false);
+  if (json.contains("untold")) night.untold = json.at("untold").get<Message>();
   return night;
 }
 

@@ -22,6 +22,10 @@ struct NightRecord {
       predicted;  // of a corrected picture by photograph; none: there is none
   Message alarm;  // why somebody has to look; empty: nobody has to
   double seconds = 0.0;
+  Message skipped{};         // why nothing was done though it was time for it; empty: it was done
+  bool ofPerfected = false;  // the measured picture was perfected
+  bool told = false;         // the alarm, by a command: in this night, or in one before it
+  Message untold{};          // why the command could not
 };
 
 /// Lines of JSON in the calibration's folder, a night each, oldest first.

@@ -96,7 +96,9 @@ class Perfecter {
                                     file.string(),
                                     utcNow(),
                                     {result.before.views, result.after.views, result.photographs},
-                                    {}},
+                                    {},
+                                    fingerprintOfShown(folder_),
+                                    settings_.canvas},
                                    found.picture.projector, projectors);
     return result;
   }
@@ -154,6 +156,7 @@ std::vector<Message> problems(const PerfectSettings& settings) {
   std::vector<Message> found;
   if (settings.images.empty())
     found.push_back(RELUCENT_ENGLISH_MESSAGE("perfect.no-pictures", "there is no still picture to perfect"));
+  std::ranges::move(problems(settings.canvas), std::back_inserter(found));
   if (settings.photographs < 2 || settings.photographs > mostPerfectingPhotographs)
     found.push_back(perfectingPhotographsOutOfRange());
   return found;
@@ -180,6 +183,20 @@ bool isPerfected(const fs::path& path, const fs::path& image, const compensation
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   return findPerfected(path, keyOf(folder, image, image::readLinearContent(image).size(), canvas))
       .has_value();
+}
+
+bool isOutOfDate(const PerfectedPicture& picture, const calibration::CalibrationFolder& folder) {
+  if (!picture.shownFrom.empty() && picture.shownFrom != fingerprintOfShown(folder)) return true;
+  std::error_code code;
+  // A name that depends on where somebody was then may be another file's now.
+  const fs::path file(picture.picture);
+  if (!picture.canvas || !file.is_absolute() || !fs::is_regular_file(file, code)) return false;
+  try {
+    const Size size = image::readLinearContent(file).size();
+    return keyOf(folder, file, size, *picture.canvas) != picture.key;
+  } catch (const Error&) {
+    return false;  // nobody knows what it is
+  }
 }
 
 ForgottenPictures forgetPerfected(const fs::path& path, const std::vector<fs::path>& images,

@@ -67,6 +67,10 @@ PerfectResult perfectPictures(const std::filesystem::path& folder, const Perfect
 bool isPerfected(const std::filesystem::path& folder, const std::filesystem::path& image,
                  const compensation::ContentCanvas& canvas);
 
+/// Whether no show of this calibration finds it any more: something else is measured or chosen now, or its
+/// file has become another picture. One whose file is away for now is not out of date. Throws: Error{disk}.
+bool isOutOfDate(const PerfectedPicture& picture, const calibration::CalibrationFolder& folder);
+
 struct ForgottenPictures {
   std::vector<std::string> pictures;  // as they were named
 };

@@ -6,7 +6,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
-#include "relucent/calibration/json.h"
+#include "relucent/calibration/enum_json.h"
 #include "relucent/image/exr.h"
 #include "relucent/pipeline/picture_error_json.h"
 
@@ -48,6 +48,12 @@ PerfectedPicture recordFrom(const fs::path& calibration, const std::string& key)
     picture.perfected = json.at("perfected").get<std::string>();
     picture.figures = {json.at("before").get<std::vector<PictureError>>(),
                        json.at("after").get<std::vector<PictureError>>(), json.at("photographs").get<int>()};
+    picture.shownFrom = json.value("shown_from", std::string());
+    if (json.contains("canvas")) {
+      const calibration::Json& canvas = json.at("canvas");
+      picture.canvas = {{canvas.at("width").get<int>(), canvas.at("height").get<int>()},
+                        canvas.at("fit").get<compensation::Fit>()};
+    }
     for (const calibration::Json& name : json.at("files"))
       picture.files.push_back(plainName(name.get<std::string>()));
     return picture;
@@ -93,14 +99,15 @@ std::vector<fs::path> savePerfected(PerfectedPicture picture, const ProjectorSta
                     {{image::exr_attribute::units, std::string("linear projector drive")}});
     picture.files.push_back(name);
   }
-  writeFileAtomically(folder / recordName, calibration::Json{{"version", recordVersion},
-                                                             {"picture", picture.picture},
-                                                             {"perfected", picture.perfected},
-                                                             {"before", picture.figures.before},
-                                                             {"after", picture.figures.after},
-                                                             {"photographs", picture.figures.photographs},
-                                                             {"files", picture.files}}
-                                               .dump(2));
+  calibration::Json record{{"version", recordVersion},       {"picture", picture.picture},
+                           {"perfected", picture.perfected}, {"before", picture.figures.before},
+                           {"after", picture.figures.after}, {"photographs", picture.figures.photographs},
+                           {"files", picture.files},         {"shown_from", picture.shownFrom}};
+  if (picture.canvas)
+    record["canvas"] = {{"width", picture.canvas->size.width},
+                        {"height", picture.canvas->size.height},
+                        {"fit", picture.canvas->fit}};
+  writeFileAtomically(folder / recordName, record.dump(2));
   removeOthers(folder, picture.files);
   std::vector<fs::path> files{folder / recordName};
   for (const std::string& name : picture.files) files.push_back(folder / name);

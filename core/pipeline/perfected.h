@@ -8,6 +8,7 @@
 
 #include "relucent/base/raster.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/compensation/content_identity.h"
 #include "relucent/image/image.h"
 #include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/prove.h"
@@ -29,6 +30,9 @@ struct PerfectedPicture {
   std::string perfected;         // when, ISO 8601, UTC
   PerfectedFigures figures;
   std::vector<std::string> files;  // linear drive, EXR, one a projector; names beside the record
+  // What the key follows from besides the picture's file; of earlier versions: not known.
+  std::string shownFrom{};
+  std::optional<compensation::ContentCanvas> canvas{};
 };
 
 /// Where these lie within a calibration.

@@ -18,7 +18,10 @@
 #include "relucent/pipeline/aim.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "relucent/reduction/reduction.h"
 
 namespace relucent::pipeline {
@@ -107,6 +110,20 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
   }
   result.light.projector = ProjectorStack(image::stackFromImages(light, projectors));
   return result;
+}
+
+/// As a show of this calibration has it; none: that picture was not perfected.
+std::optional<compensation::Compensation> perfectedIn(const calibration::CalibrationFolder& folder,
+                                                      const fs::path& file, Size picture,
+                                                      const compensation::ContentCanvas& canvas,
+                                                      const Rasters& projectors) {
+  const std::string key = perfectedKey(fingerprintOfShown(folder),
+                                       compensation::contentIdentity(readFile(file), picture, canvas));
+  const std::optional<PerfectedPicture> kept = findPerfected(folder.path(), key);
+  if (!kept) return std::nullopt;
+  compensation::Compensation light;
+  light.projector = driveOf(*kept, projectors);
+  return light;
 }
 
 Photographed photograph(photography::Photographer& photographer, const MeasuredCalibration& measured,
@@ -215,6 +232,8 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
         ErrorKind::input, found.front(),
         RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
+  const Size picture = content.size();
+  if (settings.canvas) content = compensation::onCanvas(content, *settings.canvas);
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
@@ -225,13 +244,22 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);
 
   compensation::Target target = fitTarget(content, measured.venue, settings.target);
-  compensation::Compensator compensator(measured.venue, measured.inverse);
+  compensation::CompensatorSettings solver;
+  solver.clustering = settingsOf(folder).clustering;
+  compensation::Compensator compensator(measured.venue, measured.inverse, solver);
   Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   Projection plain = projectionOf(compensator.solve(compensation::Method::none, target, solving), measured);
-  Projection compensated = settings.shown.empty()
-                               ? projectionOf(compensator.solve(settings.method, target, solving), measured)
-                               : shownProjection(settings.shown, measured);
   ProveResult result;
+  const auto corrected = [&]() -> Projection {
+    if (!settings.shown.empty()) return shownProjection(settings.shown, measured);
+    std::optional<compensation::Compensation> perfected;
+    if (settings.canvas)
+      perfected = perfectedIn(folder, settings.image, picture, *settings.canvas, transport.projectors());
+    result.perfected = perfected.has_value();
+    return projectionOf(
+        perfected ? std::move(*perfected) : compensator.solve(settings.method, target, solving), measured);
+  };
+  const Projection compensated = corrected();
   result.method = settings.method;
   const compensation::Prediction predicted = compensation::predict(measured.venue, target, compensated.light);
   result.reachable = predicted.reachable;

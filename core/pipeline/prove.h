@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "relucent/base/progress.h"
+#include "relucent/compensation/content_identity.h"
 #include "relucent/compensation/method.h"
 #include "relucent/compensation/target.h"
 #include "relucent/pipeline/rig_settings.h"
@@ -24,6 +25,9 @@ struct ProveSettings {
   compensation::TargetSettings target;
   std::filesystem::path out;       // folder; created; files of the same names are replaced
   std::optional<RigSettings> rig;  // none: the calibration's own; others must have its sizes
+  /// That a show puts the content on: what it shows of it is proved, perfected if the picture is
+  /// (perfected.h). None: the content alone, by `method`.
+  std::optional<compensation::ContentCanvas> canvas{};
 };
 std::vector<Message> problems(const ProveSettings& settings);
 
@@ -58,6 +62,7 @@ struct ProveResult {
   int exposures = 0;
   double seconds = 0.0;              // of photographing
   std::vector<ProvedView> others{};  // cameras beyond the first, in their order
+  bool perfected = false;            // what was proved was corrected by photographs of itself
   std::vector<std::filesystem::path> files;
 };
 

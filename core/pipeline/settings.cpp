@@ -220,6 +220,7 @@ Problems problems(const ProveSettings& settings) {
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("settings.no-output-folder", "no folder for the results is given"));
   checkTarget(found, settings.target);
+  if (settings.canvas) append(found, problems(*settings.canvas));
   return found;
 }
 

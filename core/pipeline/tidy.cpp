@@ -8,6 +8,7 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/leftovers.h"
 #include "relucent/calibration/shot_file.h"
+#include "relucent/pipeline/perfect.h"
 #include "relucent/platform/files.h"
 
 namespace relucent::pipeline {
@@ -132,6 +133,7 @@ class Tidying {
       for (const fs::path& path : leftovers_) removeAll(path);
       for (const fs::path& path : replaced) removeAll(path);
     }
+    removeOutdated();
     const std::vector<fs::path> kept = removeOthers();
     for (std::size_t i = 0; i < kept.size(); ++i) {
       compress(kept[i]);
@@ -141,6 +143,14 @@ class Tidying {
   }
 
  private:
+  void removeOutdated() {
+    for (const PerfectedPicture& picture : allPerfected(folder_->path())) {
+      if (!isOutOfDate(picture, *folder_)) continue;
+      add(done_.perfected, shareOf(perfectedFolder(folder_->path()) / picture.key));
+      if (!settings_.dryRun) removePerfected(picture);
+    }
+  }
+
   /// The photographs that stay.
   std::vector<fs::path> removeOthers() {
     const KeptPhotographs wanted = settings_.kept ? *settings_.kept : keptPhotographs(*folder_);

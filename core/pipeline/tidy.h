@@ -22,11 +22,12 @@ struct TidiedCalibration {
   DiskShare photographs;    // removed
   DiskShare leftovers;      // of interrupted writes
   DiskShare results;        // that newer ones of the same settings have replaced
+  DiskShare perfected;      // pictures that no show finds any more, see isOutOfDate()
   DiskShare compressed;     // of earlier versions; bytes saved
   DiskShare kept;           // photographs that stay, as they then are
   bool isComplete = false;  // else all photographs stay
   std::uint64_t freed() const {
-    return photographs.bytes + leftovers.bytes + results.bytes + compressed.bytes;
+    return photographs.bytes + leftovers.bytes + results.bytes + perfected.bytes + compressed.bytes;
   }
 };
 
@@ -36,7 +37,8 @@ struct TidyResult {
 };
 
 /// Frees the disk of what calibrations do not need: photographs that are not to be kept, what interrupted
-/// writes left, results that newer ones of the same settings have replaced; and compresses, without loss,
+/// writes left, results that newer ones of the same settings have replaced, perfected pictures that are out
+/// of date; and compresses, without loss,
 /// photographs of earlier versions. Interrupted at any instant, nothing that is needed is lost: every
 /// compressed file is read back and compared before it takes the place of the old one.
 /// All calibrations are opened before the first is changed.

@@ -11,6 +11,7 @@
 #include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -162,6 +163,28 @@ std::optional<ReportDrift> driftIn(const fs::path& calibration, const calibratio
   }
 }
 
+/// As they are shown now.
+std::vector<ReportPerfected> perfectedIn(const calibration::CalibrationFolder& folder) {
+  std::vector<ReportPerfected> perfected;
+  for (const pipeline::PerfectedPicture& picture : pipeline::allPerfected(folder.path()))
+    if (!pipeline::isOutOfDate(picture, folder))
+      perfected.push_back(
+          {fs::path(picture.picture).filename().string(), picture.perfected, picture.figures});
+  return perfected;
+}
+
+/// The last two weeks; none where the history cannot be read.
+std::vector<pipeline::NightRecord> lastNights(const fs::path& calibration) {
+  constexpr std::ptrdiff_t most = 14;
+  try {
+    std::vector<pipeline::NightRecord> nights = pipeline::nightsOf(calibration);
+    if (std::ssize(nights) > most) nights.erase(nights.begin(), nights.end() - most);
+    return nights;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& settings, const fs::path& cache,
@@ -205,6 +228,9 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
     data.drift = driftIn(folder.path(), *acquired);
   }
+
+  data.perfected = perfectedIn(folder);
+  data.nights = lastNights(folder.path());
 
   Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {

@@ -17,6 +17,7 @@
 #include "relucent/report/pictures.h"
 #include "relucent/report/proof_sections.h"
 #include "relucent/report/templates.h"
+#include "relucent/report/upkeep_section.h"
 
 namespace relucent::report {
 namespace {
@@ -78,6 +79,7 @@ bool isAboutStopping(const Message& finding) {
 /// What stands out, and what was proved.
 void setFindings(Data& page, const ReportData& data) {
   Data warnings(Data::type::list), assurances(Data::type::list);
+  addAlarm(data, warnings);
   addVerdicts(data, warnings, assurances);
   for (const Message& finding : data.result.findings)
     if (!isAboutStopping(finding)) warnings << Data(englishSentence(finding));
@@ -325,6 +327,7 @@ Data pageOf(const ReportData& data) {
   page.set("cards", cards(data));
   setFindings(page, data);
   if (data.verification) page.set("verification", verificationSection(data));
+  if (!data.perfected.empty() || !data.nights.empty()) page.set("upkeep", upkeepSection(data));
   Data comparisons(Data::type::list);
   for (const ReportComparison& shown : data.comparisons) comparisons << comparison(shown);
   page.set("comparisons", comparisons);

@@ -13,6 +13,8 @@
 #include "relucent/linearization/linearization.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/night_record.h"
+#include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/versions.h"
 #include "relucent/report/settings_words.h"
 
@@ -56,6 +58,13 @@ struct ReportDrift {
   std::string checked;                  // when, ISO 8601
 };
 
+/// A picture that was corrected by photographs of itself, and is shown so.
+struct ReportPerfected {
+  std::string name;  // of its file
+  std::string when;  // ISO 8601
+  pipeline::PerfectedFigures figures;
+};
+
 /// Everything that a report shows. What is empty is left out.
 struct ReportData {
   std::string title;  // the calibration's name
@@ -83,6 +92,8 @@ struct ReportData {
   std::optional<pipeline::EvaluateResult> evaluation;
   std::optional<ReportVerification> verification;
   std::optional<ReportDrift> drift;
+  std::vector<ReportPerfected> perfected;     // as they are shown now
+  std::vector<pipeline::NightRecord> nights;  // the last ones, oldest first
   std::vector<NamedText> settings;
   std::vector<pipeline::LibraryVersion> libraries;
 };

@@ -190,6 +190,36 @@ class TestReverification : public QObject {
     QVERIFY2(found.changedShare < 0.02, figures.constData());
   }
 
+  void whatCanBeRepairedIsNotToBeMeasuredAgain_data() {
+    QTest::addColumn<double>("lamp");
+    QTest::addColumn<double>("ambient");
+    QTest::addColumn<double>("changed");
+    QTest::addColumn<double>("adapted");
+    QTest::newRow("brighter room") << 1.0 << 0.02 << 0.0 << 0.0;
+    QTest::newRow("darker room") << 1.0 << -0.02 << 0.0 << 0.0;
+    QTest::newRow("changed view") << 1.0 << 0.0 << 0.1 << 0.0;
+    QTest::newRow("lamp") << 0.8 << 0.0 << 0.0 << 0.0;
+    QTest::newRow("prediction") << 1.0 << 0.0 << 0.0 << 0.5;
+  }
+  /// Law: the shortest way back is the one that is named: a repair takes seconds, a measurement minutes.
+  void whatCanBeRepairedIsNotToBeMeasuredAgain() {
+    QFETCH(double, lamp);
+    QFETCH(double, ambient);
+    QFETCH(double, changed);
+    QFETCH(double, adapted);
+    Reverification found;
+    found.lamp = lamp;
+    found.ambient = ambient;
+    found.changedShare = changed;
+    found.adapted = adapted;
+    const Judgement judgement = judge(found, 0.02);
+    const QString sentence = QString::fromStdString(english(judgement.sentence));
+    QVERIFY(judgement.verdict == Verdict::remeasure);
+    QVERIFY2(sentence.startsWith("Repair: ") && sentence.contains("epair the calibration"),
+             qPrintable(sentence));
+    QVERIFY2(!sentence.contains("measure", Qt::CaseInsensitive), qPrintable(sentence));
+  }
+
   /// The map shows where: nearly all changed pixels lie in the part of the view that was covered.
   void changesAreWhereTheyAre() {
     Reverification found = venues_["plain"]->lookAgain({handInView()});

@@ -8,33 +8,24 @@
 #include <fstream>
 #include <limits>
 
+#include "core/pipeline/night_venue.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/image/colour.h"
-#include "relucent/image/picture_files.h"
-#include "relucent/pipeline/calibrate.h"
+#include "relucent/image/exr.h"
+#include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/proof_record.h"
-#include "relucent/pipeline/standard_images.h"
+#include "relucent/pipeline/stills.h"
 #include "relucent/venue/device_faults.h"
 
 using namespace relucent;
 using namespace relucent::pipeline;
+using namespace relucent::test;
 using namespace relucent::venue;
 namespace fs = std::filesystem;
 
 namespace {
 
 Progress quiet;
-
-VenueSettings venueWith(const Changes& changes = {}) {
-  VenueSettings venue;
-  venue.name = "corner";
-  venue.projector = {40, 30};
-  venue.camera = {32, 24};
-  venue.pathsPerPixel = 32;
-  venue.changes = changes;
-  return venue;
-}
 
 NightRecord nightNumber(int number) {
   NightRecord night;
@@ -75,22 +66,12 @@ class TestNight : public QObject {
     return fingerprintOfCorrection(
         calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read));
   }
-  NightSettings settingsFor(const Changes& changes = {}) {
-    NightSettings settings;
-    settings.images = {picture()};
-    settings.canvas.size = {480, 360};
-    settings.photographs = 3;
-    settings.rig = venueWith(changes);
-    return settings;
-  }
+  NightSettings settingsFor(const Changes& changes = {}) { return nightSettings(picture(), changes); }
 
  private slots:
   void initTestCase() {
-    CalibrateSettings settings;
-    settings.rig = venueWith();
-    settings.linearization.levels = 9;
-    calibrate(root() / "measured", settings, cache(), quiet);
-    image::writePng(picture(), image::srgbEncoded(standardImages().front().linear), 8);
+    measureNightVenue(root() / "measured", cache());
+    writeNightPicture(picture());
   }
 
   /// Law: quality stays, whatever happened by day, and each night has its line. A night after which nothing
@@ -142,7 +123,7 @@ class TestNight : public QObject {
     const std::string correction = correctionOf(folder);
     Changes changes;
     changes.painted.push_back({{0.4, 0.5}, 0.15});
-    SimulatedVenue venue(venueWith(changes), cache(), quiet);
+    SimulatedVenue venue(nightVenue(changes), cache(), quiet);
     const auto schedule = std::make_shared<FaultSchedule>();
     schedule->faults.push_back({static_cast<FaultKind>(fault), stage.toStdString(), 0, 100000});
     rig::Rig rig = venue.rig(schedule);
@@ -161,6 +142,113 @@ class TestNight : public QObject {
     const NightRecord night = tendCalibration(folder, settings, cache(), quiet);
     QVERIFY(isAlarm(night));
     QVERIFY(night.measured && night.repair == RepairEnd::nothingToDo);
+  }
+
+  /// A playlist whose first picture is gone: the others are repaired, perfected and proved by.
+  void aMissingFirstPictureStopsNothing() {
+    const fs::path folder = copy("first missing");
+    std::ofstream(root() / "show.playlist")
+        << R"({"items": [{"path": "gone.png"}, {"path": "film.mp4"}, {"path": "picture.png"}]})";
+    NightSettings settings = settingsFor(paintedWall());
+    settings.images = stillsOf(root() / "show.playlist");
+    const NightRecord night = tendCalibration(folder, settings, cache(), quiet);
+    QVERIFY(night.repair == RepairEnd::repaired);
+    QVERIFY(night.measured.has_value());
+    QVERIFY2(english(night.alarm).find("gone.png") != std::string::npos, english(night.alarm).c_str());
+  }
+
+  void withoutItsDevicesItIsAnAlarm() {
+    const fs::path folder = copy("no devices");
+    NightSettings settings = settingsFor();
+    settings.rig = ReplayRigSettings{root() / "no recording"};
+    const NightRecord night = tendCalibration(folder, settings, cache(), quiet);
+    QVERIFY(isAlarm(night) && !night.repair);
+  }
+
+  /// What is proved is what the show has: the perfected picture where there is one. One that is all black
+  /// tells it from what T would have shown.
+  void whatTheShowHasIsProved() {
+    const fs::path folder = copy("shown");
+    NightSettings settings = settingsFor();
+    const NightRecord plain = tendCalibration(folder, settings, cache(), quiet);
+    const auto calibration =
+        calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read);
+    const Size size = image::readLinearContent(picture()).size();
+    PerfectedPicture black;
+    black.key = perfectedKey(fingerprintOfShown(calibration),
+                             compensation::contentIdentity(readFile(picture()), size, settings.canvas));
+    black.folder = folder;
+    black.picture = picture().string();
+    black.perfected = "2026-01-01T00:00:00Z";
+    const Rasters projectors(nightVenue().projector);
+    savePerfected(black, ProjectorStack(3 * projectors.count()), projectors);
+    const NightRecord night = tendCalibration(folder, settings, cache(), quiet);
+    QVERIFY(night.ofPerfected);
+    QVERIFY2(night.measured->deltaE > 5.0 * plain.measured->deltaE,
+             qPrintable(QString("ΔE %1, %2 before").arg(night.measured->deltaE).arg(plain.measured->deltaE)));
+    QVERIFY(nightsOf(folder).back().ofPerfected);
+  }
+
+  void anAlarmIsToldOnce() {
+    const fs::path folder = root() / "told", calls = root() / "calls";
+    fs::create_directories(folder);
+    const std::string command = "echo {sentence} >>" + calls.string();
+    const auto close = [&](const Message& alarm, const std::string& by, const Message& skipped = {}) {
+      NightRecord night = nightNumber(1);
+      night.alarm = alarm;
+      night.skipped = skipped;
+      closeNight(folder, night, by);
+      return night;
+    };
+    const auto error = [](double deltaE) {
+      return RELUCENT_MESSAGE("test.colour-error", "the colour error is {} of '{}'").with(deltaE, "a;b 'c'");
+    };
+    QVERIFY(!close(error(5.0), {}).told);  // nobody to be told by
+    QVERIFY(!close(error(5.0), "echo nobody is there; false").told);
+    QVERIFY(english(nightsOf(folder).back().untold).find("nobody is there") != std::string::npos);
+    QVERIFY(close(error(5.25), command).told);
+    QVERIFY(close(error(6.0), command).told);                    // the same, by another figure
+    close({}, command, Message::plain("the show did not run"));  // no night
+    QVERIFY(close(error(7.0), command).told);
+    QCOMPARE(readFile(calls), std::string("the colour error is 5.25 of 'a;b 'c''.\n"));
+    QVERIFY(close(Message::plain("the lamp is off"), command).told);  // another one
+    close({}, command);                                               // all is well
+    QVERIFY(close(Message::plain("the lamp is off"), command).told);
+    const std::string all = readFile(calls);
+    QCOMPARE(std::count(all.begin(), all.end(), '\n'), 3);
+  }
+
+  void sentencesAreComparedByWhatTheySay_data() {
+    QTest::addColumn<bool>("same");
+    QTest::addColumn<int>("a");
+    QTest::addColumn<int>("b");
+    QTest::newRow("itself") << true << 0 << 0;
+    QTest::newRow("other figure") << true << 0 << 1;
+    QTest::newRow("other camera") << false << 0 << 2;
+    QTest::newRow("other file") << false << 3 << 4;
+    QTest::newRow("within another sentence") << true << 5 << 6;
+    QTest::newRow("another within it") << false << 5 << 7;
+    QTest::newRow("words") << false << 8 << 0;
+  }
+  void sentencesAreComparedByWhatTheySay() {
+    QFETCH(bool, same);
+    QFETCH(int, a);
+    QFETCH(int, b);
+    const auto dark = [](double share, int camera) {
+      return RELUCENT_MESSAGE("test.dark", "{} % of camera {} is dark")
+          .with(as::share(share), as::label(camera));
+    };
+    const auto gone = [](const char* file) {
+      return RELUCENT_MESSAGE("test.gone", "{} is gone").with(as::file(file));
+    };
+    const auto within = [](const Message& why) {
+      return RELUCENT_MESSAGE("test.because", "stopped: {}").with(why);
+    };
+    const std::vector<Message> sentences{dark(0.1, 1),         dark(0.2, 1),          dark(0.1, 2),
+                                         gone("a.png"),        gone("b.png"),         within(dark(0.1, 1)),
+                                         within(dark(0.3, 1)), within(gone("a.png")), Message::plain("10 %")};
+    QCOMPARE(saysTheSame(sentences[static_cast<std::size_t>(a)], sentences[static_cast<std::size_t>(b)]),
+             same);
   }
 
   void whatCannotBeTendedIsNoNight() {

@@ -165,7 +165,7 @@ class TestReport : public QObject {
     data.drift->verdict = Verdict::remeasure;
     page = html(data);
     QCOMPARE(page.count("note amber"), 2);
-    QVERIFY(!page.contains("Nothing stands out") && page.contains("should be measured again"));
+    QVERIFY(!page.contains("Nothing stands out") && page.contains("should be repaired"));
     data.drift->verdict = Verdict::startAgain;
     QVERIFY(html(data).contains("hardly anything fits"));
   }

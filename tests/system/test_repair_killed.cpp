@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The power fails at random instants of a repair.
+#include <QElapsedTimer>
+#include <QProcess>
+#include <QTemporaryDir>
+#include <QtTest>
+#include <map>
+
+#include "relucent/base/file.h"
+#include "relucent/base/random.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/repair.h"
+
+using namespace relucent;
+using namespace relucent::pipeline;
+using calibration::CalibrationFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int longest = 60'000;          // milliseconds
+constexpr double longestStoring = 30.0;  // of what is killed, milliseconds
+
+std::map<std::string, std::string> filesIn(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = readFile(entry.path());
+  return files;
+}
+
+std::string correctionOf(const fs::path& calibration) {
+  return fingerprintOfCorrection(CalibrationFolder::open(calibration, CalibrationFolder::Access::read));
+}
+
+/// A result is being written.
+bool isBeingStored(const fs::path& calibration) {
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(calibration / "results", code))
+    if (const std::string name = entry.path().filename().string(); name.starts_with('.')) return true;
+  return false;
+}
+
+}  // namespace
+
+class TestRepairKilled : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+  fs::path venue() const { return folder_.filePath("venue").toStdString(); }
+  QStringList repair() const {
+    return {"repair",   QString::fromStdString(venue().string()),
+            "--change", "painted:0.4,0.5,0.15",
+            "--cache",  folder_.filePath("cache")};
+  }
+
+ private slots:
+  void initTestCase() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    QSKIP("a hundred runs of the program take an hour under a sanitizer; what is on disk is the same");
+#endif
+    CalibrateSettings settings;
+    venue::VenueSettings corner;
+    corner.name = "corner";
+    corner.projector = {24, 16};
+    corner.camera = {20, 16};
+    corner.pathsPerPixel = 16;
+    settings.rig = corner;
+    settings.linearization.levels = 5;
+    Progress quiet;
+    calibrate(venue(), settings, folder_.filePath("cache").toStdString(), quiet);
+  }
+
+  /// Law: whatever a repair was doing, afterwards there is either the calibration from before, as it was to
+  /// the last byte, or the repaired one whole; and in both cases the one from before is still there.
+  void theOlderCalibrationStays() {
+    const QString program = QCoreApplication::applicationDirPath() + "/relucent-cli";
+    const fs::path manifest = venue() / CalibrationFolder::manifestName,
+                   former = venue() / "results/acquisition-1";
+    const std::map<std::string, std::string> measured = filesIn(former);
+    const std::string correction = correctionOf(venue());
+    const std::string asMeasured = readFile(manifest);
+    // How long one takes, traced venue included.
+    QElapsedTimer clock;
+    for (int run = 0; run < 2; ++run) {
+      QProcess whole;
+      clock.start();
+      whole.start(program, repair());
+      QVERIFY(whole.waitForFinished(longest));
+      QCOMPARE(whole.exitCode(), 0);
+      QVERIFY(correctionOf(venue()) != correction);
+      undoRepair(venue());
+    }
+    const auto wholeRun = static_cast<double>(clock.elapsed());
+
+    constexpr int wanted = 100;
+    int kills = 0, whileStored = 0, committed = 0;
+    Random random{20071028, 25};
+    Progress quiet;
+    for (int run = 0; kills < wanted; ++run) {
+      QVERIFY2(run < 3 * wanted, "the program hardly ever lives to be killed");
+      const std::string before = readFile(manifest), formerCorrection = correctionOf(venue());
+      QCOMPARE(formerCorrection, correction);
+      // Every other one at any time; the others while what was found is stored, or just after.
+      const double place = random.uniform(), late = random.uniform();
+      const bool anyTime = run % 2 == 0;
+      QProcess one;
+      QElapsedTimer running, storing;
+      running.start();
+      one.start(program, repair());
+      const auto isTime = [&] {
+        if (anyTime) return static_cast<double>(running.elapsed()) >= place * wholeRun;
+        if (!storing.isValid() && isBeingStored(venue())) storing.start();
+        return storing.isValid() &&
+               1e-6 * static_cast<double>(storing.nsecsElapsed()) >= longestStoring * late;
+      };
+      bool lives = true;
+      while (lives && !isTime())
+        lives = !one.waitForFinished(anyTime ? 1 : 0) && one.state() != QProcess::NotRunning;
+      one.kill();
+      one.waitForFinished(longest);
+      const bool isKilled = one.exitStatus() == QProcess::CrashExit;
+      kills += isKilled;
+      whileStored += isKilled && isBeingStored(venue());
+
+      QVERIFY(filesIn(former) == measured);
+      const bool isRepaired = correctionOf(venue()) != correction;
+      if (!isRepaired) QCOMPARE(readFile(manifest), before);
+      loadCalibration(CalibrationFolder::open(venue(), CalibrationFolder::Access::read), quiet);
+      committed += isRepaired;
+      if (isRepaired) {
+        undoRepair(venue());
+        QCOMPARE(correctionOf(venue()), correction);
+      }
+      // Whoever opens it for writing clears away what the killed one left.
+      CalibrationFolder::open(venue(), CalibrationFolder::Access::write);
+      QVERIFY(!isBeingStored(venue()));
+    }
+    qInfo("killed %d times, %d of them while a result was stored; %d repairs were whole by then", kills,
+          whileStored, committed);
+    QVERIFY(whileStored > 10);
+    QVERIFY(committed < wanted);
+    QProcess last;
+    last.start(program, repair());
+    QVERIFY(last.waitForFinished(longest));
+    QVERIFY(correctionOf(venue()) != correction);
+    QVERIFY(!asMeasured.empty() && filesIn(former) == measured);
+  }
+};
+
+QTEST_GUILESS_MAIN(TestRepairKilled)
+#include "test_repair_killed.moc"

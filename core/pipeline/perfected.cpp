@@ -149,6 +149,21 @@ std::vector<PerfectedPicture> allPerfected(const fs::path& calibration) {
   return all;
 }
 
+std::string perfectedState(const fs::path& calibration) {
+  std::vector<std::string> records;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(perfectedFolder(calibration), missing)) {
+    const std::string key = entry.path().filename().string();
+    std::error_code none;
+    const fs::file_time_type written = fs::last_write_time(recordOf(calibration, key), none);
+    if (!none) records.push_back(fmt::format("{} {}", key, written.time_since_epoch().count()));
+  }
+  std::ranges::sort(records);
+  Fingerprint fingerprint;
+  for (const std::string& record : records) fingerprint.add(record);
+  return fingerprint.hex();
+}
+
 void removePerfected(const PerfectedPicture& picture) {
   const fs::path folder = perfectedFolder(picture.folder) / picture.key;
   std::error_code failed;

@@ -57,6 +57,9 @@ ProjectorStack driveOf(const PerfectedPicture& picture, const Rasters& projector
 /// All of a calibration, also those out of date, in the order of their keys. What cannot be read is left out.
 std::vector<PerfectedPicture> allPerfected(const std::filesystem::path& calibration);
 
+/// Is another one as soon as any is kept, replaced or removed.
+std::string perfectedState(const std::filesystem::path& calibration);
+
 /// The picture is shown as T has it again. Throws: Error{disk}.
 void removePerfected(const PerfectedPicture& picture);
 

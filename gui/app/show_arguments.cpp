@@ -8,6 +8,8 @@
 
 #include "app/versions.h"
 #include "content/content_address.h"
+#include "output/night_schedule.h"
+#include "relucent/compensation/content_identity.h"
 
 namespace relucent::gui {
 namespace {
@@ -17,7 +19,9 @@ std::optional<QSize> sizeFrom(const QString& text) {
   QStringList parts = text.toLower().split('x');
   if (parts.size() != 2) return std::nullopt;
   QSize size(parts[0].toInt(), parts[1].toInt());
-  if (size.width() < 8 || size.height() < 8 || size.width() > 8192 || size.height() > 8192)
+  using compensation::leastCanvasSide, compensation::mostCanvasSide;
+  if (size.width() < leastCanvasSide || size.height() < leastCanvasSide || size.width() > mostCanvasSide ||
+      size.height() > mostCanvasSide)
     return std::nullopt;
   return size;
 }
@@ -38,6 +42,15 @@ const QCommandLineOption content(
 const QCommandLineOption loop("loop", "Repeat the content.");
 const QCommandLineOption schedule("schedule", "Play during these hours of the day only; black outside them.",
                                   "HH:MM-HH:MM");
+const QCommandLineOption night("night",
+                               "Tend the venue every night at this time, or after the hours of --schedule: "
+                               "the camera looks for what has changed, the calibration is repaired, pictures "
+                               "are perfected, and one is proved. The show makes way and then goes on.",
+                               "HH:MM|after");
+const QCommandLineOption alarm("alarm",
+                               "Command that tells somebody when a night had an alarm, once for each: "
+                               "{sentence} becomes why, {calibration} the folder.",
+                               "COMMAND");
 const QCommandLineOption display("screen",
                                  "Connector of a projector's display, one for each; default: chosen by size.",
                                  "NAME");
@@ -93,8 +106,8 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
   for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
-  for (const QCommandLineOption& option : {schedule, canvas, brightness, backend, osc, oscAddress,
-                                           oscFeedback, statusPage, statusAddress, powerOffAfter})
+  for (const QCommandLineOption& option : {schedule, night, alarm, canvas, brightness, backend, osc,
+                                           oscAddress, oscFeedback, statusPage, statusAddress, powerOffAfter})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter})
     if (parser.isSet(option)) again << "--" + option.names().first();
@@ -151,6 +164,18 @@ void readProjectors(const QCommandLineParser& parser, ShowSettings& settings) {
   settings.powerOffAfter = std::chrono::minutes(minutes);
 }
 
+void readNight(const QCommandLineParser& parser, ShowSettings& settings) {
+  if (!parser.isSet(night)) {
+    if (parser.isSet(alarm)) throw WrongArguments("--alarm needs --night");
+    return;
+  }
+  settings.night = nightTimeFrom(parser.value(night), settings.hours);
+  if (!settings.night)
+    throw WrongArguments(
+        "the night must be HH:MM outside the hours of --schedule, or after, which needs --schedule");
+  settings.alarmCommand = parser.value(alarm).toStdString();
+}
+
 ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder) {
   if (!parser.isSet(content)) throw WrongArguments("nothing to play; name it with --content");
   ShowSettings settings;
@@ -162,6 +187,7 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
     if (!settings.hours)
       throw WrongArguments("the schedule must be HH:MM-HH:MM with two different times, as 09:30-18:00");
   }
+  readNight(parser, settings);
   std::optional<engine::BackendChoice> chosen =
       valueNamed<engine::BackendChoice>(parser.value(backend).toStdString());
   if (!chosen) throw WrongArguments("the backend must be cpu, opengl or automatic");
@@ -207,11 +233,30 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content,       loop,           schedule,   display,        canvas,
-                     adaptive,      brightness,     backend,    cameraPosition, osc,
-                     oscAddress,    oscFeedback,    statusPage, statusAddress,  switchProjectors,
-                     powerOffAfter, closeShutter,   log,        installService, installAutostart,
-                     removeService, removeAutostart});
+  parser.addOptions({content,
+                     loop,
+                     schedule,
+                     night,
+                     alarm,
+                     display,
+                     canvas,
+                     adaptive,
+                     brightness,
+                     backend,
+                     cameraPosition,
+                     osc,
+                     oscAddress,
+                     oscFeedback,
+                     statusPage,
+                     statusAddress,
+                     switchProjectors,
+                     powerOffAfter,
+                     closeShutter,
+                     log,
+                     installService,
+                     installAutostart,
+                     removeService,
+                     removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))

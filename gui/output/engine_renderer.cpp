@@ -119,7 +119,7 @@ std::optional<RenderedFrame> EngineRenderer::thorough(const ContentPicture& cont
   Stopwatch watch;
   // For whoever looks from where the content is for.
   const compensation::Compensation* solved =
-      perfected_ && !request.viewer ? perfected_->of(content) : nullptr;
+      perfected_ && !request.viewer ? perfected_->of(content, request.edition) : nullptr;
   const bool isPerfected = solved != nullptr;
   if (!isPerfected) solved = still_->solve(content, outdated, weightsFor(request.viewer));
   if (solved == nullptr) return std::nullopt;

@@ -30,6 +30,8 @@ struct RenderRequest {
   double seconds = 1.0 / 60.0;          // that there are for it otherwise
   double brightness = 1.0;              // of white, relative to the calibration's
   std::optional<FrameViewer> viewer{};  // none: as the calibration's content has it
+  /// With another one, what the calibration keeps of the picture is looked for again.
+  std::uint64_t edition = 0;
 
   bool operator==(const RenderRequest&) const = default;
 };

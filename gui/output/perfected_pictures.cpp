@@ -14,10 +14,12 @@ PerfectedPictures::PerfectedPictures(std::filesystem::path calibration, std::str
       projectors_(std::move(projectors)),
       warn_(std::move(warn)) {}
 
-const compensation::Compensation* PerfectedPictures::of(const ContentPicture& content) {
+const compensation::Compensation* PerfectedPictures::of(const ContentPicture& content,
+                                                        std::uint64_t edition) {
   if (content.identity.empty()) return nullptr;
-  if (content.number != number_) {
+  if (content.number != number_ || edition != edition_) {
     number_ = content.number;
+    edition_ = edition;
     last_ = {};
     try {
       const std::string key = pipeline::perfectedKey(shownFrom_, content.identity);

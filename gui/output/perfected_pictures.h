@@ -12,7 +12,8 @@
 namespace relucent::gui {
 
 /// Still pictures that were corrected by photographs of themselves, for the renderer. Each is looked for when
-/// it comes on, so that what is perfected meanwhile is shown from its next turn on.
+/// it comes on, so that what is perfected meanwhile is shown from its next turn on, and of one that stands
+/// when it is asked for in another edition.
 class PerfectedPictures {
  public:
   using Warn = std::function<void(const Message&)>;
@@ -21,14 +22,14 @@ class PerfectedPictures {
   PerfectedPictures(std::filesystem::path calibration, std::string shownFrom, Rasters projectors, Warn warn);
 
   /// Null if this picture was not perfected, or not as it is shown now; valid until the next call.
-  const compensation::Compensation* of(const ContentPicture& content);
+  const compensation::Compensation* of(const ContentPicture& content, std::uint64_t edition);
 
  private:
   std::filesystem::path calibration_;
   std::string shownFrom_;
   Rasters projectors_;
   Warn warn_;
-  std::uint64_t number_ = 0;  // of the picture that was looked for last
+  std::uint64_t number_ = 0, edition_ = 0;  // of the picture that was looked for last
   compensation::Compensation last_;
 };
 

@@ -103,7 +103,9 @@ void Player::beginFrame() {
                 request.brightness == last.request.brightness && request.viewer == last.request.viewer &&
                 !last.rendered.drives.empty();
     bool rests = same && last.rendered.settled;
-    if (rests && (last.request.thorough || time - last.since < standsStill)) return last;
+    if (rests && request.edition == last.request.edition &&
+        (last.request.thorough || time - last.since < standsStill))
+      return last;
     RenderRequest wanted = request;
     wanted.thorough = rests;
     Outdated outdated = [&] { return content->at(clock.time()).number != picture.number; };
@@ -229,6 +231,11 @@ void Player::setOverlay(bool shown) {
 
 void Player::setContent(std::shared_ptr<ContentSource> content) {
   content_ = std::move(content);
+  renderer_->interrupt();
+}
+
+void Player::renew() {
+  ++request_.edition;
   renderer_->interrupt();
 }
 

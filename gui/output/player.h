@@ -54,6 +54,8 @@ class Player : public QObject {
   bool moveViewer(const compensation::Position& position);
   /// Other content from the next frame on, of the renderer's canvas.
   void setContent(std::shared_ptr<ContentSource> content);
+  /// What the calibration keeps of the picture that stands is looked for again: it may have been perfected.
+  void renew();
   /// A test chart instead of the content; none: the content, which has continued meanwhile.
   void setChart(std::optional<TestChart> chart);
   bool isFrozen() const { return clock_.isPaused(); }

@@ -14,6 +14,9 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/calibration/calibration_folder.h"
+#include "relucent/pipeline/perfected.h"
+#include "relucent/pipeline/proof_record.h"
 #include "relucent/platform/process.h"
 
 namespace relucent::gui {
@@ -30,6 +33,16 @@ std::filesystem::path simulatedVenues() {
   return (QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/relucent").toStdString();
 }
 
+/// What pictures of a calibration follow from as it is now; empty: it cannot be read.
+std::string shownFrom(const std::filesystem::path& path) {
+  try {
+    using calibration::CalibrationFolder;
+    return pipeline::fingerprintOfShown(CalibrationFolder::open(path, CalibrationFolder::Access::read));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject* parent,
@@ -44,6 +57,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       wishes_(settings_.powerOffAfter),
       photographs_(photography ? std::move(photography)
                                : photographyOf(settings_.calibration, simulatedVenues())) {
+  if (settings_.night) nights_.emplace(settings_, clock_.wall());
   connect(&photographs_, &ShowPhotographs::progressed, this,
           [this](const QString& work, double fraction, const QString& stage) {
             if (control_) control_->announce('/' + work, "progress", {fraction, stage});
@@ -54,8 +68,8 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
   again_.setSingleShot(true);
   connect(&again_, &QTimer::timeout, this, [this] {
-    // Displays of projectors that are to be off are not missed.
-    if (!player_ && !wishes().on) return again_.start(longestPause);
+    // Displays of projectors that are to be off are not missed, and those that are photographed are not free.
+    if ((!player_ && !wishes().on) || state_ == ShowState::photographing) return again_.start(longestPause);
     try {
       open();
       start();
@@ -106,6 +120,8 @@ void Show::open() {
     if (!windows_.empty() && !windows_.front()->surface().keepsStep())
       log_.warn("there is no OpenGL: pictures go through memory, not in step with the displays");
   }
+  playsFrom_ = shownFrom(settings_.calibration);
+  playsPerfected_ = pipeline::perfectedState(settings_.calibration);
   content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas);
   toldSkipped_ = 0;
   std::vector<ProjectorWindow*> windows;
@@ -133,6 +149,7 @@ void Show::openOrWait() {
 }
 
 pjlink::Wanted Show::wishes() {
+  if (nights_ && nights_->isUnderWay()) return wishes_.at(clock_.wall(), true, false);
   return wishes_.at(clock_.wall(), isTime(), player_ && player_->isBlack());
 }
 
@@ -181,8 +198,10 @@ void Show::look() {
   slept_ = slept;
   wakeDisplays();
   listen();
+  if (nights_) tend();
   tellProjectors();
   if (state_ == ShowState::photographing) return writeHealth(state_);
+  takeUp(state_ == ShowState::resting);
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
   writeHealth(state_);
@@ -315,7 +334,7 @@ Message Show::whyNoPhotographs() const {
 }
 
 void Show::makeWay() {
-  player_->stop();
+  if (player_) player_->stop();
   for (const auto& window : windows_) window->stop();
   writeHealth(ShowState::photographing);
 }
@@ -344,8 +363,87 @@ Message Show::perfect() {
 void Show::photographed(const QString& work, const QString& verdict, const QString& sentence) {
   log_.tell(QString("%1: %2").arg(verdict, sentence));
   if (control_) control_->announce('/' + work, "done", {verdict, sentence});
+  if (work == "night") nightEnded(verdict, sentence);
   state_ = ShowState::starting;
-  start();
+  takeUp(true);
+  if (state_ == ShowState::starting) start();
+}
+
+void Show::tend() {
+  const QDateTime now = clock_.wall();
+  switch (nights_->stepAt(now)) {
+    case ShowNights::Step::none:
+      return;
+    case ShowNights::Step::missed:
+      return leaveOutNight(
+          RELUCENT_MESSAGE("night.missed",
+                           "it could not begin within two hours of its time: the show did not run, or the "
+                           "computer slept"));
+    case ShowNights::Step::end:
+      if (!brokenOff_.empty()) return;  // it is about to end
+      brokenOff_ = isTime() && settings_.hours
+                       ? RELUCENT_MESSAGE("night.hours-began", "the show's hours began before it was done")
+                       : RELUCENT_MESSAGE("night.too-long", "it was not done within six hours");
+      return photographs_.breakOff();
+    case ShowNights::Step::begin:
+      break;
+  }
+  if (photographs_.isRunning()) return;  // after that
+  if (const Message why = photographs_.whyNot(); !why.empty()) {
+    log_.warn("night: " + QString::fromStdString(englishSentence(why)));
+    try {
+      nights_->raise(now, why);
+    } catch (const Error& error) {
+      log_.warn(error.what());
+    }
+    return;
+  }
+  log_.tell("tending the calibration by photographs");
+  nights_->begin(now);
+  makeWay();
+  photographs_.tend(nights_->work(), settings_.switchesPower);
+}
+
+void Show::leaveOutNight(const Message& why) {
+  log_.warn("night left out: " + QString::fromStdString(englishSentence(why)));
+  try {
+    nights_->leaveOut(clock_.wall(), why);
+  } catch (const Error& error) {
+    log_.warn(error.what());
+  }
+}
+
+void Show::nightEnded(const QString& verdict, const QString& sentence) {
+  if (verdict != "failed") {
+    nights_->ended(clock_.wall());
+    if (!nights_->alarm().empty()) log_.warn("alarm: " + sentence);
+    if (nights_->last() && !nights_->last()->untold.empty())
+      log_.warn("nobody was told: " + QString::fromStdString(englishSentence(nights_->last()->untold)));
+  } else if (const Message why = std::exchange(brokenOff_, {}); !why.empty()) {
+    leaveOutNight(why);
+  } else {
+    nights_->ended(clock_.wall(), Message::plain(sentence.toStdString()));
+    log_.warn("alarm: " + sentence);
+  }
+  brokenOff_ = {};
+}
+
+void Show::takeUp(bool whole) {
+  if (!player_) return;
+  const std::string now = shownFrom(settings_.calibration);
+  if (whole && !now.empty() && now != playsFrom_) {
+    log_.tell("the calibration has changed: it is played by from now on");
+    try {
+      open();
+      isTime() ? play() : rest();
+    } catch (const Error& error) {
+      tryAgain(error.sentence());
+    }
+    return;
+  }
+  if (const std::string perfected = pipeline::perfectedState(settings_.calibration);
+      perfected != std::exchange(playsPerfected_, perfected))
+    player_->renew();
 }
 
 void Show::writeHealth(ShowState state) {
@@ -387,6 +485,9 @@ QJsonObject Show::health() const {
                      {"failures", failures_},
                      {"peak_memory_bytes", static_cast<qint64>(platform::peakMemoryBytes())},
                      {"displays", displays}};
+  if (nights_) health["night"] = nights_->health(clock_.wall());
+  if (nights_ && !nights_->alarm().empty())
+    health["alarm"] = QString::fromStdString(englishSentence(nights_->alarm()));
   if (projectors_) health["projectors"] = toJson(projectors_->states());
   return health;
 }

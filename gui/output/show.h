@@ -12,6 +12,7 @@
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
+#include "output/show_nights.h"
 #include "output/show_photography.h"
 #include "output/show_projectors.h"
 #include "output/show_settings.h"
@@ -33,7 +34,8 @@ constexpr EnumNames<ShowState> namesOf(ShowState) {
 
 /// An unattended show: opens the displays, plays during its hours and shows black outside them, writes a log
 /// and a health file, and starts again after a failure. After a suspend content continues where it was. Is
-/// controlled by OSC where it is asked to.
+/// controlled by OSC where it is asked to. At night, where it is asked to, it has its venue tended
+/// (pipeline/night.h) and goes on with what came of it.
 class Show : public QObject, private RemoteActions {
   Q_OBJECT
 
@@ -90,6 +92,13 @@ class Show : public QObject, private RemoteActions {
   Message whyNoPhotographs() const;
   /// Leaves the projectors to whoever photographs.
   void makeWay();
+  /// What the clock asks for of the nights.
+  void tend();
+  void leaveOutNight(const Message& why);
+  void nightEnded(const QString& verdict, const QString& sentence);
+  /// What has become of the calibration: pictures that were perfected, and, where the picture may be gone for
+  /// a moment (`whole`), another correction.
+  void takeUp(bool whole);
   void photographed(const QString& work, const QString& verdict, const QString& sentence);
 
   ShowSettings settings_;
@@ -112,6 +121,9 @@ class Show : public QObject, private RemoteActions {
   QString whyNoOsc_, whyNoPage_;
   ProjectorWishes wishes_;
   ShowPhotographs photographs_;
+  std::optional<ShowNights> nights_;            // none: nobody wants them
+  Message brokenOff_;                           // why the night under way has to end
+  std::string playsFrom_, playsPerfected_;      // what of the calibration is shown
   std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
 };
 

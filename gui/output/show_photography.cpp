@@ -5,10 +5,14 @@
 
 #include "jobs/live_rig.h"
 #include "output/screen_identity.h"
+#include "output/show_nights.h"
 #include "output/window_projector.h"
+#include "relucent/base/error.h"
+#include "relucent/base/utc.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/warm_up.h"
 #include "relucent/rig/watched_rig.h"
 
 namespace relucent::gui {
@@ -64,6 +68,26 @@ class CalibratedPhotography : public ShowPhotography {
         calibration_, settings, devices.rig(), [](std::size_t, const pipeline::PerfectingRound&) {},
         progress);
     return std::move(result.images.front());
+  }
+  pipeline::NightRecord tend(const pipeline::NightSettings& work, bool switchesOn,
+                             Progress& progress) override {
+    std::optional<Devices> devices;
+    pipeline::NightRecord night;
+    night.when = utcNow();
+    try {
+      const pipeline::CalibrateSettings settings =
+          pipeline::settingsOf(CalibrationFolder::open(calibration_, CalibrationFolder::Access::read));
+      pipeline::ProjectorWarmUp warmUp(switchesOn ? settings.network : pipeline::NetworkProjectors(),
+                                       settings.rig);
+      warmUp.switchOn(progress);
+      devices.emplace(*this, progress);
+      warmUp.awaitSteadyLight(devices->rig(), progress);
+    } catch (const Error& error) {
+      night.alarm = error.sentence();
+      pipeline::closeNight(calibration_, night, work.alarmCommand);
+      return night;
+    }
+    return pipeline::tendCalibration(calibration_, work, devices->rig(), progress);
   }
 
  private:
@@ -145,6 +169,13 @@ void ShowPhotographs::perfect(const std::filesystem::path& picture, const Canvas
     const pipeline::PerfectedImage image = photography->perfect(picture, canvas, progress);
     const bool failed = !image.failure.empty() || !image.disturbance.empty();
     return Found{failed ? "failed" : image.kept ? "better" : "as_before", sentenceOf(image)};
+  });
+}
+
+void ShowPhotographs::tend(const pipeline::NightSettings& work, bool switchesOn) {
+  start("night", [photography = photography_, work, switchesOn](Progress& progress) {
+    const pipeline::NightRecord night = photography->tend(work, switchesOn, progress);
+    return Found{isAlarm(night) ? "alarm" : "well", sentenceOf(night)};
   });
 }
 

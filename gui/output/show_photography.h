@@ -9,6 +9,7 @@
 #include "content/canvas.h"
 #include "jobs/job.h"
 #include "relucent/base/message.h"
+#include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/verify.h"
 
@@ -26,10 +27,15 @@ class ShowPhotography {
   virtual pipeline::VerifyResult check(Progress& progress) = 0;
   virtual pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas& canvas,
                                            Progress& progress) = 0;
+  /// `switchesOn`: projectors that are on the network; their light is waited for. What cannot be done is an
+  /// alarm of the night, devices that cannot be opened as well.
+  /// Throws: Error{disk} if not even the history can be written; Cancelled.
+  virtual pipeline::NightRecord tend(const pipeline::NightSettings& work, bool switchesOn,
+                                     Progress& progress) = 0;
 };
 
-/// By the devices that a calibration names. Pictures change three times a second at most: an audience may be
-/// there.
+/// By the devices that a calibration names. Pictures change three times a second at most, at night too: an
+/// audience, or whoever cleans, may be there.
 std::unique_ptr<ShowPhotography> photographyOf(const std::filesystem::path& calibration,
                                                const std::filesystem::path& cache);
 
@@ -46,14 +52,17 @@ class ShowPhotographs : public QObject {
   /// Contract: whyNot() is empty.
   void check();
   void perfect(const std::filesystem::path& picture, const Canvas& canvas);
+  void tend(const pipeline::NightSettings& work, bool switchesOn);
+  /// What is under way ends at once, and ended() follows.
+  void breakOff() { job_.cancel(); }
   /// Waits; ended() does not follow.
   void cancel();
 
  Q_SIGNALS:
-  /// `work`: "check" or "perfect".
+  /// `work`: "check", "perfect" or "night".
   void progressed(const QString& work, double fraction, const QString& stage);
-  /// `verdict` of a check: as relucent-cli verify has it; of a picture: "better", "as_before". Either:
-  /// "failed".
+  /// `verdict` of a check: as relucent-cli verify has it; of a picture: "better", "as_before"; of a night:
+  /// "well", "alarm". Each: "failed".
   void ended(const QString& work, const QString& verdict, const QString& sentence);
 
  private:

@@ -46,7 +46,9 @@ struct ShowSettings {
   bool switchesPower = false;                   // of these: on for the hours of play, off outside them
   bool closesShutter = false;                   // while black is wanted
   std::optional<std::chrono::minutes>
-      powerOffAfter{};  // of black, hours or not; none: at the end of the hours
+      powerOffAfter{};           // of black, hours or not; none: at the end of the hours
+  std::optional<QTime> night{};  // when the venue is tended, outside the hours; none: never
+  std::string alarmCommand{};  // tells of a night's alarm, see pipeline::closeNight(); empty: nobody is told
 };
 
 /// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),

@@ -17,6 +17,7 @@ struct FactName {
 };
 /// What the facts of health.json are called. One that is not here is called by its key.
 constexpr std::array factNames{
+    FactName{"alarm", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Alarm")},
     FactName{"state", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "State")},
     FactName{"updated", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Updated")},
     FactName{"renderer", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Computed on")},
@@ -33,6 +34,15 @@ constexpr std::array factNames{
     FactName{"skipped", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Items skipped")},
     FactName{"failures", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Failures")},
     FactName{"peak_memory_bytes", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Most memory used (bytes)")},
+    FactName{"night", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Last night")},
+    FactName{"when", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "When")},
+    FactName{"outcome", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Outcome")},
+    FactName{"pictures_perfected", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Pictures perfected")},
+    FactName{"delta_e", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Colour error (ΔE)")},
+    FactName{"delta_e_predicted",
+             QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Predicted colour error (ΔE)")},
+    FactName{"untold", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Nobody was told")},
+    FactName{"next", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Next night")},
     FactName{"displays", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Displays")},
     FactName{"connector", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Connector")},
     FactName{"shining", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Shining")},
@@ -58,7 +68,8 @@ constexpr const char* pageStyle =
     "body{font-family:sans-serif;margin:2em;max-width:50em;color:#222;background:#fff}"
     "table{border-collapse:collapse;width:100%}"
     "th,td{text-align:start;vertical-align:top;padding:.3em .6em;border-bottom:1px solid #ccc}"
-    "th{font-weight:normal;color:#555;width:14em}";
+    "th{font-weight:normal;color:#555;width:14em}"
+    ".alarm{padding:.6em;border:2px solid #a32b20;color:#a32b20}";
 
 QString nameOfFact(const QString& key) {
   for (const FactName& fact : factNames)
@@ -100,6 +111,14 @@ QString table(const QJsonObject& facts) {
   return "<table>" + rows + "</table>";
 }
 
+/// Before everything else: somebody has to look.
+QString alarmOf(const QJsonObject& health) {
+  if (!health.contains("alarm")) return {};
+  return "<p role=\"alert\" class=\"alarm\"><strong>" +
+         StatusPage::tr("Somebody has to look").toHtmlEscaped() + "</strong> " +
+         health.value("alarm").toString().toHtmlEscaped() + "</p>";
+}
+
 HttpAnswer refused(int status, const char* why) {
   return {status, "text/plain; charset=utf-8", QByteArray(why) + "\n"};
 }
@@ -132,7 +151,7 @@ QByteArray StatusPage::html(const QJsonObject& health) {
           "\"><head><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"10\">"
           "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
           title + "</title><style>" + pageStyle + "</style></head><body><h1>" + title + "</h1>" +
-          table(health) + "</body></html>\n")
+          alarmOf(health) + table(health) + "</body></html>\n")
       .toUtf8();
 }
 

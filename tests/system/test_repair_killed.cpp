@@ -64,8 +64,8 @@ class TestRepairKilled : public QObject {
     CalibrateSettings settings;
     venue::VenueSettings corner;
     corner.name = "corner";
-    corner.projector = {24, 16};
-    corner.camera = {20, 16};
+    corner.projector = {16, 16};
+    corner.camera = {16, 16};
     corner.pathsPerPixel = 16;
     settings.rig = corner;
     settings.linearization.levels = 5;
@@ -75,13 +75,17 @@ class TestRepairKilled : public QObject {
 
   /// Law: whatever a repair was doing, afterwards there is either the calibration from before, as it was to
   /// the last byte, or the repaired one whole; and in both cases the one from before is still there.
+  void theOlderCalibrationStays_data() {
+    QTest::addColumn<quint64>("seed");
+    for (quint64 seed = 1; seed <= 4; ++seed) QTest::addRow("seed %d", static_cast<int>(seed)) << seed;
+  }
   void theOlderCalibrationStays() {
+    QFETCH(quint64, seed);
     const QString program = QCoreApplication::applicationDirPath() + "/relucent-cli";
     const fs::path manifest = venue() / CalibrationFolder::manifestName,
                    former = venue() / "results/acquisition-1";
     const std::map<std::string, std::string> measured = filesIn(former);
     const std::string correction = correctionOf(venue());
-    const std::string asMeasured = readFile(manifest);
     // How long one takes, traced venue included.
     QElapsedTimer clock;
     for (int run = 0; run < 2; ++run) {
@@ -95,17 +99,17 @@ class TestRepairKilled : public QObject {
     }
     const auto wholeRun = static_cast<double>(clock.elapsed());
 
-    constexpr int wanted = 100;
+    constexpr int wanted = 25;
     int kills = 0, whileStored = 0, committed = 0;
-    Random random{20071028, 25};
+    Random random{20071028, seed};
     Progress quiet;
     for (int run = 0; kills < wanted; ++run) {
       QVERIFY2(run < 3 * wanted, "the program hardly ever lives to be killed");
       const std::string before = readFile(manifest), formerCorrection = correctionOf(venue());
       QCOMPARE(formerCorrection, correction);
-      // Every other one at any time; the others while what was found is stored, or just after.
+      // Most of them at any time; the others while what was found is stored, or just after.
       const double place = random.uniform(), late = random.uniform();
-      const bool anyTime = run % 2 == 0;
+      const bool anyTime = run % 3 != 0;
       QProcess one;
       QElapsedTimer running, storing;
       running.start();
@@ -140,13 +144,14 @@ class TestRepairKilled : public QObject {
     }
     qInfo("killed %d times, %d of them while a result was stored; %d repairs were whole by then", kills,
           whileStored, committed);
-    QVERIFY(whileStored > 10);
+    QVERIFY(whileStored > 0);
     QVERIFY(committed < wanted);
     QProcess last;
     last.start(program, repair());
     QVERIFY(last.waitForFinished(longest));
     QVERIFY(correctionOf(venue()) != correction);
-    QVERIFY(!asMeasured.empty() && filesIn(former) == measured);
+    QVERIFY(filesIn(former) == measured);
+    undoRepair(venue());
   }
 };
 

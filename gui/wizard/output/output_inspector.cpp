@@ -13,6 +13,7 @@
 #include "wizard/devices/nudge_dialog.h"
 #include "wizard/devices/perfecting_part.h"
 #include "wizard/frame/page_view.h"
+#include "wizard/output/nights_part.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
 #include "wizard/output/repair_part.h"
@@ -264,6 +265,8 @@ QWidget* outputInspector(OutputPage& page) {
   column->addWidget(lineOf());
   column->addWidget(perfectingPart(page, page.perfecting(),
                                    {[&page] { return page.mayProve(); }, [&page] { page.perfect(); }}));
+  column->addWidget(lineOf());
+  column->addWidget(new NightsPart(page));
   column->addWidget(lineOf());
   column->addWidget(handOverPart(page));
   column->addStretch(1);

@@ -100,6 +100,20 @@ class TestShowArguments : public QObject {
                 .arguments.contains("screen:HDMI-1"));
   }
 
+  void nightsAreSaidAndInstalled() {
+    const QStringList said{
+        "show",  "v",          "--content",   "chart:grid", "--night",
+        "after", "--schedule", "09:00-18:00", "--alarm",    "/opt/call {sentence} \"$HOME\" 100%"};
+    const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    for (const ShowSettings& settings :
+         {parsed<PlayShow>(said).settings, parsed<PlayShow>(wanted.arguments).settings}) {
+      QVERIFY(settings.night == QTime(18, 0));
+      QCOMPARE(settings.alarmCommand, std::string("/opt/call {sentence} \"$HOME\" 100%"));
+    }
+    QVERIFY(parsed<PlayShow>({"show", "v", "--content", "a", "--night", "3:00"}).settings.night ==
+            QTime(3, 0));
+  }
+
   void controlsOfWhatIsInstalledAreTheSame() {
     const QStringList said{"show",
                            "v",
@@ -148,6 +162,11 @@ class TestShowArguments : public QObject {
   void wrongProjectorsAndStatus_data() {
     QTest::addColumn<QStringList>("more");
     QTest::addColumn<QString>("sentence");
+    QTest::newRow("no night") << right + QStringList{"--night", "late"} << "HH:MM";
+    QTest::newRow("a night after no hours") << right + QStringList{"--night", "after"} << "--schedule";
+    QTest::newRow("a night within the hours")
+        << right + QStringList{"--schedule", "09:00-18:00", "--night", "17:59"} << "outside the hours";
+    QTest::newRow("an alarm without nights") << right + QStringList{"--alarm", "./call.sh"} << "--night";
     QTest::newRow("no port") << QStringList{"--status", "http"} << "the port of --status must be 1 to 65535";
     QTest::newRow("no number") << QStringList{"--status", "80", "--status-address", "here"}
                                << "must be a number";

@@ -27,6 +27,7 @@ class ScriptedRenderer : public FrameRenderer {
     presence = request.viewer ? request.viewer->presence : 0.0;
     viewerX = request.viewer ? request.viewer->position[0] : 0.0;
     brightness = request.brightness;
+    edition = request.edition;
     if (endless && thorough) {
       while (!outdated() && !interrupted) std::this_thread::yield();
       interrupted = false;
@@ -43,6 +44,7 @@ class ScriptedRenderer : public FrameRenderer {
   std::atomic<bool> broken{false}, thorough{false}, restless{false}, interrupted{false};
   std::vector<compensation::Position> positions;                     // of cameras; before a player has it
   std::atomic<double> presence{0.0}, viewerX{0.0}, brightness{0.0};  // of the last frame
+  std::atomic<std::uint64_t> edition{0};
   std::atomic<bool> endless{false};  // pictures that stand, until somebody wants them no longer
 };
 

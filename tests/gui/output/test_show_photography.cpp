@@ -59,6 +59,7 @@ struct ScriptedPhotography : ShowPhotography {
     image.kept = true;
     return image;
   }
+  pipeline::NightRecord tend(const pipeline::NightSettings&, bool, Progress&) override { return {}; }
 };
 
 }  // namespace
@@ -218,6 +219,13 @@ class TestShowPhotography : public QObject {
         photography->perfect(folder_->filePath("b.png").toStdString(), {{24, 18}, Fit::fill}, quiet);
     QVERIFY2(image.failure.empty(), english(image.failure).c_str());
     QVERIFY(image.photographs > 0);
+    pipeline::NightSettings night;
+    night.images = {folder_->filePath("b.png").toStdString()};
+    night.canvas.size = {24, 18};
+    const pipeline::NightRecord tended = photography->tend(night, false, quiet);
+    QVERIFY2(!isAlarm(tended), english(tended.alarm).c_str());
+    QVERIFY(tended.repair == pipeline::RepairEnd::nothingToDo && tended.measured);
+    QCOMPARE(pipeline::nightsOf(path).size(), 1);
   }
 
   void rigsWithoutACameraSaySo_data() {

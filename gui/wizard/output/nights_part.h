@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <QPushButton>
+#include <QWidget>
+#include <vector>
+
+#include "relucent/pipeline/night_record.h"
+#include "theme/controls.h"
+
+namespace relucent::gui {
+
+class OutputPage;
+
+/// What the nights of this venue came to: the last one, and all in a dialog (NightsDialog).
+class NightsPart : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit NightsPart(OutputPage& page, QWidget* parent = nullptr);
+
+ protected:
+  /// They may have become more while nobody looked.
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void reload();
+  void open();
+
+  OutputPage& page_;
+  std::vector<pipeline::NightRecord> nights_;
+  Remark* last_;
+  QPushButton* open_;
+};
+
+}  // namespace relucent::gui

@@ -2335,10 +2335,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>بدأت ساعات العرض قبل أن تنتهي</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>لم يمكن البدء خلال ساعتين من الموعد: لم يكن العرض يعمل، أو كان الحاسوب في وضع السكون</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>خطأ ألوان الصورة {} بينما كان المتوقع {}، ولم يُفِد أي إصلاح</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>لم تنتهِ خلال ست ساعات</translation>
     </message>
 </context>
 <context>
@@ -4846,6 +4867,165 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>كان الموقع كما كان عند القياس.</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>أُصلِحت.</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>تغيّر شيء ما، ولم ينتج عن الإصلاح صورة أفضل.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>مُصوَّرة</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>متوقَّعة</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>أُصلِحت</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>إنذار</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>أيام قبل الليلة الأخيرة</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR، dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>خطأ اللون ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>لا ليالٍ.</numerusform>
+            <numerusform>ليلة واحدة.</numerusform>
+            <numerusform>ليلتان.</numerusform>
+            <numerusform>%n ليالٍ.</numerusform>
+            <numerusform>%n ليلة.</numerusform>
+            <numerusform>%n ليلة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>مُصوَّرة: ⁨%1⁩ إلى ⁨%2⁩، والأخيرة ⁨%3⁩.</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>الإصلاحات: ⁨%1⁩. الإنذارات: ⁨%2⁩.</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>لم تُنفَّذ: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>إنذار: ⁨%1⁩</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>لم تُحسَّن أي صورة.</numerusform>
+            <numerusform>حُسِّنت صورة واحدة.</numerusform>
+            <numerusform>حُسِّنت صورتان.</numerusform>
+            <numerusform>حُسِّنت %n صور.</numerusform>
+            <numerusform>حُسِّنت %n صورة.</numerusform>
+            <numerusform>حُسِّنت %n صورة.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>مُصوَّرة: ⁨%1⁩، متوقَّعة: ⁨%2⁩.</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>لم يُبلَّغ أحد: ⁨%1⁩</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>الجودة عبر الأسابيع</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>خطأ اللون</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>ما أسفرت عنه لقطة التحقق في كل ليلة، إلى جانب ما كان متوقَّعًا.</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>جودة الصورة، ليلةً بعد ليلة</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>نتيجة كل ليلة، الأخيرة أولًا</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>إغلاق</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>كل ليلة</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>الجودة عبر الأسابيع</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>مخطط لجميع الليالي، ونتيجة كل منها.</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>لم تمرّ أي ليلة بعد</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>العرض الذي يُشغَّل بالخيار ‎--night يعتني بالصورة بنفسه عندما يحلّ الظلام: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة.</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>لا بدّ من أن ينظر أحد، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>لم تُنفَّذ، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>كل شيء على ما يرام، ⁨%1⁩</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6509,6 +6689,46 @@ projector %2</source>
         <source>Relucent: %1</source>
         <translation>Relucent: %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>إنذار</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>الليلة الأخيرة</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>متى</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>النتيجة</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>الصور المحسَّنة</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>خطأ اللون (ΔE)</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>خطأ اللون المتوقَّع (ΔE)</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>لم يُبلَّغ أحد</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>الليلة التالية</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>لا بدّ من أن ينظر أحد</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7902,10 +8122,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>ليس لهذا العرض كاميرا: معايرته لا تذكر أي كاميرا</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>في جلسة Wayland أزل QT_QPA_PLATFORM=xcb من البيئة؛ وإلا فأزل قواعد سطح المكتب لنوافذ Relucent، ثم حاول مجددًا</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>هذه المعايرة تعرض الصور بأمر خاص بها لا يعرف بأمر العرض: أوقف العرض واستخدم relucent-cli verify و perfect</translation>
     </message>
 </context>
 <context>

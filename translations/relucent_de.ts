@@ -2311,10 +2311,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>die Stunden der Show begannen, bevor sie fertig war</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>sie konnte nicht binnen zwei Stunden nach ihrer Zeit beginnen: Die Show lief nicht, oder der Computer schlief</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>das Bild hat einen Farbfehler von {}, vorhergesagt waren {}, und keine Reparatur half</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>sie war nach sechs Stunden nicht fertig</translation>
     </message>
 </context>
 <context>
@@ -4718,6 +4739,157 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>Der Spielort war noch so, wie er gemessen wurde.</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>Repariert.</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>Etwas hat sich verändert, und eine Reparatur ergab kein besseres Bild.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>Fotografiert</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>Vorhergesagt</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>Repariert</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarm</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>Tage vor der letzten Nacht</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR, dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>Farbfehler ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n Nacht.</numerusform>
+            <numerusform>%n Nächte.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>Fotografiert: %1 bis %2, zuletzt %3.</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>Reparaturen: %1. Alarme: %2.</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>Ausgelassen: %1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>Alarm: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n Bild perfektioniert.</numerusform>
+            <numerusform>%n Bilder perfektioniert.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>Fotografiert: %1, vorhergesagt: %2.</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>Niemand wurde verständigt: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualität über Wochen</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Farbfehler</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>Was das Prüffoto jeder Nacht ergab, neben dem, was vorhergesagt war.</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>Qualität des Bildes, Nacht für Nacht</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>Was jede Nacht ergab, die letzte zuerst</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>Jede Nacht</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualität über Wochen</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>Ein Diagramm aller Nächte und was jede ergab.</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>Es gab noch keine Nacht</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>Eine Show, die mit --night gestartet wird, sorgt im Dunkeln selbst für das Bild: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam.</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>Jemand muss nachsehen, %1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>Ausgelassen, %1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>Alles ist gut, %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6365,6 +6537,46 @@ Projektor %2</translation>
         <source>Relucent: %1</source>
         <translation>Relucent: %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarm</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>Letzte Nacht</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>Wann</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>Perfektionierte Bilder</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>Farbfehler (ΔE)</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>Vorhergesagter Farbfehler (ΔE)</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>Niemand wurde verständigt</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>Nächste Nacht</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>Jemand muss nachsehen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7714,10 +7926,24 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>diese Show hat keine Kamera: Ihre Kalibrierung nennt keine</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>nehmen Sie in einer Wayland-Sitzung QT_QPA_PLATFORM=xcb aus der Umgebung; sonst entfernen Sie die Regeln des Desktops für Fenster von Relucent, dann versuchen Sie es erneut</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>diese Kalibrierung zeigt Bilder durch einen eigenen Befehl, der von der Show nichts weiß: die Show beenden und relucent-cli verify und perfect verwenden</translation>
     </message>
 </context>
 <context>

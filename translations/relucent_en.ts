@@ -266,6 +266,23 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n night.</numerusform>
+            <numerusform>%n nights.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n picture perfected.</numerusform>
+            <numerusform>%n pictures perfected.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::OutputPage</name>
     <message numerus="yes">
         <source>Each of the %n projector(s) needs a screen of its own. Plug in another one.</source>

@@ -2311,10 +2311,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>las horas del espectáculo empezaron antes de que terminara</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>no pudo empezar en las dos horas siguientes a su hora: el espectáculo no funcionaba o el ordenador dormía</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>la imagen tiene un error de color de {} donde se predecía {}, y ninguna reparación ayudó</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>no terminó en seis horas</translation>
     </message>
 </context>
 <context>
@@ -4718,6 +4739,157 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>El lugar estaba como se midió.</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>Reparada.</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>Algo ha cambiado, y de una reparación no salió una imagen mejor.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>Fotografiado</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>Previsto</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>Reparada</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarma</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>Días antes de la última noche</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR, dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>Error de color ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n noche.</numerusform>
+            <numerusform>%n noches.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>Fotografiado: %1 a %2, el último %3.</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>Reparaciones: %1. Alarmas: %2.</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>Omitida: %1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>Alarma: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n imagen perfeccionada.</numerusform>
+            <numerusform>%n imágenes perfeccionadas.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>Fotografiado: %1, previsto: %2.</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>No se avisó a nadie: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Calidad por semanas</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Error de color</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>Lo que dio la fotografía de verificación de cada noche, junto a lo previsto.</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>Calidad de la imagen, noche a noche</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>El resultado de cada noche, la última primero</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Cerrar</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>Cada noche</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Calidad por semanas</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>Un gráfico de todas las noches y el resultado de cada una.</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>Aún no ha habido ninguna noche</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>Un espectáculo iniciado con --night cuida por sí solo de la imagen a oscuras: comprueba, repara, perfecciona y verifica, y dice aquí el resultado.</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>Alguien tiene que mirar, %1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>Omitida, %1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>Todo va bien, %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6365,6 +6537,46 @@ proyector %2</translation>
         <source>Relucent: %1</source>
         <translation>Relucent: %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarma</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>Última noche</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>Cuándo</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>Resultado</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>Imágenes perfeccionadas</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>Error de color (ΔE)</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>Error de color previsto (ΔE)</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>No se avisó a nadie</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>Próxima noche</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>Alguien tiene que mirar</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7714,10 +7926,24 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>este espectáculo no tiene cámara: su calibración no nombra ninguna</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>en una sesión Wayland, quite QT_QPA_PLATFORM=xcb del entorno; si no, quite las reglas del escritorio para las ventanas de Relucent e inténtelo de nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>esta calibración muestra imágenes con una orden propia que no sabe del espectáculo: detén el espectáculo y usa relucent-cli verify y perfect</translation>
     </message>
 </context>
 <context>

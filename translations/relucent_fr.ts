@@ -2311,10 +2311,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>les heures du spectacle ont commencé avant la fin</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>impossible de commencer dans les deux heures suivant l’heure prévue : le spectacle ne tournait pas, ou l’ordinateur était en veille</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>l’image a une erreur de couleur de {} alors que {} était prédit, et aucune réparation n’a aidé</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>ce n’était pas fini au bout de six heures</translation>
     </message>
 </context>
 <context>
@@ -4718,6 +4739,157 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>Le lieu était tel qu’il a été mesuré.</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>Réparée.</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>Quelque chose a changé, et aucune réparation n’a donné une meilleure image.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>Photographié</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>Prévu</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>Réparée</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarme</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>Jours avant la dernière nuit</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR, dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>Erreur de couleur ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n nuit.</numerusform>
+            <numerusform>%n nuits.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>Photographié : de %1 à %2, en dernier %3.</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>Réparations : %1. Alarmes : %2.</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>Omise : %1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>Alarme : %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n image perfectionnée.</numerusform>
+            <numerusform>%n images perfectionnées.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>Photographié : %1, prévu : %2.</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>Personne n’a été prévenu : %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualité au fil des semaines</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Erreur de couleur</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>Ce que la photo de contrôle de chaque nuit a donné, à côté de ce qui était prévu.</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>Qualité de l’image, nuit après nuit</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>Le résultat de chaque nuit, la dernière en premier</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>Chaque nuit</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualité au fil des semaines</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>Un graphique de toutes les nuits et le résultat de chacune.</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>Il n’y a pas encore eu de nuit</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>Un spectacle lancé avec --night prend soin de l’image tout seul quand il fait sombre : il contrôle, répare, perfectionne et vérifie, et dit ici ce qu’il en est.</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>Quelqu’un doit aller voir, %1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>Omise, %1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>Tout va bien, %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6365,6 +6537,46 @@ projecteur %2</translation>
         <source>Relucent: %1</source>
         <translation>Relucent : %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Alarme</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>Dernière nuit</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>Quand</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>Résultat</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>Images perfectionnées</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>Erreur de couleur (ΔE)</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>Erreur de couleur prévue (ΔE)</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>Personne n’a été prévenu</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>Prochaine nuit</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>Quelqu’un doit aller voir</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7714,10 +7926,24 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>ce spectacle n’a pas de caméra : sa calibration n’en nomme aucune</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>dans une session Wayland, retirez QT_QPA_PLATFORM=xcb de l’environnement ; sinon, supprimez les règles du bureau pour les fenêtres de Relucent, puis réessayez</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>cette calibration affiche les images par une commande à elle, qui ne sait rien du spectacle : arrêtez le spectacle et utilisez relucent-cli verify et perfect</translation>
     </message>
 </context>
 <context>

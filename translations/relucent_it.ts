@@ -2311,10 +2311,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>le ore dello spettacolo sono iniziate prima della fine</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>non è potuta iniziare entro due ore dall’orario: lo spettacolo non era in funzione o il computer era sospeso</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>l’immagine ha un errore di colore di {} dove era previsto {}, e nessuna riparazione ha aiutato</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>non è finita entro sei ore</translation>
     </message>
 </context>
 <context>
@@ -4718,6 +4739,157 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>Il luogo era come è stato misurato.</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>Riparata.</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>Qualcosa è cambiato e una riparazione non ha dato un’immagine migliore.</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>Fotografato</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>Previsto</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>Riparata</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Allarme</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>Giorni prima dell’ultima notte</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR, dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>Errore di colore ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n notte.</numerusform>
+            <numerusform>%n notti.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>Fotografato: da %1 a %2, l’ultimo %3.</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>Riparazioni: %1. Allarmi: %2.</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>Saltata: %1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>Allarme: %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n immagine perfezionata.</numerusform>
+            <numerusform>%n immagini perfezionate.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>Fotografato: %1, previsto: %2.</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>Nessuno è stato avvisato: %1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualità nelle settimane</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>Errore di colore</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>Il risultato della foto di verifica di ogni notte, accanto a quanto previsto.</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>Qualità dell’immagine, notte per notte</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>L’esito di ogni notte, l’ultima per prima</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Chiudi</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>Ogni notte</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>Qualità nelle settimane</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>Un grafico di tutte le notti e l’esito di ciascuna.</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>Non c’è ancora stata nessuna notte</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>Uno spettacolo avviato con --night si prende cura da solo dell’immagine al buio: controlla, ripara, perfeziona e verifica, e dice qui l’esito.</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>Qualcuno deve controllare, %1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>Saltata, %1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>Tutto bene, %1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6365,6 +6537,46 @@ proiettore %2</translation>
         <source>Relucent: %1</source>
         <translation>Relucent: %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>Allarme</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>Ultima notte</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>Quando</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>Esito</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>Immagini perfezionate</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>Errore di colore (ΔE)</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>Errore di colore previsto (ΔE)</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>Nessuno è stato avvisato</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>Prossima notte</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>Qualcuno deve controllare</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7714,10 +7926,24 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>questo spettacolo non ha una fotocamera: la sua calibrazione non ne indica nessuna</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>in una sessione Wayland togliere QT_QPA_PLATFORM=xcb dall’ambiente; altrimenti togliere le regole del desktop per le finestre di Relucent, poi riprovare</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>questa calibrazione mostra le immagini con un proprio comando, che non sa dello spettacolo: ferma lo spettacolo e usa relucent-cli verify e perfect</translation>
     </message>
 </context>
 <context>

@@ -2305,10 +2305,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>終わる前にショーの時間が始まりました</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>予定時刻から2時間以内に始められませんでした：ショーが動いていなかったか、コンピューターがスリープしていました</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>画像の色の誤差は {} で、予測は {} でした。修復しても改善しませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>6時間以内に終わりませんでした</translation>
     </message>
 </context>
 <context>
@@ -4686,6 +4707,155 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>会場は測定したときのままでした。</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>修復しました。</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>何かが変わりましたが、修復しても画像は良くなりませんでした。</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>撮影</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>予測</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>修復</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>警報</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>最後の夜までの日数</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR、dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>色の誤差 ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n夜。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>撮影：%1～%2、最後は %3。</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>修復：%1。警報：%2。</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>見送り：%1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>警報：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>%n枚の画像を仕上げました。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>撮影：%1、予測：%2。</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>誰にも通知できませんでした：%1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>数週間の画質</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>色の誤差</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>各夜の検証写真の結果と、予測していた値です。</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>夜ごとの画質</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>各夜の結果、新しい順</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>閉じる</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>毎晩</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>数週間の画質</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>すべての夜のグラフと、それぞれの結果です。</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>まだ夜の記録がありません</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>--night を付けて始めたショーは、暗い間に自分で画像を手入れします：確認、修復、仕上げ、検証を行い、その結果をここに示します。</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>確認が必要です、%1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>見送り、%1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>問題ありません、%1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6329,6 +6499,46 @@ projector %2</source>
         <source>Relucent: %1</source>
         <translation>Relucent: %1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>警報</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>昨夜</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>日時</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>結果</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>仕上げた画像</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>色の誤差（ΔE）</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>予測した色の誤差（ΔE）</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>通知できず</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>次の夜</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>確認が必要です</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7667,10 +7877,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>このショーにはカメラがありません：校正にカメラの指定がありません</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>Wayland セッションでは環境から QT_QPA_PLATFORM=xcb を外してください。それ以外では Relucent のウィンドウに対するデスクトップの規則を外してから、再試行してください</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>この校正は、ショーを知らない独自のコマンドで画像を表示します：ショーを止めて relucent-cli verify と perfect を使ってください</translation>
     </message>
 </context>
 <context>

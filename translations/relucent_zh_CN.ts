@@ -2305,10 +2305,31 @@
     </message>
 </context>
 <context>
+    <name>night.hours-began</name>
+    <message>
+        <source>the show&apos;s hours began before it was done</source>
+        <translation>尚未完成，演出时间就开始了</translation>
+    </message>
+</context>
+<context>
+    <name>night.missed</name>
+    <message>
+        <source>it could not begin within two hours of its time: the show did not run, or the computer slept</source>
+        <translation>未能在预定时间后的两小时内开始：演出没有运行，或计算机处于休眠</translation>
+    </message>
+</context>
+<context>
     <name>night.not-as-predicted</name>
     <message>
         <source>the picture has a colour error of {} where {} was predicted, and no repair helped</source>
         <translation>图像的颜色误差为 {}，预测为 {}，修复也没有帮助</translation>
+    </message>
+</context>
+<context>
+    <name>night.too-long</name>
+    <message>
+        <source>it was not done within six hours</source>
+        <translation>六小时内没有完成</translation>
     </message>
 </context>
 <context>
@@ -4686,6 +4707,155 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::Nights</name>
+    <message>
+        <source>The venue was as it was measured.</source>
+        <translation>场地与测量时一样。</translation>
+    </message>
+    <message>
+        <source>Repaired.</source>
+        <translation>已修复。</translation>
+    </message>
+    <message>
+        <source>Something has changed, and no better picture came of a repair.</source>
+        <translation>有变化，但修复没有得到更好的图像。</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>Photographed</source>
+        <translation>实拍</translation>
+    </message>
+    <message>
+        <source>Predicted</source>
+        <translation>预测</translation>
+    </message>
+    <message>
+        <source>Repaired</source>
+        <translation>已修复</translation>
+    </message>
+    <message>
+        <source>Alarm</source>
+        <translation>警报</translation>
+    </message>
+    <message>
+        <source>Days before the last night</source>
+        <translation>距最后一夜的天数</translation>
+    </message>
+    <message>
+        <source>PSNR, dB</source>
+        <translation>PSNR，dB</translation>
+    </message>
+    <message>
+        <source>Colour error ΔE</source>
+        <translation>颜色误差 ΔE</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n night(s).</source>
+        <translation>
+            <numerusform>%n 夜。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1 to %2, last %3.</source>
+        <translation>实拍：%1 至 %2，最后 %3。</translation>
+    </message>
+    <message>
+        <source>Repairs: %1. Alarms: %2.</source>
+        <translation>修复：%1。警报：%2。</translation>
+    </message>
+    <message>
+        <source>Left out: %1</source>
+        <translation>已略过：%1</translation>
+    </message>
+    <message>
+        <source>Alarm: %1</source>
+        <translation>警报：%1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n picture(s) perfected.</source>
+        <translation>
+            <numerusform>已完善 %n 张图片。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Photographed: %1, predicted: %2.</source>
+        <translation>实拍：%1，预测：%2。</translation>
+    </message>
+    <message>
+        <source>Nobody was told: %1</source>
+        <translation>未能通知任何人：%1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsDialog</name>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>数周以来的质量</translation>
+    </message>
+    <message>
+        <source>Colour error</source>
+        <translation>颜色误差</translation>
+    </message>
+    <message>
+        <source>PSNR</source>
+        <translation>PSNR</translation>
+    </message>
+    <message>
+        <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
+        <translation>每夜验证照片的结果，以及预测值。</translation>
+    </message>
+    <message>
+        <source>Quality of the picture, night by night</source>
+        <translation>每夜的图像质量</translation>
+    </message>
+    <message>
+        <source>What came of each night, the last one first</source>
+        <translation>每夜的结果，最近的在前</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::NightsPart</name>
+    <message>
+        <source>Every night</source>
+        <translation>每夜</translation>
+    </message>
+    <message>
+        <source>Quality over weeks</source>
+        <translation>数周以来的质量</translation>
+    </message>
+    <message>
+        <source>A chart of all nights, and what came of each.</source>
+        <translation>所有夜晚的图表，以及每夜的结果。</translation>
+    </message>
+    <message>
+        <source>There was no night yet</source>
+        <translation>还没有夜间记录</translation>
+    </message>
+    <message>
+        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
+        <translation>用 --night 启动的演出会在黑暗时自行维护图像：检查、修复、完善并验证，并在此说明结果。</translation>
+    </message>
+    <message>
+        <source>Somebody has to look, %1</source>
+        <translation>需要有人查看，%1</translation>
+    </message>
+    <message>
+        <source>Left out, %1</source>
+        <translation>已略过，%1</translation>
+    </message>
+    <message>
+        <source>All is well, %1</source>
+        <translation>一切正常，%1</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::NudgeDialog</name>
     <message>
         <source>fits</source>
@@ -6329,6 +6499,46 @@ projector %2</source>
         <source>Relucent: %1</source>
         <translation>Relucent：%1</translation>
     </message>
+    <message>
+        <source>Alarm</source>
+        <translation>警报</translation>
+    </message>
+    <message>
+        <source>Last night</source>
+        <translation>上一夜</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>时间</translation>
+    </message>
+    <message>
+        <source>Outcome</source>
+        <translation>结果</translation>
+    </message>
+    <message>
+        <source>Pictures perfected</source>
+        <translation>已完善的图片</translation>
+    </message>
+    <message>
+        <source>Colour error (ΔE)</source>
+        <translation>颜色误差（ΔE）</translation>
+    </message>
+    <message>
+        <source>Predicted colour error (ΔE)</source>
+        <translation>预测的颜色误差（ΔE）</translation>
+    </message>
+    <message>
+        <source>Nobody was told</source>
+        <translation>未能通知任何人</translation>
+    </message>
+    <message>
+        <source>Next night</source>
+        <translation>下一夜</translation>
+    </message>
+    <message>
+        <source>Somebody has to look</source>
+        <translation>需要有人查看</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -7667,10 +7877,24 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>show.no-camera</name>
+    <message>
+        <source>this show has no camera: its calibration names none</source>
+        <translation>此演出没有相机：其校准未指定相机</translation>
+    </message>
+</context>
+<context>
     <name>show.no-xwayland</name>
     <message>
         <source>in a Wayland session, take QT_QPA_PLATFORM=xcb out of the environment; else take away the desktop&apos;s rules for windows of Relucent, then try again</source>
         <translation>在 Wayland 会话中，请从环境中去掉 QT_QPA_PLATFORM=xcb；否则请去掉桌面对 Relucent 窗口的规则，然后重试</translation>
+    </message>
+</context>
+<context>
+    <name>show.projector-by-command</name>
+    <message>
+        <source>this calibration shows pictures by a command of its own, which does not know of the show: stop the show and use relucent-cli verify and perfect</source>
+        <translation>此校准用自己的命令显示图片，该命令不了解演出：请停止演出，使用 relucent-cli verify 和 perfect</translation>
     </message>
 </context>
 <context>

@@ -29,7 +29,7 @@ struct WhyNot {
     return pipeline::camerasOf(rig).empty() ? noCamera() : Message();
   }
   Message operator()(const pipeline::CommandRigSettings&) const {
-    return RELUCENT_ENGLISH_MESSAGE(
+    return RELUCENT_MESSAGE(
         "show.projector-by-command",
         "this calibration shows pictures by a command of its own, which does not know of the "
         "show: stop the show and use relucent-cli verify and perfect");
@@ -38,7 +38,7 @@ struct WhyNot {
   Message operator()(const pipeline::ImportedRigSettings&) const { return noCamera(); }
 
   static Message noCamera() {
-    return RELUCENT_ENGLISH_MESSAGE("show.no-camera", "this show has no camera: its calibration names none");
+    return RELUCENT_MESSAGE("show.no-camera", "this show has no camera: its calibration names none");
   }
 };
 

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "app/wizard_window.h"
+#include "gui/wizard/output/night_history.h"
 #include "relucent/base/message.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/venue/venue.h"
@@ -350,7 +351,10 @@ int main(int argc, char** argv) {
   until([&] { return nudge->sight().has_value(); });
   photographs.takeDialog("08-push-back", "nudge");
   until([&] { return wizard.window().findChild<QDialog*>("nudge") == nullptr; });
+  addFourWeeks(wizard.session().path());
   photographs.take("08-output");
+  wizard.window().findChild<QPushButton*>("nights-open")->click();
+  photographs.takeDialog("08-nights", "nights");
   if (wizard.session().cameras() > 1) {
     wizard.page<OutputPage>().showCamera(1);
     photographs.take("08-output-second");

@@ -9,6 +9,7 @@
 #include "app/wizard_window.h"
 #include "gui/app/layout_faults.h"
 #include "gui/app/naming_faults.h"
+#include "gui/wizard/output/night_history.h"
 #include "relucent/base/message.h"
 #include "relucent/devices/check/check_verdict.h"
 #include "theme/accessible_role.h"
@@ -20,6 +21,7 @@
 #include "wizard/devices/nudge_dialog.h"
 #include "wizard/frame/failure_dialog.h"
 #include "wizard/linearize/linearize_page.h"
+#include "wizard/output/nights_dialog.h"
 #include "wizard/output/output_page.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
@@ -422,6 +424,7 @@ class TestLayouts : public QObject {
     output.addFiles({"/venues/A film with a long name.mp4", "/venues/Another.png"});
     output.setFrozen(true);
     output.setBlack(true);
+    addFourWeeks(wizard_->session().path());
     inEveryLanguage([&](const QString& language) {
       QStringList faults = seen(language, "playing");
       output.pushBack();
@@ -432,6 +435,9 @@ class TestLayouts : public QObject {
       faults << seen(*dialog, language, "pushing the camera back");
       dialog->reject();
       if (!QTest::qWaitFor([&] { return dialog.isNull(); }, patience)) faults << language + ": it stays open";
+      NightsDialog nights(pipeline::nightsOf(wizard_->session().path()), &wizard_->window());
+      nights.show();
+      faults << seen(nights, language, "weeks of nights");
       return faults;
     });
     output.close();
@@ -462,9 +468,9 @@ class TestLayouts : public QObject {
     settings.rig = rig;
     wizard_->session().begin(folder_.filePath("real").toStdString(), settings);
     steps().go(1);
-    QTRY_VERIFY_WITH_TIMEOUT(
-        !wizard_->page<CameraPage>().isListing() && !wizard_->page<CameraPage>().foundCameras().cameras.empty(),
-        patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!wizard_->page<CameraPage>().isListing() &&
+                                 !wizard_->page<CameraPage>().foundCameras().cameras.empty(),
+                             patience);
     page("choosing");
 
     rig.cameraAddress = "genicam:40012345";

@@ -105,6 +105,7 @@ class TestShowNights : public QObject {
     QFile file(folder_->filePath("log/health.json"));
     return file.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(file.readAll()).object() : QJsonObject();
   }
+  QJsonObject night() const { return health()["night"].toObject(); }
   QString state() const { return health()["state"].toString(); }
   std::vector<pipeline::NightRecord> nights() const { return pipeline::nightsOf(calibration()); }
   void addNightAt(const char* when) {
@@ -138,7 +139,7 @@ class TestShowNights : public QObject {
     wall_ = time(4, 17, 59);
     show->look();
     QCOMPARE(state(), QString("playing"));
-    QCOMPARE(health()["night"]["next"].toString(), QString("2026-05-04T18:00:00"));
+    QCOMPARE(night()["next"].toString(), QString("2026-05-04T18:00:00"));
     wall_ = time(4, 18);
     show->look();
     QCOMPARE(state(), QString("photographing"));
@@ -152,7 +153,7 @@ class TestShowNights : public QObject {
     script_->goesOn = true;
     QTRY_COMPARE(state(), QString("resting"));
     QCOMPARE(nights().size(), 1);
-    QCOMPARE(health()["night"]["delta_e"].toDouble(), 1.5);
+    QCOMPARE(night()["delta_e"].toDouble(), 1.5);
     QVERIFY(!health().contains("alarm"));
     for (int minute : {21, 59}) {
       wall_ = time(4, 18, minute);
@@ -202,7 +203,7 @@ class TestShowNights : public QObject {
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
     QCOMPARE(nights().size(), 1);
     QCOMPARE(nights().front().skipped.id(), std::string("night.hours-began"));
-    QVERIFY(health()["night"]["outcome"].toString().contains("hours began"));
+    QVERIFY(night()["outcome"].toString().contains("hours began"));
     QVERIFY(!health().contains("alarm"));
     show->look();
     QCOMPARE(nights().size(), 1);
@@ -250,14 +251,14 @@ class TestShowNights : public QObject {
     script_->night.alarm = Message::plain("the lamp is <off>");
     auto show = showOf(wanted);
     show->start();
-    const auto night = [&](int day) {
+    const auto tendedOn = [&](int day) {
       wall_ = time(day, 18);
       show->look();
       QTRY_COMPARE(script_->begun.load(), day - 3);
       QTRY_COMPARE(state(), QString("resting"));
     };
-    night(4);
-    night(5);
+    tendedOn(4);
+    tendedOn(5);
     QCOMPARE(health()["alarm"].toString(), QString("the lamp is <off>."));
     QCOMPARE(QString::fromStdString(readFile(calls.toStdString())), QString("the lamp is <off>.\n"));
     const QString page = QString::fromUtf8(StatusPage::html(health()));
@@ -268,7 +269,7 @@ class TestShowNights : public QObject {
     show->start();
     QCOMPARE(health()["alarm"].toString(), QString("the lamp is <off>."));
     script_->night.alarm = {};
-    night(6);
+    tendedOn(6);
     QVERIFY(!health().contains("alarm"));
     QVERIFY(!StatusPage::html(health()).contains("role=\"alert\""));
   }
@@ -313,7 +314,7 @@ class TestShowNights : public QObject {
     show->start();
     const auto power = [&] {
       show->look();
-      return health()["projectors"][0]["power"].toString();
+      return health()["projectors"].toArray().at(0).toObject()["power"].toString();
     };
     QTRY_COMPARE_WITH_TIMEOUT(power(), QString("on"), patience);
     wall_ = time(4, 18);

@@ -435,7 +435,7 @@ void Show::takeUp(bool whole) {
     log_.tell("the calibration has changed: it is played by from now on");
     try {
       open();
-      isTime() ? play() : rest();
+      start();
     } catch (const Error& error) {
       tryAgain(error.sentence());
     }

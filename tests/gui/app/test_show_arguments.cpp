@@ -162,11 +162,6 @@ class TestShowArguments : public QObject {
   void wrongProjectorsAndStatus_data() {
     QTest::addColumn<QStringList>("more");
     QTest::addColumn<QString>("sentence");
-    QTest::newRow("no night") << right + QStringList{"--night", "late"} << "HH:MM";
-    QTest::newRow("a night after no hours") << right + QStringList{"--night", "after"} << "--schedule";
-    QTest::newRow("a night within the hours")
-        << right + QStringList{"--schedule", "09:00-18:00", "--night", "17:59"} << "outside the hours";
-    QTest::newRow("an alarm without nights") << right + QStringList{"--alarm", "./call.sh"} << "--night";
     QTest::newRow("no port") << QStringList{"--status", "http"} << "the port of --status must be 1 to 65535";
     QTest::newRow("no number") << QStringList{"--status", "80", "--status-address", "here"}
                                << "must be a number";
@@ -231,6 +226,11 @@ class TestShowArguments : public QObject {
     QTest::newRow("feedback alone") << right + QStringList{"--osc-feedback", "127.0.0.1:1"} << "--osc PORT";
     QTest::newRow("no position") << right + QStringList{"--camera-position", "1"} << "x,y or x,y,z";
     QTest::newRow("an endless one") << right + QStringList{"--camera-position", "1,inf"} << "x,y or x,y,z";
+    QTest::newRow("no night") << right + QStringList{"--night", "late"} << "HH:MM";
+    QTest::newRow("a night after no hours") << right + QStringList{"--night", "after"} << "--schedule";
+    QTest::newRow("a night within the hours")
+        << right + QStringList{"--schedule", "09:00-18:00", "--night", "17:59"} << "outside the hours";
+    QTest::newRow("an alarm without nights") << right + QStringList{"--alarm", "./call.sh"} << "--night";
     QTest::newRow("no time between") << right + QStringList{"--schedule", "09:00-09:00"} << "HH:MM-HH:MM";
   }
   void wrongOnesAreNamed() {

@@ -319,6 +319,9 @@ class TestArguments : public QObject {
     QVERIFY(!night.history && parsed<TendNight>("night d --history").history);
     QVERIFY(parsed<TendNight>("night d").content.empty());  // a standard picture is proved
     QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<TendNight>("night d --history --content a.png"));
+    QCOMPARE(parsed<TendNight>("night d --alarm ./call").settings.alarmCommand, std::string("./call"));
+    QVERIFY(night.settings.alarmCommand.empty());
+    QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<TendNight>("night d --history --alarm ./call"));
   }
 
   void repairsAndChanges() {

@@ -9,6 +9,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/calibration/json.h"
 #include "relucent/image/metrics.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate.h"
@@ -20,6 +21,7 @@
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/tidy.h"
 #include "relucent/venue/device_faults.h"
 #include "support/sentences.h"
 
@@ -96,7 +98,9 @@ class TestPerfect : public QObject {
                    image.string(),
                    "2026-01-01T00:00:00Z",
                    {{{20.0, 3.0}}, {{21.0, 2.0}}, 7},
-                   {}},
+                   {},
+                   fingerprintOfShown(CalibrationFolder::open(folder, CalibrationFolder::Access::read)),
+                   ContentCanvas{}},
                   ProjectorStack(3 * projector.count(), level), Rasters(projector));
   }
 
@@ -331,6 +335,67 @@ class TestPerfect : public QObject {
     QVERIFY(!findPerfected(folder, keyOf(folder, picture(1))).has_value());
     QCOMPARE(forgetPerfected(folder, {}, {}).pictures.size(), 1u);
     QCOMPARE(forgetPerfected(folder, {}, {}).pictures.size(), 0u);
+  }
+
+  /// Law: tidying frees what no show finds any more, and nothing else: a picture whose file is away for now,
+  /// and one of which an earlier version did not keep what it was made for, stay.
+  void tidyingFreesWhatIsOutOfDate() {
+    const fs::path folder = copyOf("corner", "tidied");
+    const fs::path changing = root() / "changing.png", away = root() / "away.png";
+    const auto grey = [](const fs::path& file, float level) {
+      writePng(file, relucent::image::Image({32, 24}, 3, level), 8);
+    };
+    grey(away, 0.25f);
+    grey(changing, 0.5f);
+    for (const fs::path& image : {picture(0), picture(1), changing, away}) keep(folder, image, 0.25f);
+    const std::string inDate = keyOf(folder, picture(0)), ofAway = keyOf(folder, away);
+    const std::string former =
+        readFile(perfectedFolder(folder) / keyOf(folder, picture(1)) / "perfected.json");
+    calibration::Json record = calibration::Json::parse(former);
+    record.erase("shown_from");
+    record.erase("canvas");
+    std::ofstream(perfectedFolder(folder) / keyOf(folder, picture(1)) / "perfected.json") << record.dump();
+    grey(changing, 0.75f);
+    fs::remove(away);
+    const auto tidied = [&](bool dryRun) { return tidy({folder}, {{}, dryRun}, quiet).calibrations.front(); };
+    for (const bool dryRun : {true, false}) {
+      QCOMPARE(tidied(dryRun).perfected.files, 2);  // of the picture that is another one now
+      QCOMPARE(allPerfected(folder).size(), dryRun ? 4u : 3u);
+    }
+    QVERIFY(findPerfected(folder, inDate) && findPerfected(folder, ofAway));
+    {
+      CalibrationFolder calibration = CalibrationFolder::open(folder, CalibrationFolder::Access::write);
+      CalibrateSettings settings = settingsOf(calibration);
+      settings.content.reachablePercentile += 5.0;
+      changeSettings(calibration, settings);
+    }
+    QVERIFY(tidied(false).perfected.bytes > 0);
+    QCOMPARE(allPerfected(folder).size(), 1u);
+  }
+
+  void aCanvasHasBounds_data() {
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("height");
+    QTest::addColumn<bool>("possible");
+    QTest::newRow("the content's own") << 0 << 0 << true;
+    QTest::newRow("least") << 8 << 8 << true;
+    QTest::newRow("most") << 8192 << 8192 << true;
+    QTest::newRow("too wide") << 8193 << 100 << false;
+    QTest::newRow("too high") << 100 << 1000000 << false;
+    QTest::newRow("too low") << 100 << 7 << false;
+    QTest::newRow("no height") << 100 << 0 << false;
+    QTest::newRow("negative") << -100 << 100 << false;
+  }
+  void aCanvasHasBounds() {
+    QFETCH(int, width);
+    QFETCH(int, height);
+    QFETCH(bool, possible);
+    PerfectSettings settings;
+    settings.images = {picture()};
+    settings.canvas.size = {width, height};
+    const std::vector<Message> found = problems(settings);
+    QCOMPARE(found.empty(), possible);
+    if (!possible) QVERIFY(mentions(english(found.front()), "each side is 8 to 8192"));
   }
 
   void findsStills() {

@@ -170,6 +170,37 @@ class TestReport : public QObject {
     QVERIFY(html(data).contains("hardly anything fits"));
   }
 
+  /// The error before and after of a perfected picture, and of each night what came of it, the last one
+  /// first; its alarm is what everybody reads first.
+  void upkeepIsTold() {
+    ReportData data = fullData();
+    data.result.findings.clear();
+    QVERIFY(!html(data).contains("Upkeep"));
+    data.perfected.push_back({"hills <1>.png",
+                              "2026-01-02T03:04:05Z",
+                              {{{30.0, 3.25}, {30.0, 9.0}}, {{31.0, 1.5}, {30.0, 8.75}}, 8}});
+    pipeline::NightRecord night;
+    night.when = "2026-01-03T02:00:00Z";
+    night.repair = pipeline::RepairEnd::repaired;
+    night.what = {Message::plain("somebody painted the wall")};
+    night.measured = night.predicted = pipeline::PictureError{30.0, 2.5};
+    data.nights.push_back(night);
+    QString page = html(data);
+    QVERIFY(page.contains("hills &lt;1&gt;.png") && page.contains("<td>9.0</td><td>8.8</td><td>8</td>"));
+    QVERIFY(page.contains("fits the venue again; somebody painted the wall") &&
+            page.contains("<td>2.5</td>"));
+    QVERIFY(!page.contains("note amber"));
+    night.alarm = Message::plain("the lamp is off");
+    data.nights.push_back(night);
+    page = html(data);
+    QVERIFY(page.contains("Alarm of the night of") && page.count("note amber") == 1);
+    QVERIFY(page.indexOf("Alarm: the lamp is off") < page.lastIndexOf("again; somebody painted the wall."));
+    night.alarm = {};
+    night.skipped = Message::plain("the computer slept");
+    data.nights.push_back(night);
+    QVERIFY(html(data).contains("skipped: the computer slept."));
+  }
+
   /// Law: every view has its photographs, by name; with one view there is no name.
   void everyViewIsProved() {
     ReportData data = fullData();

@@ -104,7 +104,8 @@ std::string textOf(const pipeline::NightRecord& night) {
     text += fmt::format("; colour error {:.2f} ({:.1f} dB), predicted {:.2f}{}", night.measured->deltaE,
                         night.measured->psnr, night.predicted->deltaE,
                         night.ofPerfected ? ", of a perfected picture" : "");
-  if (night.perfected > 0) text += fmt::format("; {} pictures perfected", night.perfected);
+  if (night.perfected > 0)
+    text += fmt::format("; {} {} perfected", night.perfected, night.perfected == 1 ? "picture" : "pictures");
   text += fmt::format("; {:.0f} s\n", night.seconds);
   for (const Message& what : night.what) text += fmt::format("  {}\n", what);
   if (!night.alarm.empty()) text += fmt::format("  Alarm: {}.\n", night.alarm);

@@ -42,9 +42,11 @@ class TestNights : public QObject {
     QVERIFY(measured != nullptr && measured->line.size() == 26 && measured->points.size() == 26);
     QCOMPARE(measured->line.front().x, -27.0);
     QCOMPARE(measured->line.back().x, 0.0);
-    QCOMPARE(curveOf(chart, "green")->points.size(), 2);
-    QCOMPARE(curveOf(chart, "red")->points.size(), 1);
-    QCOMPARE(curveOf(chart, "red")->points.front().y, chart.y.low);  // nothing was photographed
+    const charts::Curve *repairs = curveOf(chart, "green"), *alarms = curveOf(chart, "red");
+    QVERIFY(repairs != nullptr && alarms != nullptr);
+    QCOMPARE(repairs->points.size(), 2);
+    QCOMPARE(alarms->points.size(), 1);
+    QCOMPARE(alarms->points.front().y, chart.y.low);  // nothing was photographed
     for (const charts::Curve& curve : chart.curves)
       for (const std::vector<charts::Point>* points : {&curve.line, &curve.points})
         for (const charts::Point& point : *points)

@@ -430,8 +430,8 @@ void Show::nightEnded(const QString& verdict, const QString& sentence) {
 
 void Show::takeUp(bool whole) {
   if (!player_) return;
-  const std::string now = shownFrom(settings_.calibration);
-  if (whole && !now.empty() && now != playsFrom_) {
+  const std::string now = whole ? shownFrom(settings_.calibration) : std::string();
+  if (!now.empty() && now != playsFrom_) {
     log_.tell("the calibration has changed: it is played by from now on");
     try {
       open();

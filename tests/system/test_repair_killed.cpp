@@ -59,7 +59,7 @@ class TestRepairKilled : public QObject {
  private slots:
   void initTestCase() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    QSKIP("a hundred runs of the program take an hour under a sanitizer; what is on disk is the same");
+    QSKIP("so many runs of the program take long under a sanitizer; what is on disk is the same");
 #endif
     CalibrateSettings settings;
     venue::VenueSettings corner;
@@ -77,7 +77,7 @@ class TestRepairKilled : public QObject {
   /// the last byte, or the repaired one whole; and in both cases the one from before is still there.
   void theOlderCalibrationStays_data() {
     QTest::addColumn<quint64>("seed");
-    for (quint64 seed = 1; seed <= 4; ++seed) QTest::addRow("seed %d", static_cast<int>(seed)) << seed;
+    for (quint64 seed = 1; seed <= 2; ++seed) QTest::addRow("seed %d", static_cast<int>(seed)) << seed;
   }
   void theOlderCalibrationStays() {
     QFETCH(quint64, seed);
@@ -99,7 +99,7 @@ class TestRepairKilled : public QObject {
     }
     const auto wholeRun = static_cast<double>(clock.elapsed());
 
-    constexpr int wanted = 25;
+    constexpr int wanted = 12;
     int kills = 0, whileStored = 0, committed = 0;
     Random random{20071028, seed};
     Progress quiet;

@@ -89,6 +89,9 @@ class SimulatedVenue {
   /// Camera signal per second under encoded drive, rounded to codes as the projectors do, free of noise.
   CameraStack trueRadiance(const std::vector<image::Image>& encodedDrive) const;
 
+  /// What simulated devices (played_show.h) are made of.
+  const VenueLight& light() const { return *light_; }
+
   /// The same venue as viewers see it who stand where no camera does, for `evaluate` and tests only: its
   /// cameras are those places. Traced or read from the cache when this is called. None: the scene has none.
   /// Throws: as the constructor.

@@ -49,9 +49,13 @@ CameraStack VenueLight::fromProjectors(const std::vector<image::Image>& encodedD
     Stack light = projectorModel_.light(encodedDrive[i]);
     drive.insert(drive.end(), light.begin(), light.end());
   }
-  CameraStack seen(cameraByNode_.multiplyTransposed(layout_.means(drive)));
+  CameraStack seen = fromLight(drive);
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += projectorBlack_[i];
   return seen;
+}
+
+CameraStack VenueLight::fromLight(const ProjectorStack& linear) const {
+  return CameraStack(cameraByNode_.multiplyTransposed(layout_.means(linear)));
 }
 
 const transport::TransportMatrix& VenueLight::transport() const {

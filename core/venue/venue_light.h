@@ -24,6 +24,8 @@ class VenueLight {
 
   /// Light from the projectors: their pictures and their black level.
   CameraStack fromProjectors(const std::vector<image::Image>& encodedDrive) const;
+  /// Light of linear values of all projectors' pixels, which hold their black level if it is to be seen.
+  CameraStack fromLight(const ProjectorStack& linear) const;
   const CameraStack& ambient() const { return ambient_; }
   float roomLight() const { return roomLight_; }
   /// e: the projectors' black level and the ambient light.

@@ -32,7 +32,7 @@ struct Finding {
 };
 
 /// What happened, in one sentence.
-Message sentenceOf(const Finding& finding, std::size_t projectors);
+Message sentenceOf(const Finding& finding);
 /// What is still safe, and what to do.
 Message adviceOf(const Finding& finding);
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double mostSaturated = 0.2;    // share of values
 constexpr double leastLight = 0.003;     // of the flood image: below it nothing can be recognised, or be missing
 constexpr double stays = 0.7;            // of a limit: what was told stays until it is below this
+constexpr double whileMoved = 3.0;       // times as much must a lamp fade: a view that moved fits less well
 constexpr double certain = 2.5;          // deviations by which a limit's half must be passed
 
 }  // namespace
@@ -98,17 +99,24 @@ void Monitor::decide(double seconds) {
       median && *median > 0.5 && unrecognised_.holds(1.0, 1))
     add({FindingKind::unrecognised}, before, seconds);
 
-  const bool isDark = addLamps(before, seconds);
-  const bool isSteady = isDark || addMovement(before, seconds);
+  const bool isSteady = !isAnyDark() && addMovement(before, seconds);
+  const bool isDark = addLamps(isSteady, before, seconds);
   if (!isDark && (isSteady || was(FindingKind::shadowed, {}, {}, before))) addShadows(before, seconds);
 }
 
-bool Monitor::addLamps(const std::vector<Finding>& before, double seconds) {
+bool Monitor::isAnyDark() const {
+  return std::any_of(total_.begin(), total_.end(), [&](const Lasting& one) {
+    return -one.median().value_or(0.0) > settings_.dark;
+  });
+}
+
+bool Monitor::addLamps(bool isSteady, const std::vector<Finding>& before, double seconds) {
   const auto lost = [](const Lasting& one) { return -one.median().value_or(0.0); };
   bool isDark = false;
   for (std::size_t j = 0; j < total_.size(); ++j) {
     const auto passes = [&](const Lasting& one, std::optional<std::size_t> channel) {
-      const double limit = (was(FindingKind::faded, j, channel, before) ? stays : 1.0) * settings_.fade;
+      const bool wasTold = was(FindingKind::faded, j, channel, before);
+      const double limit = (wasTold ? stays : isSteady ? 1.0 : whileMoved) * settings_.fade;
       return one.median() && lost(one) > limit && lost(one) > certain * one.deviation() &&
              one.holds(limit, -1);
     };

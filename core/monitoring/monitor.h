@@ -60,7 +60,8 @@ class Monitor {
   void decide(double seconds);
   void add(Finding finding, const std::vector<Finding>& before, double seconds);
   /// Whether any projector is dark: then the rest of the view is not judged.
-  bool addLamps(const std::vector<Finding>& before, double seconds);
+  bool addLamps(bool isSteady, const std::vector<Finding>& before, double seconds);
+  bool isAnyDark() const;
   /// Whether the view is steady: where it has moved, light is missing beside every edge.
   bool addMovement(const std::vector<Finding>& before, double seconds);
   void addShadows(const std::vector<Finding>& before, double seconds);

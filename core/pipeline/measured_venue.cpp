@@ -13,9 +13,6 @@
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
-namespace {
-
-/// Everything but the inverse.
 MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   auto linearization = calibration::currentResultOf(folder, calibration::Stage::linearization);
@@ -39,8 +36,6 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
   progress.report(1.0);
   return measured;
 }
-
-}  // namespace
 
 CameraMask usablePixels(const transport::Acquisition& acquisition) {
   // Below this share of the venue's bright pixels, compensating would ask for many times the projector's

@@ -57,6 +57,9 @@ compensation::RidgeChoice invert(const compensation::MeasuredVenue& venue, const
 calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choice,
                                            const calibration::StageCost& cost);
 
+/// Reads a finished calibration, all but the inverse. Throws: as loadCalibration().
+MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress);
+
 /// Reads a finished calibration. The inverse operator is made again: quicker than reading it.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress);

@@ -25,12 +25,6 @@ constexpr std::int64_t sceneFrames = 60, slideFrames = 200, fadeFrames = 12;
 constexpr double remembered = 0.45;      // seconds of frames that a photograph is looked for in
 constexpr double longestExposure = 0.1;  // seconds
 
-/// A picture as the projectors get it, and as the monitor reads it.
-struct Prepared {
-  venue::PlayedPictures drives;
-  monitoring::FrameMeans means;
-};
-
 /// A part of an image, brought to the canvas: what a camera that pans sees.
 image::Image panned(const image::Image& from, double share, float brightness) {
   image::Image picture(canvas, 3);
@@ -60,6 +54,12 @@ double percentile(std::vector<double> values, double share) {
 }  // namespace
 
 struct MonitoringRehearsal::Parts {
+  /// A picture as the projectors get it, and as the monitor reads it.
+  struct Prepared {
+    venue::PlayedPictures drives;
+    monitoring::FrameMeans means;
+  };
+
   Parts(const RehearsalSettings& asked, const std::filesystem::path& cacheFolder, Progress& progress)
       : settings(asked), cache(cacheFolder), images(judgedImages(canvas)) {
     CalibrateSettings calibrating;
@@ -183,7 +183,7 @@ RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration, 
 
   double lightTime = 0.0, wallTime = 0.0;  // of the frames that are lit, and of everything else
   const auto venueAt = [&](double) {
-    const bool isAfter = wallTime >= trouble.at;
+    const bool isAfter = wallTime >= trouble.at && wallTime < trouble.until;
     venue::PlayedVenue now{isAfter ? changed : parts.truth, {}, 0.0f, {}};
     const auto drift = static_cast<float>(1.0 - day.lampDrift * wallTime / duration);
     now.lamps.assign(projectors, {drift, drift, drift});
@@ -254,6 +254,7 @@ RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration, 
     result.gainLow.push_back(percentile(own, 0.01));
     result.gainHigh.push_back(percentile(own, 0.99));
   }
+  result.lasting = before;
   result.shift = percentile(shifts, 0.99);
   result.offBy = percentile(off, 0.5);
   return result;

@@ -35,11 +35,12 @@ struct RehearsalSettings {
 
 /// What becomes of a venue while it is watched.
 struct RehearsedTrouble {
-  double at = 120.0;                       // seconds from the beginning
-  std::optional<venue::Changes> changes;   // from then on
-  std::vector<std::array<float, 3>> lamps; // what is left from then on; empty: all
-  std::vector<venue::Silhouette> shadows;  // from then on
-  std::optional<monitoring::FindingKind> expected;
+  double at = 120.0;                        // seconds from the beginning
+  double until = 1e12;                      // likewise: then it is put right
+  std::optional<venue::Changes> changes{};  // from then on
+  std::vector<std::array<float, 3>> lamps{};  // what is left from then on; empty: all
+  std::vector<venue::Silhouette> shadows{};  // from then on
+  std::optional<monitoring::FindingKind> expected{};
 };
 
 /// What the venue goes through anyhow, from the beginning to the end.
@@ -54,7 +55,8 @@ struct ToldFinding {
 };
 
 struct RehearsalResult {
-  std::vector<ToldFinding> told;  // whenever a finding appears
+  std::vector<ToldFinding> told;             // whenever a finding appears
+  std::vector<monitoring::Finding> lasting;  // at the end
   int photographs = 0, used = 0, saturated = 0, unrecognised = 0;
   double seconds = 0.0;   // of the monitor's work, all photographs
   std::size_t bytes = 0;  // of sampled T

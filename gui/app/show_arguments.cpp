@@ -91,6 +91,13 @@ const QCommandLineOption powerOffAfter(
     "power-off-after", "Switch them off when the picture was black for so long, and on again after that.",
     "MINUTES");
 const QCommandLineOption closeShutter("close-shutter", "Close their shutters while the picture is black.");
+const QCommandLineOption watch("watch",
+                               "Watch the show by a camera that stays: the number of one of the "
+                               "calibration's cameras, or KIND:PLACE where "
+                               "the first one is now. What has moved, faded or stands in the light is told "
+                               "in log, health file, status page "
+                               "and by OSC.",
+                               "CAMERA");
 const QCommandLineOption installService(
     "install-service",
     "Start this show at every log-in and restart it after a failure: a systemd user unit.");
@@ -106,8 +113,9 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
   for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
-  for (const QCommandLineOption& option : {schedule, night, alarm, canvas, brightness, backend, osc,
-                                           oscAddress, oscFeedback, statusPage, statusAddress, powerOffAfter})
+  for (const QCommandLineOption& option :
+       {schedule, night, alarm, canvas, brightness, backend, osc, oscAddress, oscFeedback, statusPage,
+        statusAddress, powerOffAfter, watch})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter})
     if (parser.isSet(option)) again << "--" + option.names().first();
@@ -151,6 +159,21 @@ std::optional<NetworkPlace> statusPlaceOf(const QCommandLineParser& parser) {
   if (!parser.isSet(statusPage) && parser.isSet(statusAddress))
     throw WrongArguments("--status-address needs --status PORT");
   return placeOf(parser, statusPage, statusAddress);
+}
+
+/// Throws: WrongArguments.
+std::optional<pipeline::WatchSettings> watchFrom(const QCommandLineParser& parser) {
+  if (!parser.isSet(watch)) return std::nullopt;
+  const QString camera = parser.value(watch);
+  bool isNumber = false;
+  const int number = camera.toInt(&isNumber);
+  if (isNumber && number >= 1) return pipeline::WatchSettings{static_cast<std::size_t>(number) - 1};
+  if (isNumber || !camera.contains(':'))
+    throw WrongArguments(QString("'%1' is no camera: write its number in the calibration, as --watch 1, or "
+                                 "where it is, as --watch v4l2:/dev/video0")
+                             .arg(camera)
+                             .toStdString());
+  return pipeline::WatchSettings{0, camera.toStdString()};
 }
 
 void readProjectors(const QCommandLineParser& parser, ShowSettings& settings) {
@@ -208,6 +231,7 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
     settings.cameras.push_back(positionFrom(position));
   settings.osc = oscPlaceOf(parser);
   settings.status = statusPlaceOf(parser);
+  settings.watch = watchFrom(parser);
   readProjectors(parser, settings);
   if (parser.isSet(oscFeedback)) {
     settings.oscFeedback = networkPlaceFrom(parser.value(oscFeedback));
@@ -252,6 +276,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
                      switchProjectors,
                      powerOffAfter,
                      closeShutter,
+                     watch,
                      log,
                      installService,
                      installAutostart,

@@ -77,7 +77,7 @@ void OutputProjection::open(const Wanted& wanted) {
         std::make_unique<EngineRenderer>(RendererSettings{wanted.calibration, canvas}, preparing,
                                          engine::FallbackBackend::Notify(),
                                          [host] { return std::move(*host); }),
-        tap);
+        [tap](const std::vector<DrivePicture>& drives) { tap->put(drives); });
   });
   Q_EMIT changed();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QMutex>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,22 +32,25 @@ class OutputTap {
 /// A renderer that lets somebody look on.
 class TappedRenderer : public FrameRenderer {
  public:
-  TappedRenderer(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<OutputTap> tap)
-      : renderer_(std::move(renderer)), tap_(std::move(tap)) {}
+  /// `look`: at every frame, on the rendering thread.
+  using Look = std::function<void(const std::vector<DrivePicture>&)>;
+  TappedRenderer(std::unique_ptr<FrameRenderer> renderer, Look look)
+      : renderer_(std::move(renderer)), look_(std::move(look)) {}
   std::vector<QSize> projectors() const override { return renderer_->projectors(); }
   Canvas canvas() const override { return renderer_->canvas(); }
   QString name() const override { return renderer_->name(); }
+  std::vector<compensation::Position> cameras() const override { return renderer_->cameras(); }
   void interrupt() override { renderer_->interrupt(); }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override {
     RenderedFrame frame = renderer_->render(content, request, outdated);
-    if (!frame.drives.empty()) tap_->put(frame.drives);
+    if (!frame.drives.empty()) look_(frame.drives);
     return frame;
   }
 
  private:
   std::unique_ptr<FrameRenderer> renderer_;
-  std::shared_ptr<OutputTap> tap_;
+  Look look_;
 };
 
 }  // namespace relucent::gui

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "output/output_playlist.h"
+#include "output/output_tap.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/stopwatch.h"
@@ -46,7 +47,7 @@ std::string shownFrom(const std::filesystem::path& path) {
 }  // namespace
 
 Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject* parent,
-           std::unique_ptr<ShowPhotography> photography)
+           std::unique_ptr<ShowPhotography> photography, std::unique_ptr<WatchSource> watch)
     : QObject(parent),
       settings_(std::move(settings)),
       make_(std::move(make)),
@@ -87,6 +88,8 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
     });
     connect(projectors_.get(), &ProjectorWatch::changed, this, [this] { writeHealth(state_); });
   }
+  if (settings_.watch)
+    beginWatch(watch ? std::move(watch) : watchSourceOf(settings_.calibration, *settings_.watch));
   openOrWait();
   listen();
 }
@@ -97,6 +100,10 @@ Show::~Show() {
 
 void Show::open() {
   std::unique_ptr<FrameRenderer> renderer = make_([this](const QString& sentence) { log_.warn(sentence); });
+  if (played_)
+    renderer = std::make_unique<TappedRenderer>(
+        std::move(renderer),
+        [played = played_](const std::vector<DrivePicture>& drives) { played->put(drives); });
   renderer_ = renderer->name();
   const RemoteState before = state();
   player_.reset();
@@ -131,6 +138,7 @@ void Show::open() {
   connect(player_.get(), &Player::shown, this, [this] {
     tellControl();
     tellProjectors();
+    tellWatch();
   });
   // Whoever made it black wants it black after a failure, too.
   setBlack(before.black);
@@ -151,6 +159,37 @@ void Show::openOrWait() {
 pjlink::Wanted Show::wishes() {
   if (nights_ && nights_->isUnderWay()) return wishes_.at(clock_.wall(), true, false);
   return wishes_.at(clock_.wall(), isTime(), player_ && player_->isBlack());
+}
+
+void Show::beginWatch(std::unique_ptr<WatchSource> source) {
+  played_ = std::make_shared<PlayedTap>();
+  watch_ = std::make_unique<ShowWatch>(std::move(source), played_);
+  const auto textOfMessage = [](const Message& message) { return QString::fromStdString(english(message)); };
+  connect(watch_.get(), &ShowWatch::found, this, [this, textOfMessage](const monitoring::Finding& finding) {
+    const QString what = textOfMessage(sentenceOf(finding));
+    log_.warn(what + ' ' + textOfMessage(adviceOf(finding)));
+    if (control_)
+      control_->announce("/watch", "found",
+                         {QString::fromStdString(std::string(nameOf(finding.kind))), what});
+    writeHealth(state_);
+  });
+  connect(watch_.get(), &ShowWatch::over, this, [this, textOfMessage](const monitoring::Finding& finding) {
+    const QString what = textOfMessage(sentenceOf(finding));
+    log_.tell("no longer: " + what);
+    if (control_)
+      control_->announce("/watch", "over", {QString::fromStdString(std::string(nameOf(finding.kind))), what});
+    writeHealth(state_);
+  });
+  connect(watch_.get(), &ShowWatch::failed, this, [this](const Message& sentence) {
+    log_.warn("nobody watches the show: " + QString::fromStdString(englishSentence(sentence)));
+    writeHealth(state_);
+  });
+}
+
+void Show::tellWatch() {
+  if (watch_)
+    watch_->setPlaying(state_ == ShowState::playing && player_ && player_->isPlaying() &&
+                       !player_->isBlack() && !player_->hasOverlay());
 }
 
 void Show::tellProjectors() {
@@ -448,6 +487,7 @@ void Show::takeUp(bool whole) {
 
 void Show::writeHealth(ShowState state) {
   state_ = state;
+  tellWatch();
   const Playlist::Status content = content_ ? content_->status() : Playlist::Status{};
   const std::vector<Message>& skipped = content.skipped;
   for (; toldSkipped_ < std::ssize(skipped); ++toldSkipped_)
@@ -488,6 +528,7 @@ QJsonObject Show::health() const {
   if (nights_) health["night"] = nights_->health(clock_.wall());
   if (nights_ && !nights_->alarm().empty())
     health["alarm"] = QString::fromStdString(englishSentence(nights_->alarm()));
+  if (watch_) health["watch"] = toJson(watch_->status());
   if (projectors_) health["projectors"] = toJson(projectors_->states());
   return health;
 }

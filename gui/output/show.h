@@ -16,6 +16,7 @@
 #include "output/show_photography.h"
 #include "output/show_projectors.h"
 #include "output/show_settings.h"
+#include "output/show_watch.h"
 #include "relucent/base/message.h"
 #include "remote/remote_control.h"
 #include "remote/status_server.h"
@@ -44,9 +45,10 @@ class Show : public QObject, private RemoteActions {
   using MakeRenderer =
       std::function<std::unique_ptr<FrameRenderer>(const std::function<void(const QString&)>& warn)>;
   /// `make` is called again after a failure. Throws: as `make` and displaysFor(), the first time.
-  /// `photography`: who photographs for it; nullptr: the devices of its calibration.
+  /// `photography`: who photographs for it; nullptr: the devices of its calibration. `watch`: whose camera
+  /// watches it, if the settings say that one does; nullptr: the calibration's.
   Show(ShowSettings settings, MakeRenderer make, MachineClock clock = {}, QObject* parent = nullptr,
-       std::unique_ptr<ShowPhotography> photography = nullptr);
+       std::unique_ptr<ShowPhotography> photography = nullptr, std::unique_ptr<WatchSource> watch = nullptr);
   ~Show() override;
 
   void start();
@@ -99,6 +101,8 @@ class Show : public QObject, private RemoteActions {
   /// What has become of the calibration: pictures that were perfected, and, where the picture may be gone for
   /// a moment (`whole`), another correction.
   void takeUp(bool whole);
+  void beginWatch(std::unique_ptr<WatchSource> source);
+  void tellWatch();
   void photographed(const QString& work, const QString& verdict, const QString& sentence);
 
   ShowSettings settings_;
@@ -125,6 +129,8 @@ class Show : public QObject, private RemoteActions {
   Message brokenOff_;                           // why the night under way has to end
   std::string playsFrom_, playsPerfected_;      // what of the calibration is shown
   std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
+  std::shared_ptr<PlayedTap> played_;
+  std::unique_ptr<ShowWatch> watch_;  // nullptr: nobody watches
 };
 
 }  // namespace relucent::gui

@@ -14,6 +14,7 @@
 #include "relucent/compensation/brightness.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/engine/fallback_backend.h"
+#include "relucent/pipeline/watched_calibration.h"
 #include "relucent/pjlink/address.h"
 #include "remote/network_place.h"
 
@@ -49,6 +50,7 @@ struct ShowSettings {
       powerOffAfter{};           // of black, hours or not; none: at the end of the hours
   std::optional<QTime> night{};  // when the venue is tended, outside the hours; none: never
   std::string alarmCommand{};  // tells of a night's alarm, see pipeline::closeNight(); empty: nobody is told
+  std::optional<pipeline::WatchSettings> watch{};  // by which camera the show is watched; none: by none
 };
 
 /// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),

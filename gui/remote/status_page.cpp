@@ -61,6 +61,16 @@ constexpr std::array factNames{
     FactName{"input", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Input")},
     FactName{"signal", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Signal")},
     FactName{"own_size", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Own pixels")},
+    FactName{"watch", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Watched by camera")},
+    FactName{"photographs", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Photographs")},
+    FactName{"used", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Photographs used")},
+    FactName{"informed", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Share that can be told")},
+    FactName{"milliseconds", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Time per photograph (ms)")},
+    FactName{"findings", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "What has changed")},
+    FactName{"kind", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Kind")},
+    FactName{"amount", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "How much")},
+    FactName{"what", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "What happened")},
+    FactName{"advice", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "What to do")},
     FactName{"remarks", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Remarks")},
 };
 

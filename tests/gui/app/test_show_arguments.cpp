@@ -77,7 +77,7 @@ class TestShowArguments : public QObject {
     QCOMPARE(settings.backend, BackendChoice::automatic);
     QVERIFY(!settings.adaptiveRange && !settings.brightness && !settings.hours &&
             settings.displays.isEmpty());
-    QVERIFY(!settings.osc && !settings.oscFeedback && settings.cameras.empty());
+    QVERIFY(!settings.osc && !settings.oscFeedback && settings.cameras.empty() && !settings.watch);
     QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
     QCOMPARE(settings.canvas.size, QSize(1920, 1080));
   }
@@ -146,7 +146,9 @@ class TestShowArguments : public QObject {
                            "--switch-projectors",
                            "--power-off-after",
                            "10",
-                           "--close-shutter"};
+                           "--close-shutter",
+                           "--watch",
+                           "2"};
     const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
     for (const ShowSettings& settings :
          {parsed<PlayShow>(said).settings, parsed<PlayShow>(wanted.arguments).settings}) {
@@ -154,6 +156,7 @@ class TestShowArguments : public QObject {
       QVERIFY((settings.status == NetworkPlace{QHostAddress(QHostAddress::LocalHost), 8080}));
       QVERIFY(settings.switchesPower && settings.closesShutter);
       QVERIFY(settings.powerOffAfter == std::chrono::minutes(10));
+      QVERIFY((settings.watch == pipeline::WatchSettings{1, {}}));
     }
     const ShowSettings usual = parsed<PlayShow>({"show", "v", "--content", "chart:grid"}).settings;
     QVERIFY(!usual.status && !usual.switchesPower && !usual.closesShutter && !usual.powerOffAfter);
@@ -167,6 +170,8 @@ class TestShowArguments : public QObject {
                                << "must be a number";
     QTest::newRow("address alone") << QStringList{"--status-address", "0.0.0.0"} << "needs --status PORT";
     QTest::newRow("off after what") << QStringList{"--power-off-after", "10"} << "needs --switch-projectors";
+    QTest::newRow("no camera") << QStringList{"--watch", "0"} << "is no camera";
+    QTest::newRow("camera without a kind") << QStringList{"--watch", "webcam"} << "is no camera";
     QTest::newRow("off at once") << QStringList{"--switch-projectors", "--power-off-after", "0"}
                                  << "1 to 1440 minutes";
   }
@@ -179,6 +184,12 @@ class TestShowArguments : public QObject {
     } catch (const WrongArguments& error) {
       QVERIFY2(QString(error.what()).contains(sentence), error.what());
     }
+  }
+
+  void aCameraMayWatchFromAnotherPlace() {
+    const ShowSettings settings =
+        parsed<PlayShow>({"show", "v", "--content", "chart:grid", "--watch", "v4l2:/dev/video1"}).settings;
+    QVERIFY((settings.watch == pipeline::WatchSettings{0, "v4l2:/dev/video1"}));
   }
 
   void itsWhiteIsTheSame() {

@@ -40,7 +40,7 @@ class TestShow : public QObject {
   QDateTime wall_;
   std::chrono::nanoseconds slept_{0};
   std::function<void(const QString&)> warn_;
-  std::unique_ptr<Show> showOf(const ShowSettings& settings) {
+  std::unique_ptr<Show> showOf(const ShowSettings& settings, std::unique_ptr<WatchSource> watch = nullptr) {
     made_ = 0;
     MachineClock clock{[this] { return wall_; }, [this] { return slept_; }};
     return std::make_unique<Show>(
@@ -55,7 +55,7 @@ class TestShow : public QObject {
           ++made_;
           return renderer;
         },
-        clock);
+        clock, nullptr, nullptr, std::move(watch));
   }
   QJsonObject health() {
     QFile file(folder_->filePath("log/health.json"));
@@ -100,6 +100,31 @@ class TestShow : public QObject {
     QCOMPARE(made_, 2);
     QCOMPARE(health()["displays"][0]["drawn_by"].toString(), QString(hasOpenGl ? "OpenGL" : "memory"));
     QCOMPARE(log().count("there is no OpenGL"), hasOpenGl ? 0 : 1);
+  }
+
+  /// The show goes on as if nobody had wanted to watch it.
+  void aWatchThatCannotBeginDisturbsNoShow() {
+    struct Nothing : WatchSource {
+      pipeline::WatchingCamera read(Progress&) override {
+        throw Error(ErrorKind::input, Message::plain("the calibration names no camera"),
+                    Message::plain("name one"));
+      }
+      void open(pipeline::WatchingCamera&) override {}
+    };
+    ShowSettings wanted = settings({picture("a.png", 3)});
+    auto plain = showOf(wanted);
+    plain->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QVERIFY(!health().contains("watch"));
+    plain.reset();
+    wanted.watch.emplace();
+    auto show = showOf(wanted, std::make_unique<Nothing>());
+    show->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    QTRY_COMPARE(health()["watch"]["state"].toString(), QString("no calibration"));
+    QVERIFY(health()["watch"]["problem"].toString().contains("names no camera"));
+    QCOMPARE(log().count("nobody watches the show: the calibration names no camera"), 1);
+    QCOMPARE(health()["state"].toString(), QString("playing"));
   }
 
   void whatTheRendererSaysStandsInTheLog() {

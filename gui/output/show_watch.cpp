@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "output/show_watch.h"
+
+#include <QJsonArray>
+#include <algorithm>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "relucent/base/error.h"
+#include "relucent/base/stopwatch.h"
+
+namespace relucent::gui {
+namespace {
+
+constexpr std::size_t mostSent = 20;     // frames: each may be 8 MB a projector
+constexpr double longestExposure = 0.1;  // seconds
+constexpr std::chrono::milliseconds mostBetweenTries{60'000};
+
+double steadySeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+class CalibratedSource : public WatchSource {
+ public:
+  CalibratedSource(std::filesystem::path calibration, pipeline::WatchSettings settings)
+      : calibration_(std::move(calibration)), settings_(std::move(settings)) {}
+  pipeline::WatchingCamera read(Progress& progress) override {
+    return readWatchedVenue(calibration_, settings_, progress);
+  }
+  void open(pipeline::WatchingCamera& watching) override { openCamera(calibration_, settings_, watching); }
+
+ private:
+  std::filesystem::path calibration_;
+  pipeline::WatchSettings settings_;
+};
+
+/// The light of a frame at the pixels that T's rows need. Empty: a picture is gone, or of another size.
+monitoring::FrameMeans meansOf(const std::vector<DrivePicture>& drives, const pipeline::CodeLights& lights,
+                               const monitoring::SampledTransport& transport) {
+  const Rasters& rasters = transport.rasters();
+  if (drives.size() != rasters.devices()) return {};
+  std::vector<float> light;
+  light.reserve(3 * transport.pixels().size());
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < drives.size(); ++j) {
+    const QImage picture = drives[j].image().convertToFormat(QImage::Format_RGBX8888);
+    const Size size = rasters.size(j);
+    if (picture.width() != size.width || picture.height() != size.height) return {};
+    for (; next < transport.pixels().size() && transport.pixels()[next] < rasters.offset(j) + size.count();
+         ++next) {
+      const Pixel at = pixelAt(size, transport.pixels()[next] - rasters.offset(j));
+      const uchar* const code = picture.constScanLine(at.y) + 4 * at.x;
+      for (std::size_t c = 0; c < 3; ++c) light.push_back(lights[j][c][code[c]]);
+    }
+  }
+  return transport.meansOf(std::span<const float>(light));
+}
+
+bool isSame(const monitoring::Finding& a, const monitoring::Finding& b) {
+  return a.kind == b.kind && a.projector == b.projector && a.channel == b.channel;
+}
+
+bool holds(const std::vector<monitoring::Finding>& findings, const monitoring::Finding& finding) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const monitoring::Finding& one) { return isSame(one, finding); });
+}
+
+}  // namespace
+
+void PlayedTap::put(const std::vector<DrivePicture>& drives) {
+  const std::lock_guard lock(guard_);
+  last_ = {steadySeconds(), drives};
+  if (!keeps_) return;
+  if (sent_.size() == mostSent) sent_.erase(sent_.begin());
+  sent_.push_back(last_);
+}
+
+void PlayedTap::begin() {
+  const std::lock_guard lock(guard_);
+  keeps_ = true;
+  sent_.clear();
+  if (!last_.drives.empty()) sent_.push_back(last_);
+}
+
+std::vector<PlayedTap::Sent> PlayedTap::end() {
+  const std::lock_guard lock(guard_);
+  keeps_ = false;
+  return std::exchange(sent_, {});
+}
+
+std::unique_ptr<WatchSource> watchSourceOf(const std::filesystem::path& calibration,
+                                           const pipeline::WatchSettings& settings) {
+  return std::make_unique<CalibratedSource>(calibration, settings);
+}
+
+/// The watching thread.
+class ShowWatch::Watcher {
+ public:
+  using Take = std::function<void(const WatchStatus&)>;
+
+  Watcher(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap, WatchPace pace, Take take)
+      : source_(std::move(source)),
+        tap_(std::move(tap)),
+        pace_(std::move(pace)),
+        take_(std::move(take)),
+        thread_([this] { work(); }) {}
+  ~Watcher() {
+    {
+      const std::lock_guard lock(guard_);
+      ends_ = true;
+    }
+    stop_.ask(StopRequest::Kind::cancel);
+    changed_.notify_all();
+    thread_.join();
+  }
+  void setPlaying(bool playing) {
+    {
+      const std::lock_guard lock(guard_);
+      playing_ = playing;
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  struct NoSink : ProgressSink {
+    void progressed(double, const Message&) override {}
+  };
+
+  /// False: it is to end.
+  bool wait(std::chrono::milliseconds pause) {
+    std::unique_lock lock(guard_);
+    changed_.wait_for(lock, pause, [&] { return ends_; });
+    return !ends_;
+  }
+  bool waitForPlay() {
+    std::unique_lock lock(guard_);
+    if (!playing_ && !ends_) {
+      lock.unlock();
+      tell(WatchState::paused);
+      lock.lock();
+    }
+    changed_.wait(lock, [&] { return playing_ || ends_; });
+    return !ends_;
+  }
+  bool isPlaying() {
+    const std::lock_guard lock(guard_);
+    return playing_;
+  }
+  void tell(WatchState state, const Message& problem = {}) {
+    status_.state = state;
+    status_.problem = problem;
+    take_(status_);
+  }
+
+  void work() {
+    pipeline::WatchingCamera watching;
+    try {
+      Progress progress(sink_, stop_);
+      watching = source_->read(progress);
+    } catch (const Cancelled&) {
+      return;
+    } catch (const Error& error) {
+      return tell(WatchState::noCalibration, error.sentence());
+    }
+    monitoring::Monitor monitor(std::move(watching.venue));
+    std::chrono::milliseconds pause = pace_.again;
+    bool isOpen = false;
+    while (waitForPlay()) {
+      try {
+        if (!isOpen) {
+          tell(WatchState::opening);
+          source_->open(watching);
+          isOpen = true;
+        }
+        look(watching, monitor);
+        pause = pace_.again;
+        if (!wait(pace_.between)) return;
+      } catch (const Error& error) {
+        // Only until it answers again; what it told stays told.
+        isOpen = false;
+        watching.used = {};
+        watching.devices.reset();
+        tell(WatchState::noCamera, error.sentence());
+        if (!wait(pause)) return;
+        pause = std::min(2 * pause, mostBetweenTries);
+      }
+    }
+  }
+
+  void look(pipeline::WatchingCamera& watching, monitoring::Monitor& monitor) {
+    tap_->begin();
+    if (!wait(pace_.before)) return;
+    const monitoring::WatchedVenue& venue = monitor.venue();
+    if (exposure_ == 0.0) exposure_ = watching.exposures.back();
+    const double begun = pace_.clock ? pace_.clock() : steadySeconds();
+    const rig::RawFrame photograph =
+        watching.camera().capture({{"watch", status_.photographs}, 0, exposure_});
+    const std::vector<PlayedTap::Sent> sent = tap_->end();
+    if (sent.empty() || !isPlaying()) return;  // a picture that went black meanwhile is no evidence
+    rig::checkFrame(photograph, venue.sampling.camera, watching.camera().name());
+    Stopwatch watch;
+    std::vector<monitoring::PlayedFrame> frames;
+    for (const PlayedTap::Sent& one : sent)
+      if (monitoring::FrameMeans means = meansOf(one.drives, watching.lights, venue.transport); !means.empty())
+        frames.push_back({one.seconds, std::move(means)});
+    if (frames.empty()) return;
+    const monitoring::Look look = monitor.look(photograph, begun, frames);
+    exposure_ = monitoring::suitableExposure(frames.back().means, watching.exposures, longestExposure, venue);
+    ++status_.photographs;
+    status_.used += look.use == monitoring::Look::Use::told;
+    status_.informed = monitor.informed();
+    status_.milliseconds = 1e3 * watch.seconds();
+    status_.findings = monitor.findings();
+    tell(WatchState::watching);
+  }
+
+  std::unique_ptr<WatchSource> source_;
+  std::shared_ptr<PlayedTap> tap_;
+  WatchPace pace_;
+  Take take_;
+  WatchStatus status_;
+  double exposure_ = 0.0;  // seconds, of the next photograph; 0: none yet
+  NoSink sink_;
+  StopRequest stop_;
+  std::mutex guard_;
+  std::condition_variable changed_;
+  bool playing_ = false, ends_ = false;
+  std::thread thread_;  // last: it uses the others
+};
+
+ShowWatch::ShowWatch(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap, WatchPace pace,
+                     QObject* parent)
+    : QObject(parent) {
+  watcher_ = std::make_unique<Watcher>(std::move(source), std::move(tap), std::move(pace), [this](WatchStatus status) {
+    QMetaObject::invokeMethod(
+        this, [this, status = std::move(status)] { take(status); }, Qt::QueuedConnection);
+  });
+}
+
+ShowWatch::~ShowWatch() = default;
+
+void ShowWatch::setPlaying(bool playing) {
+  watcher_->setPlaying(playing);
+}
+
+void ShowWatch::take(const WatchStatus& status) {
+  const WatchStatus before = std::exchange(status_, status);
+  if (!status.problem.empty() && english(status.problem) != english(before.problem))
+    Q_EMIT failed(status.problem);
+  // A camera that is opened again fails with the same words.
+  if (status.state == WatchState::opening) status_.problem = before.problem;
+  for (const monitoring::Finding& finding : status.findings)
+    if (!holds(before.findings, finding)) Q_EMIT found(finding);
+  for (const monitoring::Finding& finding : before.findings)
+    if (!holds(status.findings, finding)) Q_EMIT over(finding);
+  Q_EMIT changed();
+}
+
+QJsonObject toJson(const WatchStatus& status) {
+  QJsonArray findings;
+  for (const monitoring::Finding& finding : status.findings) {
+    QJsonObject json{{"kind", QString::fromStdString(std::string(nameOf(finding.kind)))},
+                     {"amount", finding.amount},
+                     {"what", QString::fromStdString(english(sentenceOf(finding)))},
+                     {"advice", QString::fromStdString(english(adviceOf(finding)))}};
+    if (finding.projector) json["projector"] = static_cast<qint64>(*finding.projector) + 1;
+    findings.append(json);
+  }
+  QJsonObject json{{"state", QString::fromStdString(std::string(nameOf(status.state)))},
+                   {"photographs", status.photographs},
+                   {"used", status.used},
+                   {"informed", status.informed},
+                   {"milliseconds", status.milliseconds},
+                   {"findings", findings}};
+  if (!status.problem.empty()) json["problem"] = QString::fromStdString(english(status.problem));
+  return json;
+}
+
+}  // namespace relucent::gui

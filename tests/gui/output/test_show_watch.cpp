@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// A camera that watches a show: what it tells, and that its troubles are nobody else's.
+#include "output/show_watch.h"
+
+#include <QSignalSpy>
+#include <QtTest>
+#include <atomic>
+
+#include "relucent/base/error.h"
+#include "relucent/base/random.h"
+
+using namespace relucent;
+using namespace relucent::gui;
+using monitoring::FindingKind;
+
+namespace {
+
+constexpr Size raster{32, 24};
+constexpr float perDrive = 10.0f, black = 0.1f;  // camera signal per second
+
+/// What stands before the scripted camera.
+struct Scene {
+  std::atomic<float> lamp{1.0f};
+  std::atomic<bool> unplugged{false};
+  std::atomic<int> photographs{0}, opened{0};
+  QImage picture;
+};
+
+QImage blobs() {
+  QImage picture(raster.width, raster.height, QImage::Format_RGBX8888);
+  for (int y = 0; y < raster.height; ++y)
+    for (int x = 0; x < raster.width; ++x) {
+      const auto level = [&](double f) { return static_cast<int>(120 + 80 * std::sin(f * x) * std::cos(0.3 * y)); };
+      picture.setPixel(x, y, qRgb(level(0.4), level(0.5), level(0.3)));
+    }
+  return picture;
+}
+
+class ScriptedCamera : public rig::Camera {
+ public:
+  explicit ScriptedCamera(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) {}
+  std::string name() const override { return "scripted"; }
+  Size size() const override { return raster; }
+  rig::ExposureRange exposures() const override { return {0.01, 0.1}; }
+  rig::RawFrame capture(const rig::CaptureRequest& request) override {
+    ++scene_->photographs;
+    if (scene_->unplugged)
+      throw Error(ErrorKind::device, Message::plain("the cable is out"), Message::plain("push it in"));
+    rig::RawFrame frame{image::Image(raster, 3), 12, request.seconds};
+    Random random({static_cast<std::uint64_t>(request.shot.number)});
+    for (std::size_t i = 0; i < raster.count(); ++i) {
+      const Pixel at = pixelAt(raster, i);
+      const QRgb code = scene_->picture.pixel(at.x, at.y);
+      const int codes[3] = {qRed(code), qGreen(code), qBlue(code)};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float light = black + perDrive * scene_->lamp * static_cast<float>(codes[c]) / 255.0f;
+        const float signal = light * static_cast<float>(request.seconds) + 1e-3f * static_cast<float>(random.normal());
+        frame.signal.pixel(i)[c] = std::clamp(signal, 0.0f, 1.0f);
+      }
+    }
+    return frame;
+  }
+
+ private:
+  std::shared_ptr<Scene> scene_;
+};
+
+class ScriptedSource : public WatchSource {
+ public:
+  explicit ScriptedSource(std::shared_ptr<Scene> scene, bool broken = false)
+      : scene_(std::move(scene)), broken_(broken) {}
+  pipeline::WatchingCamera read(Progress&) override {
+    if (broken_)
+      throw Error(ErrorKind::input, Message::plain("the calibration is gone"), Message::plain("bring it back"));
+    const Rasters projector(raster);
+    transport::BlockSparseBuilder builder(transport::NodeLayout(projector).count(),
+                                          std::vector<float>(raster.count(), perDrive));
+    for (std::size_t i = 0; i < raster.count(); ++i)
+      builder.add(i, i, perDrive * transport::ColourBlock::Identity());
+    const transport::TransportMatrix transport(Rasters(raster), projector, builder.build());
+    pipeline::WatchingCamera watching;
+    watching.venue.sampling =
+        monitoring::sampledPixels(raster, std::vector<std::uint8_t>(raster.count(), 1));
+    watching.venue.transport = monitoring::SampledTransport(transport, watching.venue.sampling.pixels);
+    watching.venue.black.assign(3 * raster.count(), black);
+    watching.venue.flood.assign(3 * raster.count(), perDrive);
+    watching.venue.camera.readNoise = 1e-3;
+    watching.exposures = {0.05, 0.02};
+    auto& lights = watching.lights.emplace_back();
+    for (auto& channel : lights)
+      for (std::size_t code = 0; code < 256; ++code) channel[code] = static_cast<float>(code) / 255.0f;
+    return watching;
+  }
+  void open(pipeline::WatchingCamera& watching) override {
+    ++scene_->opened;
+    if (scene_->unplugged)
+      throw Error(ErrorKind::device, Message::plain("the cable is out"), Message::plain("push it in"));
+    watching.used.cameras.push_back(std::make_unique<ScriptedCamera>(scene_));
+  }
+
+ private:
+  std::shared_ptr<Scene> scene_;
+  bool broken_;
+};
+
+}  // namespace
+
+class TestShowWatch : public QObject {
+  Q_OBJECT
+
+  std::shared_ptr<Scene> scene_;
+  std::shared_ptr<PlayedTap> tap_;
+  /// Two seconds pass from photograph to photograph, whatever the time.
+  static WatchPace quick() {
+    using std::chrono::milliseconds;
+    return {milliseconds(1), milliseconds(0), milliseconds(1),
+            [now = std::make_shared<double>(0.0)] { return *now += 2.0; }};
+  }
+  std::unique_ptr<ShowWatch> watched(bool broken = false) {
+    return std::make_unique<ShowWatch>(std::make_unique<ScriptedSource>(scene_, broken), tap_, quick());
+  }
+
+ private slots:
+  void init() {
+    scene_ = std::make_shared<Scene>();
+    scene_->picture = blobs();
+    tap_ = std::make_shared<PlayedTap>();
+    tap_->put({DrivePicture(scene_->picture)});
+  }
+
+  void whatLastsIsToldAndThatItIsOver() {
+    auto watch = watched();
+    QSignalSpy found(watch.get(), &ShowWatch::found), over(watch.get(), &ShowWatch::over);
+    watch->setPlaying(true);
+    QTRY_VERIFY(watch->status().used > 30);
+    QCOMPARE(watch->status().state, WatchState::watching);
+    QVERIFY2(found.isEmpty(), "nothing has changed");
+    scene_->lamp = 0.9f;
+    QTRY_COMPARE(found.size(), 1);
+    const auto finding = found.front().front().value<monitoring::Finding>();
+    QCOMPARE(finding.kind, FindingKind::faded);
+    QVERIFY(std::abs(finding.amount - 0.1) < 0.01);
+    const QJsonObject json = toJson(watch->status());
+    QCOMPARE(json["state"].toString(), QString("watching"));
+    QCOMPARE(json["findings"][0]["kind"].toString(), QString("faded"));
+    QVERIFY(json["findings"][0]["what"].toString().contains("10 % less light"));
+    QVERIFY(!json["findings"][0]["advice"].toString().isEmpty());
+    scene_->lamp = 1.0f;
+    QTRY_COMPARE(over.size(), 1);
+    QTRY_VERIFY(watch->status().findings.empty());
+  }
+
+  void aCameraThatIsGoneIsToldOnceAndWaitedFor() {
+    auto watch = watched();
+    QSignalSpy failed(watch.get(), &ShowWatch::failed);
+    watch->setPlaying(true);
+    QTRY_VERIFY(watch->status().used > 3);
+    scene_->unplugged = true;
+    QTRY_COMPARE(watch->status().state, WatchState::noCamera);
+    QTRY_VERIFY(scene_->opened > 3);
+    QCOMPARE(failed.size(), 1);
+    QVERIFY(english(failed.front().front().value<Message>()).find("the cable is out") != std::string::npos);
+    const int before = watch->status().used;
+    scene_->unplugged = false;
+    QTRY_VERIFY(watch->status().used > before);
+    QCOMPARE(watch->status().state, WatchState::watching);
+    QVERIFY(!toJson(watch->status()).contains("problem"));
+  }
+
+  void aCalibrationThatCannotBeReadIsTold() {
+    auto watch = watched(true);
+    QSignalSpy failed(watch.get(), &ShowWatch::failed);
+    watch->setPlaying(true);
+    QTRY_COMPARE(failed.size(), 1);
+    QCOMPARE(watch->status().state, WatchState::noCalibration);
+    QCOMPARE(scene_->photographs, 0);
+  }
+
+  void nothingIsPhotographedWhileBlack() {
+    auto watch = watched();
+    QTRY_COMPARE(watch->status().state, WatchState::paused);
+    QCOMPARE(scene_->photographs, 0);
+    watch->setPlaying(true);
+    QTRY_VERIFY(watch->status().used > 3);
+    watch->setPlaying(false);
+    QTRY_COMPARE(watch->status().state, WatchState::paused);
+    const int photographs = scene_->photographs;
+    watch->setPlaying(true);
+    QTRY_VERIFY(scene_->photographs > photographs);
+  }
+
+  void theTapKeepsTheNewestFramesWhileSomebodyAsks() {
+    QVERIFY(tap_->end().empty());
+    tap_->begin();
+    for (int n = 0; n < 50; ++n) tap_->put({DrivePicture(blobs())});
+    const std::vector<PlayedTap::Sent> sent = tap_->end();
+    QCOMPARE(sent.size(), std::size_t{20});
+    for (std::size_t i = 1; i < sent.size(); ++i) QVERIFY(sent[i].seconds >= sent[i - 1].seconds);
+    tap_->put({DrivePicture(blobs())});
+    QVERIFY2(tap_->end().empty(), "nobody asks");
+    tap_->begin();
+    QCOMPARE(tap_->end().size(), std::size_t{1});  // the one that is shown
+  }
+};
+
+QTEST_GUILESS_MAIN(TestShowWatch)
+#include "test_show_watch.moc"

@@ -45,24 +45,26 @@ Message sentenceOf(const Finding& finding) {
   switch (finding.kind) {
     case FindingKind::moved:
       return RELUCENT_ENGLISH_MESSAGE("monitoring.moved",
-                              "The picture has moved by {} camera pixels since it was measured.")
+                                      "The picture has moved by {} camera pixels since it was measured.")
           .with(as::pixels(finding.amount, as::decimals(1)));
     case FindingKind::faded:
       if (finding.channel)
         return RELUCENT_ENGLISH_MESSAGE("monitoring.channel-faded",
-                                "Projector {} gives {} % less {} light than when it was measured.")
+                                        "Projector {} gives {} % less {} light than when it was measured.")
             .with(number, percent, colourOf(*finding.channel));
       return RELUCENT_ENGLISH_MESSAGE("monitoring.faded",
-                              "Projector {} gives {} % less light than when it was measured.")
+                                      "Projector {} gives {} % less light than when it was measured.")
           .with(number, percent);
     case FindingKind::dark:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.dark", "Hardly any light arrives from projector {}.").with(number);
+      return RELUCENT_ENGLISH_MESSAGE("monitoring.dark", "Hardly any light arrives from projector {}.")
+          .with(number);
     case FindingKind::shadowed:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.shadowed", "{} % of the light has been missing for a while {}.")
+      return RELUCENT_ENGLISH_MESSAGE("monitoring.shadowed",
+                                      "{} % of the light has been missing for a while {}.")
           .with(percent, placeOf(finding));
     case FindingKind::unrecognised:
       return RELUCENT_ENGLISH_MESSAGE("monitoring.unrecognised",
-                              "The camera has not seen what is played for a while.");
+                                      "The camera has not seen what is played for a while.");
   }
   return {};
 }
@@ -70,25 +72,30 @@ Message sentenceOf(const Finding& finding) {
 Message adviceOf(const Finding& finding) {
   switch (finding.kind) {
     case FindingKind::moved:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.advice-moved",
-                              "The show plays on with the calibration as it was. Put camera or projector "
-                              "back as they stood, or repair the calibration.");
+      return RELUCENT_ENGLISH_MESSAGE(
+          "monitoring.advice-moved",
+          "The show plays on with the calibration as it was. Put camera or projector "
+          "back as they stood, or repair the calibration.");
     case FindingKind::faded:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.advice-faded",
-                              "The show plays on, a little dimmer. Repair the calibration; look after lamp, "
-                              "lens and filters.");
+      return RELUCENT_ENGLISH_MESSAGE(
+          "monitoring.advice-faded",
+          "The show plays on, a little dimmer. Repair the calibration; look after lamp, "
+          "lens and filters.");
     case FindingKind::dark:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.advice-dark",
-                              "Look whether it is on, its shutter open and its cable in, and whether the "
-                              "camera's lens is covered. The calibration is safe.");
+      return RELUCENT_ENGLISH_MESSAGE(
+          "monitoring.advice-dark",
+          "Look whether it is on, its shutter open and its cable in, and whether the "
+          "camera's lens is covered. The calibration is safe.");
     case FindingKind::shadowed:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.advice-shadowed",
-                              "Take away what stands in the light or before the camera. If the surface has "
-                              "changed, repair the calibration; until then it stays as it was.");
+      return RELUCENT_ENGLISH_MESSAGE(
+          "monitoring.advice-shadowed",
+          "Take away what stands in the light or before the camera. If the surface has "
+          "changed, repair the calibration; until then it stays as it was.");
     case FindingKind::unrecognised:
-      return RELUCENT_ENGLISH_MESSAGE("monitoring.advice-unrecognised",
-                              "Look whether something stands before the camera, whether it was turned, and "
-                              "whether the projectors show the show. The calibration is safe.");
+      return RELUCENT_ENGLISH_MESSAGE(
+          "monitoring.advice-unrecognised",
+          "Look whether something stands before the camera, whether it was turned, and "
+          "whether the projectors show the show. The calibration is safe.");
   }
   return {};
 }

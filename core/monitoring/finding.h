@@ -26,9 +26,9 @@ struct Finding {
   FindingKind kind = FindingKind::moved;
   std::optional<std::size_t> projector{};  // whose; none: it is of the view
   std::optional<std::size_t> channel{};    // of its light: 0 red, 1 green, 2 blue; none: all of it
-  double amount = 0.0;    // pixels that it moved; share of light that is missing
+  double amount = 0.0;                     // pixels that it moved; share of light that is missing
   double x = 0.0, y = 0.0;  // pixels, right and down; or the middle of the shadow as shares of the view
-  double since = 0.0;     // seconds, of the photographs' clock
+  double since = 0.0;       // seconds, of the photographs' clock
 };
 
 /// What happened, in one sentence.

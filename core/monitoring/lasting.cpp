@@ -16,8 +16,7 @@ void Lasting::add(double seconds, double value, double deviation) {
 }
 
 std::optional<double> Lasting::median() const {
-  if (seen_.size() < settings_.least ||
-      seen_.back().seconds - seen_.front().seconds < settings_.leastSpan)
+  if (seen_.size() < settings_.least || seen_.back().seconds - seen_.front().seconds < settings_.leastSpan)
     return std::nullopt;
   std::vector<std::pair<double, double>> sorted;
   double total = 0.0;
@@ -47,6 +46,16 @@ bool Lasting::holds(double limit, int sign) const {
     if (sign * one.value > settings_.nearly * limit) beyond += one.weight;
   }
   return total > 0.0 && beyond >= settings_.held * total;
+}
+
+bool Lasting::keeps(double within) const {
+  const double middle = *median();
+  double total = 0.0, near = 0.0;
+  for (const One& one : seen_) {
+    total += one.weight;
+    if (std::abs(one.value - middle) <= within) near += one.weight;
+  }
+  return near >= settings_.held * total;
 }
 
 }  // namespace relucent::monitoring

@@ -14,14 +14,14 @@ namespace {
 // What is known before: how far gains, room light and the moment may be off.
 constexpr double gainPrior = 0.5, roomPrior = 1.0, floodPrior = 0.05, momentPrior = 1.0;
 constexpr std::array<double, 7> widths{12.0, 6.0, 3.0, 2.0, 1.5, 1.0, 1.0};  // deviations, round after round
-constexpr double recognisedWithin = 3.5;                            // deviations
+constexpr double recognisedWithin = 3.5;                                     // deviations
 
 /// The regressors of one value, few of which are not zero, and what the photograph has there.
 struct Rows {
   std::size_t unknowns = 0;
-  std::vector<float> x;          // unknowns a value
-  std::vector<float> light;      // y - e
-  std::vector<std::size_t> at;   // value: 3 * sample + channel
+  std::vector<float> x;         // unknowns a value
+  std::vector<float> light;     // y - e
+  std::vector<std::size_t> at;  // value: 3 * sample + channel
   std::vector<std::size_t> cell;
   const float* of(std::size_t row) const { return &x[row * unknowns]; }
 };
@@ -45,8 +45,7 @@ Rows rowsOf(const Observed& seen, const std::vector<float>& parts, const std::ve
       x[3 * projectors + 3 + c] = venue.flood[i];
       if (!along.empty())
         for (std::size_t j = 0; j < projectors; ++j)
-          for (std::size_t k = 0; k < 3; ++k)
-            x.back() += along[9 * (sample * projectors + j) + 3 * c + k];
+          for (std::size_t k = 0; k < 3; ++k) x.back() += along[9 * (sample * projectors + j) + 3 * c + k];
       rows.x.insert(rows.x.end(), x.begin(), x.end());
     }
   return rows;
@@ -96,8 +95,7 @@ class Regression {
     std::vector<Eigen::VectorXd> scores(venue_.sampling.cells.count(), Eigen::VectorXd::Zero(n));
     for (std::size_t row = 0; row < rows_.at.size(); ++row) {
       const double factor = weight_[row] / variance_[row] * residual(row);
-      for (Eigen::Index k = 0; k < n; ++k)
-        scores[rows_.cell[row]][k] += factor * rows_.of(row)[k];
+      for (Eigen::Index k = 0; k < n; ++k) scores[rows_.cell[row]][k] += factor * rows_.of(row)[k];
     }
     Eigen::MatrixXd middle = normal_;  // what noise alone does, and what was known before
     for (const Eigen::VectorXd& score : scores) middle += score * score.transpose();
@@ -191,8 +189,7 @@ std::vector<CellLight> cellsOf(const Rows& rows, const Regression& regression, c
     if (cell.values < leastValues || cell.light < leastLight * cell.flood || cell.squares <= 0.0) continue;
     cells[c].share = cell.products / cell.squares;
     const double relative = cell.flood / std::max(cell.light, 1e-30) * venue.wrongOfFlood;
-    cells[c].deviation =
-        std::sqrt(1.0 / cell.squares + venue.wrong * venue.wrong + relative * relative);
+    cells[c].deviation = std::sqrt(1.0 / cell.squares + venue.wrong * venue.wrong + relative * relative);
   }
   return cells;
 }
@@ -241,7 +238,8 @@ LightFit fitLight(const Observed& seen, const Moment& moment, const WatchedVenue
     fit.totalDeviation.push_back(
         std::sqrt(std::max(0.0, weight.dot(covariance.block<3, 3>(first, first) * weight))));
   }
-  for (Eigen::Index k = 0; k < 6; ++k) fit.room.push_back(theta[static_cast<Eigen::Index>(3 * projectors) + k]);
+  for (Eigen::Index k = 0; k < 6; ++k)
+    fit.room.push_back(theta[static_cast<Eigen::Index>(3 * projectors) + k]);
   fit.recognised = predicted > 0.0 ? asPredicted / predicted : 0.0;
   fit.light = flood > 0.0 ? predicted / flood : 0.0;
   fit.cells = cellsOf(rows, regression, seen, venue);

@@ -15,9 +15,9 @@ struct CellLight {
 
 /// What one photograph says of the light.
 struct LightFit {
-  std::vector<double> gain, deviation;  // per projector and channel: 1 as it was measured
+  std::vector<double> gain, deviation;        // per projector and channel: 1 as it was measured
   std::vector<double> total, totalDeviation;  // per projector: all channels together
-  std::vector<double> room;             // per camera channel, of e; then of the flood image
+  std::vector<double> room;                   // per camera channel, of e; then of the flood image
   /// Share of the predicted light that lies where the photograph is as these say.
   double recognised = 0.0;
   double light = 0.0;  // mean predicted light, of the flood image
@@ -32,8 +32,8 @@ struct LightFit {
 /// moment: weighted least squares, iterated with Tukey's weights that become narrower from round to round
 /// (graduated non-convexity), so that whoever stands in the view is left out. Deviations are those of the
 /// sandwich over cells, since T's errors are alike at neighbouring pixels.
-/// Sources: Huber & Ronchetti, Robust Statistics, 2009; Blake & Zisserman, Visual Reconstruction, 1987; White,
-/// Econometrica 48, 1980; core/monitoring/README.md.
+/// Sources: Huber & Ronchetti, Robust Statistics, 2009; Blake & Zisserman, Visual Reconstruction, 1987;
+/// White, Econometrica 48, 1980; core/monitoring/README.md.
 LightFit fitLight(const Observed& seen, const Moment& moment, const WatchedVenue& venue);
 
 }  // namespace relucent::monitoring

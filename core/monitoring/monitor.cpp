@@ -11,11 +11,12 @@
 namespace relucent::monitoring {
 namespace {
 
-constexpr double mostSaturated = 0.2;    // share of values
-constexpr double leastLight = 0.003;     // of the flood image: below it nothing can be recognised, or be missing
-constexpr double stays = 0.7;            // of a limit: what was told stays until it is below this
-constexpr double whileMoved = 3.0;       // times as much must a lamp fade: a view that moved fits less well
-constexpr double certain = 2.5;          // deviations by which a limit's half must be passed
+constexpr double mostSaturated = 0.2;  // share of values
+constexpr double leastLight = 0.003;  // of the flood image: below it nothing can be recognised, or be missing
+constexpr double stays = 0.7;         // of a limit: what was told stays until it is below this
+constexpr double alike = 0.2;         // visitors who follow each other take unlike shares of the light
+constexpr double whileMoved = 3.0;    // times as much must a lamp fade: a view that moved fits less well
+constexpr double certain = 2.5;       // deviations by which a limit's half must be passed
 
 }  // namespace
 
@@ -63,7 +64,8 @@ Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<co
     return look;
   }
   const LightFit& light = look.light;
-  for (std::size_t k = 0; k < gain_.size(); ++k) gain_[k].add(seconds, light.gain[k] - 1.0, light.deviation[k]);
+  for (std::size_t k = 0; k < gain_.size(); ++k)
+    gain_[k].add(seconds, light.gain[k] - 1.0, light.deviation[k]);
   for (std::size_t j = 0; j < total_.size(); ++j)
     total_[j].add(seconds, light.total[j] - 1.0, light.totalDeviation[j]);
   for (std::size_t c = 0; c < cell_.size(); ++c)
@@ -95,8 +97,7 @@ void Monitor::add(Finding finding, const std::vector<Finding>& before, double se
 
 void Monitor::decide(double seconds) {
   const std::vector<Finding> before = std::exchange(findings_, {});
-  if (const auto median = unrecognised_.median();
-      median && *median > 0.5 && unrecognised_.holds(1.0, 1))
+  if (const auto median = unrecognised_.median(); median && *median > 0.5 && unrecognised_.holds(1.0, 1))
     add({FindingKind::unrecognised}, before, seconds);
 
   const bool isSteady = !isAnyDark() && addMovement(before, seconds);
@@ -105,9 +106,8 @@ void Monitor::decide(double seconds) {
 }
 
 bool Monitor::isAnyDark() const {
-  return std::any_of(total_.begin(), total_.end(), [&](const Lasting& one) {
-    return -one.median().value_or(0.0) > settings_.dark;
-  });
+  return std::any_of(total_.begin(), total_.end(),
+                     [&](const Lasting& one) { return -one.median().value_or(0.0) > settings_.dark; });
 }
 
 bool Monitor::addLamps(bool isSteady, const std::vector<Finding>& before, double seconds) {
@@ -154,8 +154,9 @@ void Monitor::addShadows(const std::vector<Finding>& before, double seconds) {
   const double limit = (was(FindingKind::shadowed, {}, {}, before) ? stays : 1.0) * settings_.shadow;
   std::vector<double> missing(cell_.size(), 0.0);
   for (std::size_t c = 0; c < cell_.size(); ++c)
-    if (const auto median = cell_[c].median();
-        median && -*median > limit && -*median > certain * cell_[c].deviation() && cell_[c].holds(limit, -1))
+    if (const auto median = cell_[c].median(); median && -*median > limit &&
+                                               -*median > certain * cell_[c].deviation() &&
+                                               cell_[c].holds(limit, -1) && cell_[c].keeps(alike))
       missing[c] = -*median;
   // Two neighbours, or one that misses half as much again.
   double sum = 0.0, x = 0.0, y = 0.0, weight = 0.0;

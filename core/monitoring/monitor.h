@@ -13,14 +13,15 @@ namespace relucent::monitoring {
 
 /// Beyond these, for as long as visitors do not stay, something is told.
 struct MonitorSettings {
-  double shift = 0.2;      // camera pixels
-  double fade = 0.035;     // share of a projector's light
-  double dark = 0.7;       // likewise: then it counts as dark
-  double shadow = 0.3;     // share of a cell's light that is missing, of one cell alone half as much again
-  double recognised = 0.5; // share of the light that must be as predicted, or a photograph is no evidence
+  double shift = 0.2;       // camera pixels
+  double fade = 0.035;      // share of a projector's light
+  double dark = 0.7;        // likewise: then it counts as dark
+  double shadow = 0.3;      // share of a cell's light that is missing, of one cell alone half as much again
+  double recognised = 0.5;  // share of the light that must be as predicted, or a photograph is no evidence
   LastingSettings ofGain{40.0, 15.0, 8, 0.04, 0.005, 0.75, 0.7};
   LastingSettings ofShift{40.0, 15.0, 8, 0.15, 0.03, 0.75, 0.7};
-  LastingSettings ofCell{45.0, 25.0, 8, 0.12, 0.03, 0.8, 0.7};
+  // Two visitors who stop at one place, one after the other, are there for forty seconds.
+  LastingSettings ofCell{50.0, 40.0, 8, 0.12, 0.03, 0.86, 0.7};
   LastingSettings ofRecognition{45.0, 25.0, 8, 10.0, 1.0, 0.85, 0.7};
 };
 /// What is wrong with the settings; empty: nothing.

@@ -19,8 +19,8 @@ int partsOf(int level, bool exact) {
 }
 
 /// The pixels at which a node is read.
-void addPixelsOf(const transport::Node& node, const transport::Block& block, const Rasters& rasters, bool exact,
-                 std::vector<std::uint32_t>& pixels) {
+void addPixelsOf(const transport::Node& node, const transport::Block& block, const Rasters& rasters,
+                 bool exact, std::vector<std::uint32_t>& pixels) {
   const auto projector = static_cast<std::size_t>(node.projector);
   const Size size = rasters.size(projector);
   const int parts = partsOf(node.level, exact), side = (1 << node.level) / parts;
@@ -33,7 +33,8 @@ void addPixelsOf(const transport::Node& node, const transport::Block& block, con
                      static_cast<std::uint64_t>(side)});
       const auto across = static_cast<std::uint64_t>(std::min(side, block.x1 - left));
       const auto down = static_cast<std::uint64_t>(std::min(side, block.y1 - top));
-      const Pixel at{left + static_cast<int>(random.below(across)), top + static_cast<int>(random.below(down))};
+      const Pixel at{left + static_cast<int>(random.below(across)),
+                     top + static_cast<int>(random.below(down))};
       pixels.push_back(static_cast<std::uint32_t>(rasters.offset(projector) + indexOf(size, at)));
     }
 }
@@ -88,7 +89,8 @@ SampledTransport::SampledTransport(const transport::TransportMatrix& transport,
   std::sort(pixels_.begin(), pixels_.end());
   pixels_.erase(std::unique(pixels_.begin(), pixels_.end()), pixels_.end());
   for (std::uint32_t& pixel : nodePixels_)
-    pixel = static_cast<std::uint32_t>(std::lower_bound(pixels_.begin(), pixels_.end(), pixel) - pixels_.begin());
+    pixel =
+        static_cast<std::uint32_t>(std::lower_bound(pixels_.begin(), pixels_.end(), pixel) - pixels_.begin());
 }
 
 std::size_t SampledTransport::bytes() const {

@@ -42,11 +42,11 @@ class SampledTransport {
 
  private:
   Rasters rasters_;
-  transport::BlockSparse leaves_;              // of nodes that are used, numbered anew
-  std::vector<std::uint8_t> projectorOf_;      // per node
+  transport::BlockSparse leaves_;          // of nodes that are used, numbered anew
+  std::vector<std::uint8_t> projectorOf_;  // per node
   std::vector<std::uint32_t> pixels_;
-  std::vector<std::size_t> nodeBegin_;         // into nodePixels_, one more than nodes
-  std::vector<std::uint32_t> nodePixels_;      // indices into pixels_
+  std::vector<std::size_t> nodeBegin_;     // into nodePixels_, one more than nodes
+  std::vector<std::uint32_t> nodePixels_;  // indices into pixels_
 };
 
 /// Weighted mean of frames: what an exposure sees that lasts over several. Contract: as many weights.

@@ -30,7 +30,8 @@ double usableShare(const PatchPlace& place, Size camera, const std::vector<std::
 std::vector<PatchPlace> tiledPatches(Size camera, int side) {
   std::vector<PatchPlace> places;
   const Size size{std::min(side, camera.width), std::min(side, camera.height)};
-  const int stepX = std::max(1, size.width - 2 * patchBorder), stepY = std::max(1, size.height - 2 * patchBorder);
+  const int stepX = std::max(1, size.width - 2 * patchBorder),
+            stepY = std::max(1, size.height - 2 * patchBorder);
   for (int y = 0;; y += stepY) {
     const int top = std::min(y, camera.height - size.height);
     for (int x = 0;; x += stepX) {
@@ -80,9 +81,8 @@ Sampling sampledPixels(Size camera, const std::vector<std::uint8_t>& usable,
   std::vector<PatchPlace> places =
       all ? tiledPatches(camera, settings.patch)
           : sparsePatches(camera, usable, settings.patch, std::max<std::size_t>(1, half / (side * side)));
-  std::erase_if(places, [&](const PatchPlace& place) {
-    return usableShare(place, camera, usable) < leastUsableShare;
-  });
+  std::erase_if(
+      places, [&](const PatchPlace& place) { return usableShare(place, camera, usable) < leastUsableShare; });
 
   Sampling sampling;
   sampling.camera = camera;
@@ -111,7 +111,8 @@ Sampling sampledPixels(Size camera, const std::vector<std::uint8_t>& usable,
   for (std::uint32_t pixel : even) sampling.even.push_back(sampleOf(pixel));
   for (std::uint32_t pixel : sampling.pixels) {
     const Pixel at = pixelAt(camera, pixel);
-    const int x = at.x * sampling.cells.width / camera.width, y = at.y * sampling.cells.height / camera.height;
+    const int x = at.x * sampling.cells.width / camera.width,
+              y = at.y * sampling.cells.height / camera.height;
     sampling.cell.push_back(static_cast<std::uint16_t>(indexOf(sampling.cells, {x, y})));
   }
   for (const PatchPlace& place : places) {

@@ -21,15 +21,15 @@ struct Patch {
 };
 
 /// Which pixels of one camera are looked at while a show plays: all of a small one, of a large one an even
-/// grid of single pixels and patches of neighbours among them, so that a photograph costs as much whatever the
-/// camera's size. Samples are numbered by ascending pixel.
+/// grid of single pixels and patches of neighbours among them, so that a photograph costs as much whatever
+/// the camera's size. Samples are numbered by ascending pixel.
 struct Sampling {
   Size camera;
-  std::vector<std::uint32_t> pixels;       // of the camera, a sample each
-  std::vector<std::uint32_t> even;         // samples that stand for the view evenly: usable ones
-  std::vector<std::uint16_t> cell;         // per sample
-  Size cells;                              // of the view
-  std::vector<Patch> patches;              // of usable samples mostly
+  std::vector<std::uint32_t> pixels;  // of the camera, a sample each
+  std::vector<std::uint32_t> even;    // samples that stand for the view evenly: usable ones
+  std::vector<std::uint16_t> cell;    // per sample
+  Size cells;                         // of the view
+  std::vector<Patch> patches;         // of usable samples mostly
 };
 
 /// `usable`: of that camera's pixels. Contract: as many as `camera` has.

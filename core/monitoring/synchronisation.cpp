@@ -49,8 +49,7 @@ Compared comparedOf(const Observed& seen, std::span<const PlayedFrame> frames, c
   for (const PlayedFrame& frame : frames) {
     const FrameMeans* one = &frame.means;
     const double all = 1.0;
-    const std::vector<float> parts =
-        venue.transport.lightOf(mixed({&one, 1}, {&all, 1}), samples);
+    const std::vector<float> parts = venue.transport.lightOf(mixed({&one, 1}, {&all, 1}), samples);
     std::vector<float>& total = compared.frames.emplace_back(3 * samples.size(), 0.0f);
     for (std::size_t s = 0; s < samples.size(); ++s)
       for (std::size_t j = 0; j < projectors; ++j)
@@ -109,7 +108,8 @@ Moment momentOf(const Observed& seen, std::span<const PlayedFrame> frames, doubl
 
   std::vector<std::size_t> order(bends.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return misfits[a] < misfits[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return misfits[a] < misfits[b]; });
   std::size_t segment = order.front() > 0 ? order.front() - 1 : 0;
   double best = misfits[order.front()], share = order.front() > 0 ? 1.0 : 0.0;
   for (std::size_t n = 0; n < std::min<std::size_t>(3, order.size()); ++n)

@@ -19,8 +19,8 @@ struct PlayedFrame {
 /// `along` leads to a moment shortly after; empty where nothing changes.
 struct Moment {
   std::vector<float> means, along;
-  double since = 0.0;  // when its exposure began, on the frames' clock
-  double misfit = 0.0; // mean of min(r^2 / s^2, 9) over the samples that were compared
+  double since = 0.0;   // when its exposure began, on the frames' clock
+  double misfit = 0.0;  // mean of min(r^2 / s^2, 9) over the samples that were compared
 };
 
 /// Finds which frames a photograph shows, with no other knowledge of its time than that it lies among them:

@@ -12,7 +12,7 @@ namespace {
 
 // A patch knows its place no better than this, camera pixels, whatever its pixels say.
 constexpr double patchDeviation = 0.15;
-constexpr int leastPixels = 12;      // of a patch that tell
+constexpr int leastPixels = 12;  // of a patch that tell
 constexpr std::size_t leastPatches = 4;
 
 /// One patch's channel, smoothed; 0 valid beside its border and what is saturated.
@@ -23,8 +23,8 @@ struct Plane {
   std::size_t at(int x, int y) const { return indexOf(size, {x, y}); }
 };
 
-Plane planeOf(const Patch& patch, std::size_t channel, const Observed& seen, const std::vector<float>& predicted,
-              const std::vector<float>& along) {
+Plane planeOf(const Patch& patch, std::size_t channel, const Observed& seen,
+              const std::vector<float>& predicted, const std::vector<float>& along) {
   const Size size = patch.size;
   Plane plane{size, std::vector<double>(size.count()), std::vector<double>(size.count()),
               std::vector<double>(size.count()), std::vector<std::uint8_t>(size.count(), 0)};
@@ -60,8 +60,9 @@ void addChannel(const Plane& plane, double noise, double wrong, PatchEquations& 
   std::vector<Eigen::Vector2d> r;  // of the photograph, of time
   for (int v = 2; v + 2 < plane.size.height; ++v)
     for (int u = 2; u + 2 < plane.size.width; ++u) {
-      if (!plane.valid[plane.at(u, v)] || !plane.valid[plane.at(u + 1, v)] || !plane.valid[plane.at(u - 1, v)] ||
-          !plane.valid[plane.at(u, v + 1)] || !plane.valid[plane.at(u, v - 1)])
+      if (!plane.valid[plane.at(u, v)] || !plane.valid[plane.at(u + 1, v)] ||
+          !plane.valid[plane.at(u - 1, v)] || !plane.valid[plane.at(u, v + 1)] ||
+          !plane.valid[plane.at(u, v - 1)])
         continue;
       const double q = plane.predicted[plane.at(u, v)];
       const double gx = 0.5 * (plane.predicted[plane.at(u + 1, v)] - plane.predicted[plane.at(u - 1, v)]);
@@ -97,8 +98,7 @@ void addChannel(const Plane& plane, double noise, double wrong, PatchEquations& 
   const Eigen::Matrix2d steadied = information + 1e-12 * Eigen::Matrix2d::Identity();
   const double rest = std::max(0.0, squares - right.col(0).dot(steadied.ldlt().solve(right.col(0))));
   const double floor = wrong * mean;
-  const double variance =
-      std::max(rest / static_cast<double>(x.size() - 4), noise + 0.1 * floor * floor);
+  const double variance = std::max(rest / static_cast<double>(x.size() - 4), noise + 0.1 * floor * floor);
   sum.information += information / variance;
   sum.right += right / variance;
 }
@@ -112,8 +112,8 @@ struct PatchShift {
 
 }  // namespace
 
-ViewShift viewShift(const Observed& seen, const std::vector<float>& predicted, const std::vector<float>& along,
-                    const WatchedVenue& venue) {
+ViewShift viewShift(const Observed& seen, const std::vector<float>& predicted,
+                    const std::vector<float>& along, const WatchedVenue& venue) {
   const Size camera = venue.sampling.camera;
   const double half = 0.5 * std::min(camera.width, camera.height);
   std::vector<PatchShift> patches;

@@ -19,9 +19,8 @@ struct ViewShift {
 /// the brightness a, b of each patch and channel free, so that what T has wrong there does not matter. Each
 /// patch's d is least squares over its pixels; the view's shift and turn are least squares over the patches
 /// with Tukey's weights, so that visitors count for little. A film that pans moves every patch too, and its
-/// moment is not known to a pixel: how far the patches move with time is a fourth unknown, so that a pan tells
-/// nothing along its way.
-/// Shapes: radiance at all samples; `along`: how it changes with time, or empty.
+/// moment is not known to a pixel: how far the patches move with time is a fourth unknown, so that a pan
+/// tells nothing along its way. Shapes: radiance at all samples; `along`: how it changes with time, or empty.
 /// Source: Lucas & Kanade, An iterative image registration technique, 1981; core/monitoring/README.md.
 ViewShift viewShift(const Observed& seen, const std::vector<float>& predicted,
                     const std::vector<float>& along, const WatchedVenue& venue);

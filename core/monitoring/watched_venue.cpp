@@ -44,8 +44,8 @@ double suitableExposure(const FrameMeans& frame, std::span<const double> exposur
                         const WatchedVenue& venue) {
   require(!exposures.empty(), "no exposures");
   constexpr std::size_t mostLookedAt = 1000;
-  constexpr double full = 0.8;      // of saturation
-  constexpr double brighter = 0.01; // share of values that may be
+  constexpr double full = 0.8;       // of saturation
+  constexpr double brighter = 0.01;  // share of values that may be
   std::vector<std::uint32_t> samples;
   const std::vector<std::uint32_t>& even = venue.sampling.even;
   const std::size_t step = std::max<std::size_t>(1, even.size() / mostLookedAt);
@@ -63,11 +63,12 @@ double suitableExposure(const FrameMeans& frame, std::span<const double> exposur
         for (std::size_t k = 0; k < 3; ++k) sum += parts[9 * (s * projectors + j) + 3 * c + k];
       radiance.push_back(sum);
     }
-  const auto bright = radiance.begin() + static_cast<std::ptrdiff_t>((1.0 - brighter) *
-                                                                     static_cast<double>(radiance.size() - 1));
+  const auto bright = radiance.begin() + static_cast<std::ptrdiff_t>(
+                                             (1.0 - brighter) * static_cast<double>(radiance.size() - 1));
   std::nth_element(radiance.begin(), bright, radiance.end());
   for (double seconds : exposures)
-    if (seconds <= longest && *bright * hdr::trueSeconds(venue.camera, seconds) < full * venue.camera.saturation)
+    if (seconds <= longest &&
+        *bright * hdr::trueSeconds(venue.camera, seconds) < full * venue.camera.saturation)
       return seconds;
   return exposures.back();
 }

@@ -38,15 +38,17 @@ image::Image panned(const image::Image& from, double share, float brightness) {
       const int v0 = std::min(static_cast<int>(v), from.height() - 2);
       const auto fu = static_cast<float>(u - u0), fv = static_cast<float>(v - v0);
       for (int c = 0; c < 3; ++c)
-        picture.at(x, y, c) = brightness * ((1 - fv) * ((1 - fu) * from.at(u0, v0, c) + fu * from.at(u0 + 1, v0, c)) +
-                                            fv * ((1 - fu) * from.at(u0, v0 + 1, c) + fu * from.at(u0 + 1, v0 + 1, c)));
+        picture.at(x, y, c) =
+            brightness * ((1 - fv) * ((1 - fu) * from.at(u0, v0, c) + fu * from.at(u0 + 1, v0, c)) +
+                          fv * ((1 - fu) * from.at(u0, v0 + 1, c) + fu * from.at(u0 + 1, v0 + 1, c)));
     }
   return picture;
 }
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -106,8 +108,8 @@ struct MonitoringRehearsal::Parts {
         // Every other scene ends by fading to black.
         const double left = static_cast<double>(sceneFrames - 1 - within) / fadeFrames;
         const double brightness = scene % 2 == 1 ? std::min(1.0, left) : 1.0;
-        return panned(at(static_cast<std::int64_t>(settings.seed) + scene), scene % 2 == 0 ? share : 1.0 - share,
-                      static_cast<float>(brightness));
+        return panned(at(static_cast<std::int64_t>(settings.seed) + scene),
+                      scene % 2 == 0 ? share : 1.0 - share, static_cast<float>(brightness));
       }
       case ShownContent::dark:
         return panned(scene % 2 == 0 ? images.back().linear : images[4].linear, share, 0.4f);
@@ -157,8 +159,8 @@ struct MonitoringRehearsal::Parts {
   std::map<std::pair<ShownContent, std::int64_t>, Prepared> kept;
 };
 
-MonitoringRehearsal::MonitoringRehearsal(const RehearsalSettings& settings, const std::filesystem::path& cache,
-                                         Progress& progress)
+MonitoringRehearsal::MonitoringRehearsal(const RehearsalSettings& settings,
+                                         const std::filesystem::path& cache, Progress& progress)
     : parts_(std::make_unique<Parts>(settings, cache, progress)) {}
 
 MonitoringRehearsal::~MonitoringRehearsal() = default;
@@ -168,8 +170,9 @@ void MonitoringRehearsal::setSeed(std::uint64_t seed) {
   parts_->kept.clear();
 }
 
-RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration, const RehearsedTrouble& trouble,
-                                         const RehearsedDay& day, Progress& progress) {
+RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration,
+                                         const RehearsedTrouble& trouble, const RehearsedDay& day,
+                                         Progress& progress) {
   Parts& parts = *parts_;
   const RehearsalSettings& settings = parts.settings;
   std::shared_ptr<const venue::SimulatedVenue> changed = parts.truth;
@@ -190,8 +193,8 @@ RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration, 
     if (isAfter && !trouble.lamps.empty())
       for (std::size_t j = 0; j < projectors; ++j)
         for (std::size_t c = 0; c < 3; ++c) now.lamps[j][c] *= trouble.lamps[j][c];
-    now.moreRoomLight = static_cast<float>(-day.dusk * 0.5 *
-                                           (1.0 - std::cos(2.0 * std::numbers::pi * wallTime / duration)));
+    now.moreRoomLight =
+        static_cast<float>(-day.dusk * 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * wallTime / duration)));
     if (settings.visitorsEvery > 0.0) now.inTheWay = visitors.at(wallTime);
     if (isAfter) now.inTheWay.insert(now.inTheWay.end(), trouble.shadows.begin(), trouble.shadows.end());
     return now;
@@ -244,7 +247,8 @@ RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration, 
     }
     for (const monitoring::Finding& finding : monitor.findings()) {
       const bool isNew = std::none_of(before.begin(), before.end(), [&](const monitoring::Finding& one) {
-        return one.kind == finding.kind && one.projector == finding.projector && one.channel == finding.channel;
+        return one.kind == finding.kind && one.projector == finding.projector &&
+               one.channel == finding.channel;
       });
       if (isNew) result.told.push_back({wallTime, finding});
     }

@@ -35,11 +35,11 @@ struct RehearsalSettings {
 
 /// What becomes of a venue while it is watched.
 struct RehearsedTrouble {
-  double at = 120.0;                        // seconds from the beginning
-  double until = 1e12;                      // likewise: then it is put right
-  std::optional<venue::Changes> changes{};  // from then on
+  double at = 120.0;                          // seconds from the beginning
+  double until = 1e12;                        // likewise: then it is put right
+  std::optional<venue::Changes> changes{};    // from then on
   std::vector<std::array<float, 3>> lamps{};  // what is left from then on; empty: all
-  std::vector<venue::Silhouette> shadows{};  // from then on
+  std::vector<venue::Silhouette> shadows{};   // from then on
   std::optional<monitoring::FindingKind> expected{};
 };
 
@@ -62,7 +62,7 @@ struct RehearsalResult {
   std::size_t bytes = 0;  // of sampled T
   double offBy = 0.0;     // median of |moment found - true moment|, seconds, where the content changes
   std::vector<double> gainLow, gainHigh;  // per projector: 1st and 99th percentile of single photographs'
-  double shift = 0.0;     // 99th percentile of single photographs' |shift|
+  double shift = 0.0;                     // 99th percentile of single photographs' |shift|
   /// Whether the trouble was told, after how many seconds; and all that should not have been.
   std::optional<double> toldAfter(const RehearsedTrouble& trouble) const;
   std::vector<ToldFinding> falseAlarms(const RehearsedTrouble& trouble) const;
@@ -73,7 +73,8 @@ struct RehearsalResult {
 class MonitoringRehearsal {
  public:
   /// Measures the venue. Throws: as calibrate().
-  MonitoringRehearsal(const RehearsalSettings& settings, const std::filesystem::path& cache, Progress& progress);
+  MonitoringRehearsal(const RehearsalSettings& settings, const std::filesystem::path& cache,
+                      Progress& progress);
   ~MonitoringRehearsal();
 
   /// `duration`: seconds. Throws: as SimulatedVenue, for changes; Cancelled.

@@ -36,11 +36,8 @@ monitoring::WatchedVenue watchedVenueOf(const MeasuredCalibration& measured, std
     }
   }
   monitoring::SampledTransport transport(venue.transport, rows);
-  monitoring::WatchedVenue watched{std::move(sampling),
-                                   std::move(transport),
-                                   std::move(black),
-                                   std::move(flood),
-                                   measured.linearization.cameras[camera]};
+  monitoring::WatchedVenue watched{std::move(sampling), std::move(transport), std::move(black),
+                                   std::move(flood), measured.linearization.cameras[camera]};
   watched.wrong = std::max(watched.wrong, measured.acquisition.verificationError);
   return watched;
 }
@@ -73,9 +70,12 @@ struct PlaceOf {
     const std::vector<ScreenRigSettings::Camera> cameras = camerasOf(rig);
     requireCamera(cameras.size());
     double slowest = rig.frameRate;
-    for (const ScreenRigSettings::Screen& screen : screensOf(rig)) slowest = std::min(slowest, screen.frameRate);
-    return {cameras[settings.camera].address, cameras[settings.camera].size,
-            {rig.shortestExposure, rig.longestExposure}, slowest > 0.0 ? 1.0 / slowest : 0.0};
+    for (const ScreenRigSettings::Screen& screen : screensOf(rig))
+      slowest = std::min(slowest, screen.frameRate);
+    return {cameras[settings.camera].address,
+            cameras[settings.camera].size,
+            {rig.shortestExposure, rig.longestExposure},
+            slowest > 0.0 ? 1.0 / slowest : 0.0};
   }
   CameraPlace operator()(const CommandRigSettings& rig) const {
     const std::vector<CommandRigSettings::Camera> cameras = camerasOf(rig);
@@ -83,7 +83,8 @@ struct PlaceOf {
     const CommandRigSettings::Camera& camera = cameras[settings.camera];
     return {camera.address.empty() ? std::string(devices::CommandCamera::kind) + ":" + camera.command
                                    : camera.address,
-            camera.size, {rig.shortestExposure, rig.longestExposure},
+            camera.size,
+            {rig.shortestExposure, rig.longestExposure},
             rig.frameRate > 0.0 ? 1.0 / rig.frameRate : 0.0};
   }
   CameraPlace operator()(const auto&) const {
@@ -97,11 +98,12 @@ struct PlaceOf {
   }
   void requireCamera(std::size_t cameras) const {
     if (settings.camera >= cameras && settings.address.empty())
-      throw Error(ErrorKind::input,
-                  RELUCENT_ENGLISH_MESSAGE("monitoring.no-such-camera", "there is no camera {} in this calibration")
-                      .with(as::label(settings.camera + 1)),
-                  RELUCENT_ENGLISH_MESSAGE("monitoring.choose-camera", "choose one of its {}, as --watch 1")
-                      .with(cameras));
+      throw Error(
+          ErrorKind::input,
+          RELUCENT_ENGLISH_MESSAGE("monitoring.no-such-camera", "there is no camera {} in this calibration")
+              .with(as::label(settings.camera + 1)),
+          RELUCENT_ENGLISH_MESSAGE("monitoring.choose-camera", "choose one of its {}, as --watch 1")
+              .with(cameras));
   }
 };
 

@@ -14,20 +14,20 @@
 
 namespace relucent::pipeline {
 
-/// What one camera of a calibration has to know to watch a show (core/monitoring). Keeps nothing of `measured`.
-/// Contract: it has such a camera.
+/// What one camera of a calibration has to know to watch a show (core/monitoring). Keeps nothing of
+/// `measured`. Contract: it has such a camera.
 monitoring::WatchedVenue watchedVenueOf(const MeasuredCalibration& measured, std::size_t camera,
                                         const monitoring::SamplingSettings& sampling = {});
 
-/// The linear light of every drive code of 8 bits, per projector and channel: what pictures that were sent are
-/// read with.
+/// The linear light of every drive code of 8 bits, per projector and channel: what pictures that were sent
+/// are read with.
 using CodeLights = std::vector<std::array<std::array<float, 256>, 3>>;
 CodeLights lightOfCodes(const linearization::Linearization& linearization);
 
 /// Which camera of a calibration watches its show.
 struct WatchSettings {
-  std::size_t camera = 0;   // of the calibration's, from 0
-  std::string address{};    // where it is now (devices/camera_address.h); empty: where it was
+  std::size_t camera = 0;  // of the calibration's, from 0
+  std::string address{};   // where it is now (devices/camera_address.h); empty: where it was
   bool operator==(const WatchSettings&) const = default;
 };
 
@@ -35,9 +35,9 @@ struct WatchSettings {
 struct WatchingCamera {
   monitoring::WatchedVenue venue;
   CodeLights lights;
-  std::vector<double> exposures;         // seconds, longest first
-  std::unique_ptr<rig::Rig> devices;     // what is open
-  rig::Rig used;                         // the same with photographs as the calibration has them
+  std::vector<double> exposures;      // seconds, longest first
+  std::unique_ptr<rig::Rig> devices;  // what is open
+  rig::Rig used;                      // the same with photographs as the calibration has them
   rig::Camera& camera() { return *used.cameras.front(); }
 };
 

@@ -14,7 +14,7 @@
 namespace relucent::venue {
 namespace {
 
-constexpr std::size_t mostKept = 600;  // pictures, as the camera sees them
+constexpr std::size_t mostKept = 600;    // pictures, as the camera sees them
 constexpr float bodyReflectance = 0.3f;  // of a visitor before the camera, of the mean of what it sees
 
 class ShowCamera : public rig::Camera {
@@ -137,7 +137,8 @@ class ShowCamera : public rig::Camera {
       if (body.projector) continue;
       for (std::size_t i = 0; i < raster.count(); ++i)
         if (body.holds(raster, pixelAt(raster, i)))
-          for (std::size_t c = 0; c < 3; ++c) radiance[3 * i + c] = bodyReflectance * static_cast<float>(mean);
+          for (std::size_t c = 0; c < 3; ++c)
+            radiance[3 * i + c] = bodyReflectance * static_cast<float>(mean);
     }
   }
 

@@ -22,9 +22,9 @@ struct Silhouette {
 
 struct VisitorSettings {
   std::uint64_t seed = 1;
-  double everySeconds = 60.0;   // one comes so often, on the average
-  std::size_t projectors = 1;   // that he may cast a shadow from
-  double longestStop = 15.0;    // seconds that he stands still on his way
+  double everySeconds = 60.0;  // one comes so often, on the average
+  std::size_t projectors = 1;  // that he may cast a shadow from
+  double longestStop = 15.0;   // seconds that he stands still on his way
 };
 
 /// Visitors who walk through a venue: each crosses the camera's view from one side to the other in 4 to 25

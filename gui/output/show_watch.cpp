@@ -204,7 +204,8 @@ class ShowWatch::Watcher {
     Stopwatch watch;
     std::vector<monitoring::PlayedFrame> frames;
     for (const PlayedTap::Sent& one : sent)
-      if (monitoring::FrameMeans means = meansOf(one.drives, watching.lights, venue.transport); !means.empty())
+      if (monitoring::FrameMeans means = meansOf(one.drives, watching.lights, venue.transport);
+          !means.empty())
         frames.push_back({one.seconds, std::move(means)});
     if (frames.empty()) return;
     const monitoring::Look look = monitor.look(photograph, begun, frames);
@@ -234,10 +235,11 @@ class ShowWatch::Watcher {
 ShowWatch::ShowWatch(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap, WatchPace pace,
                      QObject* parent)
     : QObject(parent) {
-  watcher_ = std::make_unique<Watcher>(std::move(source), std::move(tap), std::move(pace), [this](WatchStatus status) {
-    QMetaObject::invokeMethod(
-        this, [this, status = std::move(status)] { take(status); }, Qt::QueuedConnection);
-  });
+  watcher_ = std::make_unique<Watcher>(
+      std::move(source), std::move(tap), std::move(pace), [this](WatchStatus status) {
+        QMetaObject::invokeMethod(
+            this, [this, status = std::move(status)] { take(status); }, Qt::QueuedConnection);
+      });
 }
 
 ShowWatch::~ShowWatch() = default;

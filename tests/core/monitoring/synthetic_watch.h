@@ -20,8 +20,8 @@ inline transport::TransportMatrix syntheticTransport() {
   for (std::size_t i = 0; i < camera.count(); ++i) {
     const Pixel at = pixelAt(syntheticSize, i);
     // A surface with a pattern of its own.
-    const float paint = 0.6f + 0.3f * std::sin(0.9f * static_cast<float>(at.x)) *
-                                   std::sin(0.7f * static_cast<float>(at.y));
+    const float paint =
+        0.6f + 0.3f * std::sin(0.9f * static_cast<float>(at.x)) * std::sin(0.7f * static_cast<float>(at.y));
     for (std::size_t j = 0; j < 2; ++j) {
       const bool isNear = (at.x < syntheticSize.width / 2) == (j == 0);
       transport::ColourBlock block = transport::ColourBlock::Constant(0.5f);
@@ -53,8 +53,10 @@ inline ProjectorStack syntheticPicture(double time, std::uint64_t seed = 1) {
   for (std::size_t j = 0; j < 2; ++j)
     for (std::uint64_t blob = 0; blob < 12; ++blob) {
       Random random({seed, j, blob});
-      const double x = random.uniform() * syntheticSize.width + 0.8 * std::sin(0.37 * time + 6.0 * random.uniform());
-      const double y = random.uniform() * syntheticSize.height + 1.5 * std::sin(0.23 * time + 6.0 * random.uniform());
+      const double x =
+          random.uniform() * syntheticSize.width + 0.8 * std::sin(0.37 * time + 6.0 * random.uniform());
+      const double y =
+          random.uniform() * syntheticSize.height + 1.5 * std::sin(0.23 * time + 6.0 * random.uniform());
       const double radius = 2.0 + 3.0 * random.uniform();
       const std::array<double, 3> colour{random.uniform(), random.uniform(), random.uniform()};
       for (std::size_t i = 0; i < syntheticSize.count(); ++i) {

@@ -64,6 +64,16 @@ class TestLasting : public QObject {
     QVERIFY(lasting.holds(0.05, -1));
     QVERIFY(!lasting.holds(0.05, 1));
   }
+
+  void whatChangesAllTheTimeIsNotKept() {
+    Lasting same({40.0, 15.0, 8, 0.1, 0.005, 0.75, 0.7}), unlike = same;
+    for (int n = 0; n < 20; ++n) {
+      same.add(2.0 * n, -0.6 + 0.01 * (n % 3), 0.01);
+      unlike.add(2.0 * n, n % 2 == 0 ? -0.4 : -0.9, 0.01);
+    }
+    QVERIFY(same.keeps(0.1) && same.holds(0.3, -1));
+    QVERIFY(!unlike.keeps(0.1) && unlike.holds(0.3, -1));
+  }
 };
 
 QTEST_GUILESS_MAIN(TestLasting)

@@ -77,8 +77,9 @@ class TestLightOfPhotographs : public QObject {
   void theLampsAreFound() {
     QFETCH(QVector<double>, gains);
     const ProjectorStack picture = syntheticPicture(5.0);
-    const LightFit fit = fitLight(
-        observed(radianceOf(transport_, venue_, picture, {gains.begin(), gains.end()})), stillMoment(picture), venue_);
+    const LightFit fit =
+        fitLight(observed(radianceOf(transport_, venue_, picture, {gains.begin(), gains.end()})),
+                 stillMoment(picture), venue_);
     QVERIFY(fit.recognised > 0.99);
     for (int k = 0; k < 6; ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -88,8 +89,8 @@ class TestLightOfPhotographs : public QObject {
     }
   }
 
-  /// Somebody before a fourth of the view, in whose light nothing is as it should be: he takes two fifths of what
-  /// one projector lights, and moves no gain by what a lamp must fade.
+  /// Somebody before a tenth of the view, in whose light nothing is as it should be: he takes a fifth of what
+  /// one projector lights, and moves no projector by what a lamp must fade, nor a channel by twice that.
   void whoeverStandsInTheViewIsLeftOut_data() {
     QTest::addColumn<float>("brightness");
     QTest::newRow("dark") << 0.05f;
@@ -101,13 +102,15 @@ class TestLightOfPhotographs : public QObject {
     std::vector<float> radiance = radianceOf(transport_, venue_, picture);
     for (std::size_t i = 0; i < syntheticSize.count(); ++i) {
       const Pixel at = pixelAt(syntheticSize, i);
-      if (at.x >= 12 && at.x < 22)
+      if (at.x >= 14 && at.x < 18)
         for (std::size_t c = 0; c < 3; ++c) radiance[3 * i + c] = brightness * 5.0f;
     }
     const LightFit fit = fitLight(observed(radiance), stillMoment(picture), venue_);
+    const double fade = MonitorSettings().fade;
+    for (double gain : fit.total) QVERIFY2(std::abs(gain - 1.0) < fade, qPrintable(QString::number(gain)));
     for (double gain : fit.gain)
-      QVERIFY2(std::abs(gain - 1.0) < MonitorSettings().fade, qPrintable(QString::number(gain)));
-    QVERIFY(fit.recognised > 0.6 && fit.recognised < 0.9);
+      QVERIFY2(std::abs(gain - 1.0) < 2.0 * fade, qPrintable(QString::number(gain)));
+    QVERIFY(fit.recognised > 0.75 && fit.recognised < 0.97);
   }
 
   void roomLightIsNoFadedLamp_data() {
@@ -120,15 +123,18 @@ class TestLightOfPhotographs : public QObject {
     QFETCH(double, more);
     const ProjectorStack picture = syntheticPicture(5.0);
     std::vector<float> radiance = radianceOf(transport_, venue_, picture);
-    for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] += static_cast<float>(more) * venue_.black[i];
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+      radiance[i] += static_cast<float>(more) * venue_.black[i];
     const LightFit fit = fitLight(observed(radiance), stillMoment(picture), venue_);
     for (double gain : fit.total) QVERIFY2(std::abs(gain - 1.0) < 0.01, qPrintable(QString::number(gain)));
   }
 
   void theDarkTellsNothing() {
     const ProjectorStack picture(3 * 2 * syntheticSize.count(), 0.0f);
-    const LightFit fit = fitLight(observed(radianceOf(transport_, venue_, picture)), stillMoment(picture), venue_);
-    for (double deviation : fit.totalDeviation) QVERIFY(deviation > 5.0 * MonitorSettings().ofGain.informative);
+    const LightFit fit =
+        fitLight(observed(radianceOf(transport_, venue_, picture)), stillMoment(picture), venue_);
+    for (double deviation : fit.totalDeviation)
+      QVERIFY(deviation > 5.0 * MonitorSettings().ofGain.informative);
     for (const CellLight& cell : fit.cells) QVERIFY(cell.deviation > 1.0);
   }
 
@@ -148,7 +154,8 @@ class TestLightOfPhotographs : public QObject {
                    y = (at.y + 0.5) * syntheticSize.height / cells.height;
       if (x > 31 && x < 35 && y > 6.5 && y < 13.5)
         QVERIFY2(fit.cells[c].share < 0.6, qPrintable(QString::number(fit.cells[c].share)));
-      if (x < 28 || y > 18) QVERIFY2(fit.cells[c].share > 0.95, qPrintable(QString::number(fit.cells[c].share)));
+      if (x < 28 || y > 18)
+        QVERIFY2(fit.cells[c].share > 0.95, qPrintable(QString::number(fit.cells[c].share)));
     }
   }
 
@@ -190,8 +197,8 @@ class TestLightOfPhotographs : public QObject {
   void exposuresSuitThePicture() {
     const std::vector<double> exposures{0.2, 0.09, 0.02, 0.004};
     const auto exposureOf = [&](float level) {
-      return suitableExposure(
-          venue_.transport.meansOf(ProjectorStack(3 * 2 * syntheticSize.count(), level)), exposures, 0.1, venue_);
+      return suitableExposure(venue_.transport.meansOf(ProjectorStack(3 * 2 * syntheticSize.count(), level)),
+                              exposures, 0.1, venue_);
     };
     QCOMPARE(exposureOf(0.01f), 0.09);
     QCOMPARE(exposureOf(1.0f), 0.02);

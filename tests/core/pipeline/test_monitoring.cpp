@@ -42,8 +42,8 @@ RehearsedTrouble shadow(std::size_t projector) {
 QByteArray described(const std::vector<ToldFinding>& told) {
   QByteArray text;
   for (const ToldFinding& one : told)
-    text += QByteArray::number(one.seconds) + " s: " +
-            QByteArray::fromStdString(english(sentenceOf(one.finding))) + "; ";
+    text += QByteArray::number(one.seconds) +
+            " s: " + QByteArray::fromStdString(english(sentenceOf(one.finding))) + "; ";
   return text;
 }
 
@@ -69,7 +69,8 @@ class TestMonitoring : public QObject {
     using Made = std::function<RehearsedTrouble()>;
     for (ShownContent content : {ShownContent::still, ShownContent::film, ShownContent::slides}) {
       const std::string shown(nameOf(content));
-      QTest::addRow("%s, moved by 0.3 pixels", shown.c_str()) << QByteArray("corner") << content << Made(moved);
+      QTest::addRow("%s, moved by 0.3 pixels", shown.c_str())
+          << QByteArray("corner") << content << Made(moved);
       QTest::addRow("%s, faded by 5 %%", shown.c_str())
           << QByteArray("corner") << content << Made([] { return lamps({0.95f}, FindingKind::faded); });
       QTest::addRow("%s, a shadow", shown.c_str())
@@ -77,14 +78,14 @@ class TestMonitoring : public QObject {
       QTest::addRow("%s, the projector dead", shown.c_str())
           << QByteArray("corner") << content << Made([] { return lamps({0.0f}, FindingKind::dark); });
     }
-    QTest::newRow("film, one of two dead")
-        << QByteArray("relief") << ShownContent::film
-        << Made([] { return lamps({1.0f, 0.0f}, FindingKind::dark); });
-    QTest::newRow("slides, one of two faded")
-        << QByteArray("relief") << ShownContent::slides
-        << Made([] { return lamps({0.95f, 1.0f}, FindingKind::faded); });
-    QTest::newRow("dark film, the projector dead")
-        << QByteArray("corner") << ShownContent::dark << Made([] { return lamps({0.0f}, FindingKind::dark); });
+    QTest::newRow("film, one of two dead") << QByteArray("relief") << ShownContent::film << Made([] {
+      return lamps({1.0f, 0.0f}, FindingKind::dark);
+    });
+    QTest::newRow("slides, one of two faded") << QByteArray("relief") << ShownContent::slides << Made([] {
+      return lamps({0.95f, 1.0f}, FindingKind::faded);
+    });
+    QTest::newRow("dark film, the projector dead") << QByteArray("corner") << ShownContent::dark
+                                                   << Made([] { return lamps({0.0f}, FindingKind::dark); });
   }
   void whatLastsIsToldWithinAMinute() {
     QFETCH(QByteArray, name);
@@ -131,7 +132,6 @@ class TestMonitoring : public QObject {
     QVERIFY2(result.lasting.empty(), "the shadow has gone");
   }
 };
-
 
 QTEST_GUILESS_MAIN(TestMonitoring)
 #include "test_monitoring.moc"

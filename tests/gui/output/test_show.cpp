@@ -121,8 +121,8 @@ class TestShow : public QObject {
     auto show = showOf(wanted, std::make_unique<Nothing>());
     show->start();
     QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
-    QTRY_COMPARE(health()["watch"]["state"].toString(), QString("no calibration"));
-    QVERIFY(health()["watch"]["problem"].toString().contains("names no camera"));
+    QTRY_COMPARE(health()["watch"].toObject()["state"].toString(), QString("no calibration"));
+    QVERIFY(health()["watch"].toObject()["problem"].toString().contains("names no camera"));
     QCOMPARE(log().count("nobody watches the show: the calibration names no camera"), 1);
     QCOMPARE(health()["state"].toString(), QString("playing"));
   }

@@ -30,7 +30,9 @@ QImage blobs() {
   QImage picture(raster.width, raster.height, QImage::Format_RGBX8888);
   for (int y = 0; y < raster.height; ++y)
     for (int x = 0; x < raster.width; ++x) {
-      const auto level = [&](double f) { return static_cast<int>(120 + 80 * std::sin(f * x) * std::cos(0.3 * y)); };
+      const auto level = [&](double f) {
+        return static_cast<int>(120 + 80 * std::sin(f * x) * std::cos(0.3 * y));
+      };
       picture.setPixel(x, y, qRgb(level(0.4), level(0.5), level(0.3)));
     }
   return picture;
@@ -54,7 +56,8 @@ class ScriptedCamera : public rig::Camera {
       const int codes[3] = {qRed(code), qGreen(code), qBlue(code)};
       for (std::size_t c = 0; c < 3; ++c) {
         const float light = black + perDrive * scene_->lamp * static_cast<float>(codes[c]) / 255.0f;
-        const float signal = light * static_cast<float>(request.seconds) + 1e-3f * static_cast<float>(random.normal());
+        const float signal =
+            light * static_cast<float>(request.seconds) + 1e-3f * static_cast<float>(random.normal());
         frame.signal.pixel(i)[c] = std::clamp(signal, 0.0f, 1.0f);
       }
     }
@@ -71,7 +74,8 @@ class ScriptedSource : public WatchSource {
       : scene_(std::move(scene)), broken_(broken) {}
   pipeline::WatchingCamera read(Progress&) override {
     if (broken_)
-      throw Error(ErrorKind::input, Message::plain("the calibration is gone"), Message::plain("bring it back"));
+      throw Error(ErrorKind::input, Message::plain("the calibration is gone"),
+                  Message::plain("bring it back"));
     const Rasters projector(raster);
     transport::BlockSparseBuilder builder(transport::NodeLayout(projector).count(),
                                           std::vector<float>(raster.count(), perDrive));
@@ -79,8 +83,7 @@ class ScriptedSource : public WatchSource {
       builder.add(i, i, perDrive * transport::ColourBlock::Identity());
     const transport::TransportMatrix transport(Rasters(raster), projector, builder.build());
     pipeline::WatchingCamera watching;
-    watching.venue.sampling =
-        monitoring::sampledPixels(raster, std::vector<std::uint8_t>(raster.count(), 1));
+    watching.venue.sampling = monitoring::sampledPixels(raster, std::vector<std::uint8_t>(raster.count(), 1));
     watching.venue.transport = monitoring::SampledTransport(transport, watching.venue.sampling.pixels);
     watching.venue.black.assign(3 * raster.count(), black);
     watching.venue.flood.assign(3 * raster.count(), perDrive);

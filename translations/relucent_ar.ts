@@ -6729,6 +6729,46 @@ projector %2</source>
         <source>Somebody has to look</source>
         <translation>لا بدّ من أن ينظر أحد</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>مراقَب بالكاميرا</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>الصور</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>الصور المستخدمة</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>النسبة القابلة للحكم</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>الوقت لكل صورة (م.ث)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>ما الذي تغيّر</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>النوع</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>المقدار</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>ماذا حدث</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>ما العمل</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

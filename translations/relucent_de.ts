@@ -6577,6 +6577,46 @@ Projektor %2</translation>
         <source>Somebody has to look</source>
         <translation>Jemand muss nachsehen</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>Von Kamera überwacht</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>Verwendete Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>Beurteilbarer Anteil</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>Zeit pro Aufnahme (ms)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>Was sich geändert hat</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>Wie viel</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Was geschehen ist</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Was zu tun ist</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

@@ -6577,6 +6577,46 @@ proyector %2</translation>
         <source>Somebody has to look</source>
         <translation>Alguien tiene que mirar</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>Vigilado por cámara</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotografías</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>Fotografías utilizadas</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>Parte evaluable</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>Tiempo por fotografía (ms)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>Qué ha cambiado</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Tipo</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>Cuánto</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Qué ha ocurrido</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Qué hacer</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

@@ -6577,6 +6577,46 @@ projecteur %2</translation>
         <source>Somebody has to look</source>
         <translation>Quelqu’un doit aller voir</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>Surveillé par caméra</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Photographies</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>Photographies utilisées</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>Part évaluable</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>Temps par photographie (ms)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>Ce qui a changé</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Type</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>Combien</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Ce qui s’est passé</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Ce qu’il faut faire</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

@@ -6577,6 +6577,46 @@ proiettore %2</translation>
         <source>Somebody has to look</source>
         <translation>Qualcuno deve controllare</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>Sorvegliato dalla fotocamera</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>Fotografie</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>Fotografie usate</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>Parte valutabile</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>Tempo per fotografia (ms)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>Che cosa è cambiato</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Tipo</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>Quanto</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Che cosa è successo</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>Che cosa fare</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

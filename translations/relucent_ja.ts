@@ -6539,6 +6539,46 @@ projector %2</source>
         <source>Somebody has to look</source>
         <translation>確認が必要です</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>カメラによる監視</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>写真</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>使用した写真</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>判定できる割合</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>写真1枚あたりの時間 (ms)</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>変化したこと</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>種類</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>量</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>起きたこと</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>対処方法</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

@@ -6539,6 +6539,46 @@ projector %2</source>
         <source>Somebody has to look</source>
         <translation>需要有人查看</translation>
     </message>
+    <message>
+        <source>Watched by camera</source>
+        <translation>由相机监视</translation>
+    </message>
+    <message>
+        <source>Photographs</source>
+        <translation>照片</translation>
+    </message>
+    <message>
+        <source>Photographs used</source>
+        <translation>已采用的照片</translation>
+    </message>
+    <message>
+        <source>Share that can be told</source>
+        <translation>可判断的比例</translation>
+    </message>
+    <message>
+        <source>Time per photograph (ms)</source>
+        <translation>每张照片用时（毫秒）</translation>
+    </message>
+    <message>
+        <source>What has changed</source>
+        <translation>发生的变化</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>类型</translation>
+    </message>
+    <message>
+        <source>How much</source>
+        <translation>程度</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>发生了什么</translation>
+    </message>
+    <message>
+        <source>What to do</source>
+        <translation>该怎么做</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>

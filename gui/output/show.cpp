@@ -164,6 +164,7 @@ pjlink::Wanted Show::wishes() {
 void Show::beginWatch(std::unique_ptr<WatchSource> source) {
   played_ = std::make_shared<PlayedTap>();
   watch_ = std::make_unique<ShowWatch>(std::move(source), played_);
+  photographs_.waitFor(watch_->camera());
   const auto textOfMessage = [](const Message& message) { return QString::fromStdString(english(message)); };
   connect(watch_.get(), &ShowWatch::found, this, [this, textOfMessage](const monitoring::Finding& finding) {
     const QString what = textOfMessage(sentenceOf(finding));
@@ -472,6 +473,7 @@ void Show::takeUp(bool whole) {
   const std::string now = whole ? shownFrom(settings_.calibration) : std::string();
   if (!now.empty() && now != playsFrom_) {
     log_.tell("the calibration has changed: it is played by from now on");
+    if (watch_) watch_->readAgain();
     try {
       open();
       start();

@@ -153,7 +153,10 @@ Message ShowPhotographs::whyNot() const {
 void ShowPhotographs::start(const QString& work, std::function<Found(Progress&)> job) {
   work_ = work;
   found_ = std::make_shared<Found>();
-  job_.start([found = found_, job = std::move(job)](Progress& progress) { *found = job(progress); });
+  job_.start([found = found_, camera = camera_, job = std::move(job)](Progress& progress) {
+    if (camera) camera->awaitFree(progress);
+    *found = job(progress);
+  });
 }
 
 void ShowPhotographs::check() {

@@ -5,9 +5,11 @@
 #include <QString>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "content/canvas.h"
 #include "jobs/job.h"
+#include "output/camera_use.h"
 #include "relucent/base/message.h"
 #include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
@@ -53,6 +55,8 @@ class ShowPhotographs : public QObject {
   void check();
   void perfect(const std::filesystem::path& picture, const Canvas& canvas);
   void tend(const pipeline::NightSettings& work, bool switchesOn);
+  /// Before any of them, on its thread, a camera is waited for that somebody else lets go of.
+  void waitFor(std::shared_ptr<CameraUse> camera) { camera_ = std::move(camera); }
   /// What is under way ends at once, and ended() follows.
   void breakOff() { job_.cancel(); }
   /// Waits; ended() does not follow.
@@ -74,6 +78,7 @@ class ShowPhotographs : public QObject {
   void finished();
 
   std::shared_ptr<ShowPhotography> photography_;
+  std::shared_ptr<CameraUse> camera_;  // nullptr: nobody else has it
   QString work_;
   std::shared_ptr<Found> found_;
   Job job_;  // last: it uses the others

@@ -101,9 +101,11 @@ class ShowWatch::Watcher {
  public:
   using Take = std::function<void(const WatchStatus&)>;
 
-  Watcher(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap, WatchPace pace, Take take)
+  Watcher(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap,
+          std::shared_ptr<CameraUse> camera, WatchPace pace, Take take)
       : source_(std::move(source)),
         tap_(std::move(tap)),
+        camera_(std::move(camera)),
         pace_(std::move(pace)),
         take_(std::move(take)),
         thread_([this] { work(); }) {}
@@ -123,26 +125,39 @@ class ShowWatch::Watcher {
     }
     changed_.notify_all();
   }
+  void readAgain() {
+    {
+      const std::lock_guard lock(guard_);
+      isOutOfDate_ = true;
+    }
+    changed_.notify_all();
+  }
 
  private:
   struct NoSink : ProgressSink {
     void progressed(double, const Message&) override {}
   };
 
-  /// False: it is to end.
-  bool wait(std::chrono::milliseconds pause) {
+  /// Until then, or until something else is asked for.
+  void wait(std::chrono::milliseconds pause) {
     std::unique_lock lock(guard_);
-    changed_.wait_for(lock, pause, [&] { return ends_; });
-    return !ends_;
+    changed_.wait_for(lock, pause, [&] { return ends_ || isOutOfDate_ || !playing_; });
   }
+  /// False: another venue is to be read, or none any more.
   bool waitForPlay() {
     std::unique_lock lock(guard_);
-    if (!playing_ && !ends_) {
+    if (!playing_ && !ends_ && !isOutOfDate_) {
       lock.unlock();
       tell(WatchState::paused);
       lock.lock();
     }
-    changed_.wait(lock, [&] { return playing_ || ends_; });
+    changed_.wait(lock, [&] { return playing_ || ends_ || isOutOfDate_; });
+    return !ends_ && !isOutOfDate_;
+  }
+  /// False: it is to end.
+  bool waitForAnother() {
+    std::unique_lock lock(guard_);
+    changed_.wait(lock, [&] { return isOutOfDate_ || ends_; });
     return !ends_;
   }
   bool isPlaying() {
@@ -156,43 +171,68 @@ class ShowWatch::Watcher {
   }
 
   void work() {
-    pipeline::WatchingCamera watching;
-    try {
-      Progress progress(sink_, stop_);
-      watching = source_->read(progress);
-    } catch (const Cancelled&) {
-      return;
-    } catch (const Error& error) {
-      return tell(WatchState::noCalibration, error.sentence());
-    }
-    monitoring::Monitor monitor(std::move(watching.venue));
-    std::chrono::milliseconds pause = pace_.again;
-    bool isOpen = false;
-    while (waitForPlay()) {
+    do {
+      {
+        const std::lock_guard lock(guard_);
+        isOutOfDate_ = false;
+      }
+      pipeline::WatchingCamera watching;
       try {
-        if (!isOpen) {
+        Progress progress(sink_, stop_);
+        watching = source_->read(progress);
+      } catch (const Cancelled&) {
+        return;
+      } catch (const Error& error) {
+        tell(WatchState::noCalibration, error.sentence());
+        continue;
+      }
+      monitoring::Monitor monitor(std::move(watching.venue));
+      status_.findings.clear();
+      exposure_ = 0.0;
+      watch(watching, monitor);
+      letGo(watching);
+    } while (waitForAnother());
+  }
+
+  /// Until another venue is to be read, or none any more.
+  void watch(pipeline::WatchingCamera& watching, monitoring::Monitor& monitor) {
+    std::chrono::milliseconds pause = pace_.again;
+    while (true) {
+      if (!isPlaying()) letGo(watching);  // others may need it now
+      if (!waitForPlay()) return;
+      try {
+        if (!isOpen_) {
           tell(WatchState::opening);
+          camera_->begin();
+          isOpen_ = true;
+          if (!isPlaying()) continue;  // who found it free has it
           source_->open(watching);
-          isOpen = true;
         }
         look(watching, monitor);
         pause = pace_.again;
-        if (!wait(pace_.between)) return;
+        wait(pace_.between);
       } catch (const Error& error) {
         // Only until it answers again; what it told stays told.
-        isOpen = false;
-        watching.used = {};
-        watching.devices.reset();
+        letGo(watching);
         tell(WatchState::noCamera, error.sentence());
-        if (!wait(pause)) return;
+        wait(pause);
         pause = std::min(2 * pause, mostBetweenTries);
       }
     }
   }
 
+  void letGo(pipeline::WatchingCamera& watching) {
+    if (!isOpen_) return;
+    watching.used = {};
+    watching.devices.reset();
+    isOpen_ = false;
+    camera_->end();
+  }
+
   void look(pipeline::WatchingCamera& watching, monitoring::Monitor& monitor) {
     tap_->begin();
-    if (!wait(pace_.before)) return;
+    wait(pace_.before);
+    if (!isPlaying()) return;
     const monitoring::WatchedVenue& venue = monitor.venue();
     if (exposure_ == 0.0) exposure_ = watching.exposures.back();
     const double begun = pace_.clock ? pace_.clock() : steadySeconds();
@@ -220,6 +260,7 @@ class ShowWatch::Watcher {
 
   std::unique_ptr<WatchSource> source_;
   std::shared_ptr<PlayedTap> tap_;
+  std::shared_ptr<CameraUse> camera_;
   WatchPace pace_;
   Take take_;
   WatchStatus status_;
@@ -228,15 +269,16 @@ class ShowWatch::Watcher {
   StopRequest stop_;
   std::mutex guard_;
   std::condition_variable changed_;
-  bool playing_ = false, ends_ = false;
-  std::thread thread_;  // last: it uses the others
+  bool playing_ = false, ends_ = false, isOutOfDate_ = false;
+  bool isOpen_ = false;  // of the watching thread
+  std::thread thread_;   // last: it uses the others
 };
 
 ShowWatch::ShowWatch(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap, WatchPace pace,
                      QObject* parent)
     : QObject(parent) {
   watcher_ = std::make_unique<Watcher>(
-      std::move(source), std::move(tap), std::move(pace), [this](WatchStatus status) {
+      std::move(source), std::move(tap), camera_, std::move(pace), [this](WatchStatus status) {
         QMetaObject::invokeMethod(
             this, [this, status = std::move(status)] { take(status); }, Qt::QueuedConnection);
       });
@@ -246,6 +288,10 @@ ShowWatch::~ShowWatch() = default;
 
 void ShowWatch::setPlaying(bool playing) {
   watcher_->setPlaying(playing);
+}
+
+void ShowWatch::readAgain() {
+  watcher_->readAgain();
 }
 
 void ShowWatch::take(const WatchStatus& status) {

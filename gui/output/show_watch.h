@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "output/camera_use.h"
 #include "output/drive_picture.h"
 #include "relucent/base/enum_names.h"
 #include "relucent/base/progress.h"
@@ -44,9 +45,10 @@ class PlayedTap {
 class WatchSource {
  public:
   virtual ~WatchSource() = default;
-  /// Once. Throws: as pipeline::readWatchedVenue().
+  /// At first, and after ShowWatch::readAgain(). Throws: as pipeline::readWatchedVenue().
   virtual pipeline::WatchingCamera read(Progress& progress) = 0;
-  /// Again after every failure of the camera. Throws: as pipeline::openCamera().
+  /// Again after every failure of the camera, and when the picture is there again. Throws: as
+  /// pipeline::openCamera().
   virtual void open(pipeline::WatchingCamera& watching) = 0;
 };
 std::unique_ptr<WatchSource> watchSourceOf(const std::filesystem::path& calibration,
@@ -94,6 +96,10 @@ class ShowWatch : public QObject {
 
   /// Whether the windows show what is played: not while they are black, or covered by figures.
   void setPlaying(bool playing);
+  /// The calibration has changed.
+  void readAgain();
+  /// Which it has while the windows show what is played, and soon lets go of otherwise.
+  const std::shared_ptr<CameraUse>& camera() const { return camera_; }
   const WatchStatus& status() const { return status_; }
 
  Q_SIGNALS:
@@ -110,6 +116,7 @@ class ShowWatch : public QObject {
   void take(const WatchStatus& status);
 
   WatchStatus status_;
+  std::shared_ptr<CameraUse> camera_ = std::make_shared<CameraUse>();
   std::unique_ptr<Watcher> watcher_;  // last: it uses the others
 };
 

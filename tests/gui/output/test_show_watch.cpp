@@ -22,7 +22,7 @@ constexpr float perDrive = 10.0f, black = 0.1f;  // camera signal per second
 struct Scene {
   std::atomic<float> lamp{1.0f};
   std::atomic<bool> unplugged{false};
-  std::atomic<int> photographs{0}, opened{0};
+  std::atomic<int> photographs{0}, opened{0}, read{0}, held{0};
   QImage picture;
 };
 
@@ -40,7 +40,8 @@ QImage blobs() {
 
 class ScriptedCamera : public rig::Camera {
  public:
-  explicit ScriptedCamera(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) {}
+  explicit ScriptedCamera(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) { ++scene_->held; }
+  ~ScriptedCamera() override { --scene_->held; }
   std::string name() const override { return "scripted"; }
   Size size() const override { return raster; }
   rig::ExposureRange exposures() const override { return {0.01, 0.1}; }
@@ -73,6 +74,7 @@ class ScriptedSource : public WatchSource {
   explicit ScriptedSource(std::shared_ptr<Scene> scene, bool broken = false)
       : scene_(std::move(scene)), broken_(broken) {}
   pipeline::WatchingCamera read(Progress&) override {
+    ++scene_->read;
     if (broken_)
       throw Error(ErrorKind::input, Message::plain("the calibration is gone"),
                   Message::plain("bring it back"));
@@ -190,6 +192,45 @@ class TestShowWatch : public QObject {
     const int photographs = scene_->photographs;
     watch->setPlaying(true);
     QTRY_VERIFY(scene_->photographs > photographs);
+  }
+
+  /// Who measures needs the camera for itself.
+  void theCameraIsFreeWhileNothingPlays() {
+    auto watch = watched();
+    Progress quiet;
+    watch->camera()->awaitFree(quiet);  // it has not begun
+    for (int time = 0; time < 3; ++time) {
+      watch->setPlaying(true);
+      const int used = watch->status().used;
+      QTRY_VERIFY(watch->status().used > used + 3);
+      QCOMPARE(scene_->held.load(), 1);
+      watch->setPlaying(false);
+      watch->camera()->awaitFree(quiet);
+      QCOMPARE(scene_->held.load(), 0);
+    }
+    watch->setPlaying(true);
+    QTRY_COMPARE(scene_->held.load(), 1);
+    watch.reset();
+    QCOMPARE(scene_->held.load(), 0);
+  }
+
+  void anotherMeasurementIsReadAndBeginsAnew() {
+    auto watch = watched();
+    QSignalSpy found(watch.get(), &ShowWatch::found);
+    watch->setPlaying(true);
+    scene_->lamp = 0.9f;
+    QTRY_COMPARE(found.size(), 1);
+    QCOMPARE(scene_->read.load(), 1);
+    scene_->lamp = 1.0f;
+    watch->readAgain();
+    QTRY_COMPARE(scene_->read.load(), 2);
+    QTRY_VERIFY(watch->status().findings.empty());
+    const int used = watch->status().used;
+    QTRY_VERIFY(watch->status().used > used + 3);
+    watch->setPlaying(false);
+    watch->readAgain();
+    QTRY_COMPARE(scene_->read.load(), 3);
+    QCOMPARE(scene_->held.load(), 0);
   }
 
   void theTapKeepsTheNewestFramesWhileSomebodyAsks() {

@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QStringList>
+#include <QStyle>
 #include <QTableWidget>
 #include <QToolButton>
 
@@ -69,8 +70,7 @@ class LayoutFaults {
     } else if (const auto* table = qobject_cast<const QTableWidget*>(&widget)) {
       lookAt(*table);
     } else if (const auto* list = qobject_cast<const QListWidget*>(&widget)) {
-      if (list->textElideMode() == Qt::ElideRight && list->count() > 0)
-        need(*list->viewport(), list->item(0)->text(), list->sizeHintForColumn(0), 0);
+      lookAt(*list);
     } else if (const auto* readout = qobject_cast<const Readout*>(&widget)) {
       text = readout->accessibleName();
       need(*readout, text, readout->sizeHint());
@@ -93,6 +93,25 @@ class LayoutFaults {
     bool elides = qobject_cast<const StepButton*>(&button) != nullptr;
     need(button, button.text(), wraps || elides ? button.minimumSizeHint() : button.sizeHint());
     if (wraps) need(button, button.text(), 0, button.heightForWidth(button.width()));
+  }
+  void lookAt(const QListWidget& list) {
+    if (list.textElideMode() != Qt::ElideRight || list.count() == 0) return;
+    if (!list.wordWrap())
+      return need(*list.viewport(), list.item(0)->text(),
+                  static_cast<const QAbstractItemView&>(list).sizeHintForColumn(0), 0);
+    for (int row = 0; row < list.count(); ++row) {
+      const QString text = list.item(row)->text();
+      const QRect has = list.visualItemRect(list.item(row));
+      const QRect room(0, 0, has.width() - list.style()->pixelMetric(QStyle::PM_ListViewIconSize), 1 << 20);
+      const QRect needed = list.fontMetrics().boundingRect(room, Qt::TextWordWrap, text);
+      if (needed.width() > room.width() || needed.height() > has.height())
+        tell(list, text,
+             QString("needs %1x%2, has %3x%4")
+                 .arg(needed.width())
+                 .arg(needed.height())
+                 .arg(room.width())
+                 .arg(has.height()));
+    }
   }
   void lookAt(const QTableWidget& table) {
     for (int column = 0; column < table.columnCount(); ++column) {

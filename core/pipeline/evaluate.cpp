@@ -52,8 +52,9 @@ std::optional<double> asExpected(const MeasuredCalibration& measured, const comp
                                  const compensation::Compensation& compensation, const CameraStack& seen) {
   const compensation::MeasuredVenue& venue = measured.venue;
   if (measured.acquisition.variance.leaf.empty()) return std::nullopt;
-  const ProjectorStack shown =
-      shownLight(compensation.projector, venue.transport.projectors(), measured.linearization);
+  const Rasters& projectors = venue.transport.projectors();
+  const ProjectorStack shown = lightOf(codedDrive(compensation.projector, projectors, measured.linearization),
+                                       projectors, measured.linearization);
   const CameraStack predicted = venue.transport.apply(shown),
                     deviation = expectedDeviation(venue.transport, measured.acquisition.variance, shown);
   std::size_t all = 0, within = 0;

@@ -136,15 +136,9 @@ struct MonitoringRehearsal::Parts {
     const compensation::Compensation solved =
         compensator->solve(compensation::Method::windows, target, quiet);
     const Rasters& projectors = measured.venue.transport.projectors();
-    std::vector<image::Image> drives = encodedDrive(solved.projector, projectors, measured.linearization);
-    // As it is sent, in codes of 8 bits, and read again as the show's watcher does.
-    for (image::Image& drive : drives)
-      for (float& value : drive.data()) value = std::round(255.0f * std::clamp(value, 0.0f, 1.0f)) / 255.0f;
-    std::vector<image::Image> linear;
-    for (std::size_t j = 0; j < drives.size(); ++j)
-      linear.push_back(measured.linearization.projectors[j].decode(drives[j]));
-    found->second.means =
-        watched.transport.meansOf(ProjectorStack(image::stackFromImages(linear, projectors)));
+    // As it is sent, and read again as the show's watcher does.
+    std::vector<image::Image> drives = codedDrive(solved.projector, projectors, measured.linearization);
+    found->second.means = watched.transport.meansOf(lightOf(drives, projectors, measured.linearization));
     found->second.drives = std::make_shared<const std::vector<image::Image>>(std::move(drives));
     return found->second;
   }

@@ -29,11 +29,6 @@ void requireReachable(const compensation::Target& target, const fs::path& image)
               image.string());
 }
 
-std::string keyOf(const calibration::CalibrationFolder& folder, const fs::path& image, Size picture,
-                  const compensation::ContentCanvas& canvas) {
-  return perfectedKey(fingerprintOfShown(folder), contentIdentity(readFile(image), picture, canvas));
-}
-
 /// A calibration whose pictures are perfected one after the other.
 class Perfecter {
  public:
@@ -61,7 +56,7 @@ class Perfecter {
                          Progress& progress) {
     const image::Image picture = image::readLinearContent(file);
     const Rasters& projectors = measured_.venue.transport.projectors();
-    const std::string key = keyOf(folder_, file, picture.size(), settings_.canvas);
+    const std::string key = perfectedKeyOf(folder_, file, picture.size(), settings_.canvas);
     const compensation::Target target =
         fitTarget(onCanvas(picture, settings_.canvas), measured_.venue, targetOf(chosen_.content));
     requireReachable(target, file);
@@ -181,7 +176,7 @@ bool isPerfect(const PerfectResult& result) {
 bool isPerfected(const fs::path& path, const fs::path& image, const compensation::ContentCanvas& canvas) {
   const calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
-  return findPerfected(path, keyOf(folder, image, image::readLinearContent(image).size(), canvas))
+  return findPerfected(path, perfectedKeyOf(folder, image, image::readLinearContent(image).size(), canvas))
       .has_value();
 }
 
@@ -193,7 +188,7 @@ bool isOutOfDate(const PerfectedPicture& picture, const calibration::Calibration
   if (!picture.canvas || !file.is_absolute() || !fs::is_regular_file(file, code)) return false;
   try {
     const Size size = image::readLinearContent(file).size();
-    return keyOf(folder, file, size, *picture.canvas) != picture.key;
+    return perfectedKeyOf(folder, file, size, *picture.canvas) != picture.key;
   } catch (const Error&) {
     return false;  // nobody knows what it is
   }
@@ -205,7 +200,7 @@ ForgottenPictures forgetPerfected(const fs::path& path, const std::vector<fs::pa
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   std::vector<std::string> keys;
   for (const fs::path& image : images)
-    keys.push_back(keyOf(folder, image, image::readLinearContent(image).size(), canvas));
+    keys.push_back(perfectedKeyOf(folder, image, image::readLinearContent(image).size(), canvas));
   ForgottenPictures forgotten;
   for (const PerfectedPicture& picture : allPerfected(folder.path())) {
     if (!images.empty() && std::ranges::count(keys, picture.key) == 0) continue;

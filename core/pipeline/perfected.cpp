@@ -9,6 +9,7 @@
 #include "relucent/calibration/enum_json.h"
 #include "relucent/image/exr.h"
 #include "relucent/pipeline/picture_error_json.h"
+#include "relucent/pipeline/proof_record.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -83,6 +84,11 @@ fs::path perfectedFolder(const fs::path& calibration) {
 
 std::string perfectedKey(const std::string& shownFrom, const std::string& content) {
   return Fingerprint().add(shownFrom).add(content).hex();
+}
+
+std::string perfectedKeyOf(const calibration::CalibrationFolder& folder, const fs::path& file, Size picture,
+                           const compensation::ContentCanvas& canvas) {
+  return perfectedKey(fingerprintOfShown(folder), contentIdentity(readFile(file), picture, canvas));
 }
 
 std::vector<fs::path> savePerfected(PerfectedPicture picture, const ProjectorStack& projector,

@@ -41,6 +41,11 @@ std::filesystem::path perfectedFolder(const std::filesystem::path& calibration);
 /// Under which one is kept. `shownFrom`: of fingerprintOfShown(). `content`: of contentIdentity().
 std::string perfectedKey(const std::string& shownFrom, const std::string& content);
 
+/// The same of a picture's file, `picture` its size, as a show of this calibration has it on a canvas now.
+/// Throws: as readFile(), fingerprintOfShown().
+std::string perfectedKeyOf(const calibration::CalibrationFolder& folder, const std::filesystem::path& file,
+                           Size picture, const compensation::ContentCanvas& canvas);
+
 /// Replaces what there is of this key, atomically: after a crash either the old or the new one is there.
 /// `projector`: linear drive. Returns the files. Throws: Error{disk}.
 std::vector<std::filesystem::path> savePerfected(PerfectedPicture picture, const ProjectorStack& projector,

@@ -19,14 +19,20 @@ std::vector<image::Image> encodedDrive(const ProjectorStack& linear, const Raste
   return drive;
 }
 
-ProjectorStack shownLight(const ProjectorStack& linear, const Rasters& projectors,
-                          const linearization::Linearization& linearization) {
+std::vector<image::Image> codedDrive(const ProjectorStack& linear, const Rasters& projectors,
+                                     const linearization::Linearization& linearization) {
   constexpr float codes = 255.0f;
-  std::vector<image::Image> light = encodedDrive(linear, projectors, linearization);
-  for (std::size_t projector = 0; projector < light.size(); ++projector) {
-    for (float& drive : light[projector].data()) drive = std::round(drive * codes) / codes;
-    light[projector] = linearization.projectors[projector].decode(light[projector]);
-  }
+  std::vector<image::Image> drive = encodedDrive(linear, projectors, linearization);
+  for (image::Image& one : drive)
+    for (float& value : one.data()) value = std::round(value * codes) / codes;
+  return drive;
+}
+
+ProjectorStack lightOf(const std::vector<image::Image>& drive, const Rasters& projectors,
+                       const linearization::Linearization& linearization) {
+  std::vector<image::Image> light;
+  for (std::size_t projector = 0; projector < drive.size(); ++projector)
+    light.push_back(linearization.projectors[projector].decode(drive[projector]));
   return ProjectorStack(image::stackFromImages(light, projectors));
 }
 

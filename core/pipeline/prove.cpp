@@ -20,7 +20,6 @@
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/projection.h"
-#include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/reduction/reduction.h"
 
@@ -92,7 +91,6 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
                 RELUCENT_ENGLISH_MESSAGE("proof.give-picture-per-projector",
                                          "give one picture for each projector, in their order"));
   Projection result;
-  std::vector<image::Image> light;
   for (std::size_t projector = 0; projector < pictures.size(); ++projector) {
     image::Image drive = image::readPicture(pictures[projector]).encoded;
     Size size = projectors.size(projector);
@@ -105,10 +103,9 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
           RELUCENT_ENGLISH_MESSAGE("proof.capture-projector-display-alone",
                                    "take the picture of the projector's display alone, at its own size"),
           pictures[projector].string());
-    light.push_back(measured.linearization.projectors[projector].decode(drive));
     result.drive.push_back(std::move(drive));
   }
-  result.light.projector = ProjectorStack(image::stackFromImages(light, projectors));
+  result.light.projector = lightOf(result.drive, projectors, measured.linearization);
   return result;
 }
 
@@ -117,9 +114,8 @@ std::optional<compensation::Compensation> perfectedIn(const calibration::Calibra
                                                       const fs::path& file, Size picture,
                                                       const compensation::ContentCanvas& canvas,
                                                       const Rasters& projectors) {
-  const std::string key = perfectedKey(fingerprintOfShown(folder),
-                                       compensation::contentIdentity(readFile(file), picture, canvas));
-  const std::optional<PerfectedPicture> kept = findPerfected(folder.path(), key);
+  const std::optional<PerfectedPicture> kept =
+      findPerfected(folder.path(), perfectedKeyOf(folder, file, picture, canvas));
   if (!kept) return std::nullopt;
   compensation::Compensation light;
   light.projector = driveOf(*kept, projectors);

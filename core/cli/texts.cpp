@@ -414,16 +414,17 @@ std::string textOf(const pipeline::ScaleBenchResult& result) {
                     result.venue, run.sizes.projector.width, run.sizes.projector.height,
                     run.sizes.camera.width, run.sizes.camera.height, run.exposures,
                     1e-6 * static_cast<double>(run.leaves), 1e-9 * static_cast<double>(run.forecastBytes));
-    text += fmt::format("  {:<14} {:>8} {:>10} {:>13} {:>7}\n", "stage", "s", "memory, GB", "+ mapped, GB",
-                        "growth");
+    text += fmt::format("  {:<14} {:>8} {:>12} {:>10} {:>13} {:>7}\n", "stage", "s", "processor, s",
+                        "memory, GB", "+ mapped, GB", "growth");
     const std::vector<double> growth =
         before ? pipeline::growthOf(*before, run) : std::vector<double>(run.stages.size(), std::nan(""));
     for (std::size_t i = 0; i < run.stages.size(); ++i) {
       const pipeline::ScaleStage& stage = run.stages[i];
-      text += fmt::format("  {:<14} {:>8.1f} {:>10.2f} {:>13.2f} {:>7}\n", stage.name, stage.seconds,
-                          1e-9 * static_cast<double>(stage.memoryBytes),
-                          1e-9 * static_cast<double>(stage.filesBytes),
-                          std::isfinite(growth[i]) ? fmt::format("{:.2f}", growth[i]) : "");
+      text +=
+          fmt::format("  {:<14} {:>8.1f} {:>12.1f} {:>10.2f} {:>13.2f} {:>7}\n", stage.name, stage.seconds,
+                      stage.processorSeconds, 1e-9 * static_cast<double>(stage.memoryBytes),
+                      1e-9 * static_cast<double>(stage.filesBytes),
+                      std::isfinite(growth[i]) ? fmt::format("{:.2f}", growth[i]) : "");
     }
     text += fmt::format(
         "  photographs {:.2f} GB, results {:.2f} GB; {:.0f} s from the last photograph to the first still; "

@@ -415,6 +415,7 @@ calibration::Json toJson(const ScaleBenchResult& result) {
     calibration::Json stages = calibration::Json::object();
     for (const ScaleStage& stage : run.stages)
       stages[stage.name] = {{"seconds", stage.seconds},
+                            {"processor_seconds", stage.processorSeconds},
                             {"memory_bytes", stage.memoryBytes},
                             {"mapped_files_bytes", stage.filesBytes}};
     runs.push_back({{"projector", sizeToJson(run.sizes.projector)},

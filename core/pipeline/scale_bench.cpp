@@ -20,6 +20,7 @@
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/platform/memory_peak.h"
+#include "relucent/platform/process.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -86,10 +87,12 @@ class Measurement {
                                                         run_.sizes.projector.height, run_.sizes.camera.width,
                                                         run_.sizes.camera.height, name)));
     platform::MemoryPeak peak;
+    const double before = platform::processorSeconds();
     Stopwatch watch;
     work(part);
     const platform::MemoryUse most = peak.value();
-    run_.stages.push_back({name, watch.seconds(), most.resident, most.ofFiles});
+    run_.stages.push_back(
+        {name, watch.seconds(), most.resident, most.ofFiles, platform::processorSeconds() - before});
   }
 
   /// As calibrate() does it.

@@ -39,9 +39,10 @@ std::vector<Message> problems(const ScaleBenchSettings& settings);
 /// What one stage took.
 struct ScaleStage {
   std::string name;
-  double seconds = 0.0;
+  double seconds = 0.0;           // by the wall clock
   std::uint64_t memoryBytes = 0;  // the most, without mapped files ...
   std::uint64_t filesBytes = 0;   // ... and what of these was in memory, that had room for it
+  double processorSeconds = 0.0;  // of all cores together: what to compare on a machine that others use too
 };
 
 struct ScaleBenchRun {

@@ -6,14 +6,31 @@
 #include <unistd.h>
 
 namespace relucent::platform {
+namespace {
+
+rusage usageOfThisProgram() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage;
+}
+
+double secondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
 
 std::uint64_t processNumber() {
   return static_cast<std::uint64_t>(::getpid());
 }
 
+double processorSeconds() {
+  const rusage usage = usageOfThisProgram();
+  return secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+}
+
 std::uint64_t peakMemoryBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  const rusage usage = usageOfThisProgram();
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in kilobytes
 }
 

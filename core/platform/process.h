@@ -8,6 +8,10 @@ namespace relucent::platform {
 /// A number that no other program on this computer has now.
 std::uint64_t processNumber();
 
+/// Seconds of all cores together that this program has had so far, in the kernel too: unlike the wall
+/// clock's, little longer where other programs run beside it.
+double processorSeconds();
+
 /// The most memory that this program has had resident so far.
 std::uint64_t peakMemoryBytes();
 

@@ -57,7 +57,7 @@ class TestScaleBench : public QObject {
       std::vector<std::string> names;
       for (const ScaleStage& stage : run.stages) {
         names.push_back(stage.name);
-        QVERIFY(stage.memoryBytes > 1'000'000 && stage.seconds >= 0.0);
+        QVERIFY(stage.memoryBytes > 1'000'000 && stage.seconds >= 0.0 && stage.processorSeconds > 0.0);
       }
       QCOMPARE(names, (std::vector<std::string>{"venue", "linearization", "acquisition", "inverse", "still",
                                                 "evaluation", "after"}));

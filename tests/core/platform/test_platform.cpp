@@ -248,6 +248,10 @@ class TestPlatform : public QObject {
   void theProgramKnowsItself() {
     QCOMPARE(processNumber(), static_cast<std::uint64_t>(QCoreApplication::applicationPid()));
     QVERIFY(peakMemoryBytes() > 1'000'000);
+    const double before = processorSeconds();
+    double after = before;
+    for (int i = 0; i < 100'000'000 && after - before < 0.01; ++i) after = processorSeconds();
+    QVERIFY(before > 0.0 && after - before >= 0.01);
     QVERIFY(systemDescription().find(" cores\n") != std::string::npos);
   }
 };

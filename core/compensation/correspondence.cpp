@@ -28,7 +28,6 @@ std::int32_t rowOf(Bid bid) {
 std::vector<Bid> highestBids(const transport::TransportMatrix& transport, const CameraMask& usable,
                              const DirectLightSettings& settings) {
   constexpr float leastShare = 0.01f;
-  const transport::NodeLayout& layout = transport.layout();
   const Rasters& projectors = transport.projectors();
   const std::size_t rows = transport.cameras().count();
   require(usable.size() == rows, "{} flags for {} camera pixels", usable.size(), rows);
@@ -44,15 +43,14 @@ std::vector<Bid> highestBids(const transport::TransportMatrix& transport, const 
 
   parallelFor(0, rows, 256, [&](std::size_t row) {
     if (!usable[row]) return;
-    const transport::LeafRow leaves = transport.row(row);
-    float most = rule.lookOf(leaves).light;
-    rule.eachDirect(leaves, [&](std::size_t entry, const transport::Block& block) {
-      float light = leaves.block(entry).sum() / static_cast<float>(block.count());
-      if (!(light > 0.0f) || light < leastShare * most) return;
-      auto projector = static_cast<std::size_t>(layout.node(leaves.column(entry)).projector);
-      for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x)
-          offer(projectors.offset(projector) + indexOf(projectors.size(projector), {x, y}), light, row);
+    const LookedAtRow leaves(rule, transport.row(row));
+    const float most = leaves.look().light;
+    leaves.eachDirect([&](std::size_t, const LookedAtRow::Leaf& leaf) {
+      if (!(leaf.light > 0.0f) || leaf.light < leastShare * most) return;
+      for (int y = leaf.block.y0; y < leaf.block.y1; ++y)
+        for (int x = leaf.block.x0; x < leaf.block.x1; ++x)
+          offer(projectors.offset(leaf.projector) + indexOf(projectors.size(leaf.projector), {x, y}),
+                leaf.light, row);
     });
   });
 

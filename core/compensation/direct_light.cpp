@@ -46,35 +46,41 @@ DirectLeaves::DirectLeaves(const transport::TransportMatrix& transport, const Di
 }
 
 DirectLook DirectLeaves::lookOf(const transport::LeafRow& leaves) const {
-  std::vector<Place> places = placesOf(leaves);
-  auto brightest = std::max_element(places.begin(), places.end(),
+  return LookedAtRow(*this, leaves).look();
+}
+
+LookedAtRow::LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& leaves)
+    : rule_(rule), places_(rule.reach_.size()) {
+  leaves_.reserve(leaves.size());
+  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
+    const transport::Node node = rule.layout_.node(leaves.column(entry));
+    Leaf& leaf = leaves_.emplace_back();
+    leaf.block = rule.layout_.block(node);
+    leaf.projector = static_cast<std::size_t>(node.projector);
+    leaf.sum = leaves.block(entry).sum();
+    leaf.light = leaf.sum / static_cast<float>(leaf.block.count());
+    Place& place = places_[leaf.projector];
+    if (leaf.light > place.light)
+      place = {leaf.light, 0.5 * (leaf.block.x0 + leaf.block.x1), 0.5 * (leaf.block.y0 + leaf.block.y1)};
+  }
+}
+
+DirectLook LookedAtRow::look() const {
+  auto brightest = std::max_element(places_.begin(), places_.end(),
                                     [](const Place& a, const Place& b) { return a.light < b.light; });
   DirectLook look;
-  if (brightest == places.end() || !(brightest->light > 0.0f)) return look;
-  auto projector = static_cast<std::size_t>(brightest - places.begin());
+  if (brightest == places_.end() || !(brightest->light > 0.0f)) return look;
+  auto projector = static_cast<std::size_t>(brightest - places_.begin());
   Pixel pixel{static_cast<int>(brightest->x), static_cast<int>(brightest->y)};
-  const Rasters& projectors = layout_.projectors();
+  const Rasters& projectors = rule_.layout_.projectors();
   look.projectorPixel =
       static_cast<std::int32_t>(projectors.offset(projector) + indexOf(projectors.size(projector), pixel));
   look.light = brightest->light;
   float direct = 0.0f, all = 0.0f;
-  eachDirect(leaves,
-             [&](std::size_t entry, const transport::Block&) { direct += leaves.block(entry).sum(); });
-  for (std::size_t entry = 0; entry < leaves.size(); ++entry) all += leaves.block(entry).sum();
+  eachDirect([&](std::size_t, const Leaf& leaf) { direct += leaf.sum; });
+  for (const Leaf& leaf : leaves_) all += leaf.sum;
   look.share = all > 0.0f ? std::clamp(direct / all, 0.0f, 1.0f) : 0.0f;
   return look;
-}
-
-std::vector<DirectLeaves::Place> DirectLeaves::placesOf(const transport::LeafRow& leaves) const {
-  std::vector<Place> places(reach_.size());
-  for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
-    transport::Node node = layout_.node(leaves.column(entry));
-    transport::Block block = layout_.block(node);
-    float light = leaves.block(entry).sum() / static_cast<float>(block.count());
-    Place& place = places[static_cast<std::size_t>(node.projector)];
-    if (light > place.light) place = {light, 0.5 * (block.x0 + block.x1), 0.5 * (block.y0 + block.y1)};
-  }
-  return places;
 }
 
 transport::TransportMatrix directPart(const transport::TransportMatrix& transport,

@@ -47,27 +47,49 @@ class DirectLeaves {
 
   /// Calls visit(entry, block) for the direct leaves of a row.
   template <typename Visit>
-  void eachDirect(const transport::LeafRow& leaves, const Visit& visit) const {
+  void eachDirect(const transport::LeafRow& leaves, const Visit& visit) const;
+
+  DirectLook lookOf(const transport::LeafRow& leaves) const;
+
+ private:
+  friend class LookedAtRow;
+
+  const transport::NodeLayout& layout_;
+  std::vector<double> reach_;  // per projector, pixels
+};
+
+/// A row of T whose leaves were looked at once, for whoever asks several things of it.
+class LookedAtRow {
+ public:
+  struct Leaf {
+    transport::Block block;
+    std::size_t projector = 0;
+    float sum = 0.0f;    // over the channels of both
+    float light = 0.0f;  // of it, per projector pixel of the block
+  };
+
+  LookedAtRow(const DirectLeaves& rule, const transport::LeafRow& leaves);
+
+  DirectLook look() const;
+  /// Calls visit(entry, leaf) for the direct leaves.
+  template <typename Visit>
+  void eachDirect(const Visit& visit) const {
     // Where another projector lights a pixel directly, light of this one in its own shadow is indirect.
     constexpr float leastShare = 0.1f;
-    std::vector<Place> places = placesOf(leaves);
     float most = 0.0f;
-    for (const Place& place : places) most = std::max(most, place.light);
-    for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
-      transport::Node node = layout_.node(leaves.column(entry));
-      auto projector = static_cast<std::size_t>(node.projector);
-      const Place& place = places[projector];
+    for (const Place& place : places_) most = std::max(most, place.light);
+    for (std::size_t entry = 0; entry < leaves_.size(); ++entry) {
+      const Leaf& leaf = leaves_[entry];
+      const Place& place = places_[leaf.projector];
       if (!(place.light > leastShare * most)) continue;
-      transport::Block block = layout_.block(node);
-      double reach = reach_[projector];
+      const transport::Block& block = leaf.block;
+      const double reach = rule_.reach_[leaf.projector];
       if (std::abs(0.5 * (block.x0 + block.x1) - place.x) <= reach &&
           std::abs(0.5 * (block.y0 + block.y1) - place.y) <= reach &&
           std::max(block.x1 - block.x0, block.y1 - block.y0) <= reach)
-        visit(entry, block);
+        visit(entry, leaf);
     }
   }
-
-  DirectLook lookOf(const transport::LeafRow& leaves) const;
 
  private:
   /// Where a camera pixel looks to in one projector.
@@ -75,11 +97,18 @@ class DirectLeaves {
     float light = 0.0f;  // of the brightest leaf, per projector pixel
     double x = 0.0, y = 0.0;
   };
-  std::vector<Place> placesOf(const transport::LeafRow& leaves) const;
 
-  const transport::NodeLayout& layout_;
-  std::vector<double> reach_;  // per projector, pixels
+  const DirectLeaves& rule_;
+  std::vector<Leaf> leaves_;
+  std::vector<Place> places_;
 };
+
+template <typename Visit>
+void DirectLeaves::eachDirect(const transport::LeafRow& leaves, const Visit& visit) const {
+  LookedAtRow(*this, leaves).eachDirect([&](std::size_t entry, const LookedAtRow::Leaf& leaf) {
+    visit(entry, leaf.block);
+  });
+}
 
 /// The direct part of T: the leaves that DirectLeaves names.
 /// The rest, T - direct, is indirect: interreflections, scattering, caustics; and light on a second direct

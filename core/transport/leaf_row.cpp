@@ -1,31 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/transport/leaf_row.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace relucent::transport {
 
 LeafRow::LeafRow(const BlockSparse& own, const LeafGroups& groups, std::size_t row, std::size_t projectors)
     : own_(&own), row_(row), begin_(own.rowBegin(row)), columns_(own.columnsOf(row)) {
   if (groups.empty()) return;
-  using Leaf = std::pair<std::uint32_t, std::array<std::int16_t, 3>>;
-  std::vector<Leaf> leaves;
-  auto take = [&leaves](const BlockSparse& from, std::size_t of) {
-    for (std::size_t entry = from.rowBegin(of); entry < from.rowBegin(of + 1); ++entry)
-      leaves.emplace_back(from.column(entry), from.factor(entry));
+  column_.reserve(2 * columns_.size());
+  factor_.reserve(2 * columns_.size());
+  // Merged from behind into what is there: rows of either are ascending.
+  auto take = [this](const BlockSparse& from, std::size_t of) {
+    std::size_t taken = column_.size(), place = taken + from.rowBegin(of + 1) - from.rowBegin(of);
+    column_.resize(place);
+    factor_.resize(place);
+    for (std::size_t entry = from.rowBegin(of + 1); entry-- > from.rowBegin(of);) {
+      const std::uint32_t column = from.column(entry);
+      for (; taken > 0 && column_[taken - 1] > column; --taken) {
+        --place;
+        column_[place] = column_[taken - 1];
+        factor_[place] = factor_[taken - 1];
+      }
+      --place;
+      column_[place] = column;
+      factor_[place] = from.factor(entry);
+    }
   };
   for (std::size_t projector = 0; projector < projectors; ++projector)
     for (std::uint32_t group = groups.groupOf(row, projector); group != LeafGroups::none;
          group = groups.parent(group))
       take(groups.leaves(), group);
-  if (leaves.empty()) return;
+  if (column_.empty()) return;
   take(own, row);
-  std::ranges::sort(leaves, {}, &Leaf::first);
-  for (const auto& [column, factor] : leaves) {
-    column_.push_back(column);
-    factor_.push_back(factor);
-  }
   columns_ = column_;
 }
 

@@ -40,17 +40,20 @@ std::size_t NodeLayout::index(const Node& node) const {
 
 Node NodeLayout::node(std::size_t index) const {
   require(index < count_, "node {} of {}", index, count_);
-  // Most nodes that anyone asks about are of the finest levels.
-  for (int level = 0; level < levels(); ++level) {
+  // Most nodes that anyone asks about are of the finest levels, and everybody asks: no call in the loop.
+  for (std::size_t level = 0;; ++level) {
     for (std::size_t projector = 0; projector < grids_.size(); ++projector) {
-      if (level >= levels(projector)) continue;
-      const Grid& grid = grids_[projector][static_cast<std::size_t>(level)];
+      const std::vector<Grid>& pyramid = grids_[projector];
+      if (level >= pyramid.size()) continue;
+      const Grid& grid = pyramid[level];
       if (index >= grid.offset + grid.size.count()) continue;
-      Pixel place = pixelAt(grid.size, index - grid.offset);
-      return {static_cast<int>(projector), level, place.x, place.y};
+      // 32 bits are divided in a third of the time.
+      const auto within = static_cast<std::uint32_t>(index - grid.offset),
+                 width = static_cast<std::uint32_t>(grid.size.width);
+      return {static_cast<int>(projector), static_cast<int>(level), static_cast<int>(within % width),
+              static_cast<int>(within / width)};
     }
   }
-  return {};
 }
 
 Block NodeLayout::block(const Node& node) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "relucent/base/parallel.h"
 #include "relucent/base/require.h"
@@ -87,6 +88,45 @@ CameraStack expectedDeviation(const transport::TransportMatrix& transport, const
     here = sum.max(0.0f).sqrt();
   });
   return deviation;
+}
+
+namespace {
+
+double rootMeanSquare(std::span<const float> shares) {
+  double squares = 0.0, pixels = 0.0;
+  for (float share : shares) {
+    if (std::isnan(share)) continue;
+    squares += static_cast<double>(share) * static_cast<double>(share);
+    pixels += 1.0;
+  }
+  return pixels > 0.0 ? std::sqrt(squares / pixels) : 0.0;
+}
+
+}  // namespace
+
+double ExpectedError::shareIn(std::size_t camera, const Rasters& cameras) const {
+  return rootMeanSquare(
+      std::span(shareOfWhite).subspan(cameras.offset(camera), cameras.size(camera).count()));
+}
+
+double ExpectedError::shareOverall() const {
+  return rootMeanSquare(shareOfWhite);
+}
+
+ExpectedError expectedError(const MeasuredVenue& venue, const TransportVariance& variance,
+                            const Target& target, const ProjectorStack& picture) {
+  if (variance.leaf.empty()) return {};
+  ExpectedError error;
+  error.radiance = expectedDeviation(venue.transport, variance, picture);
+  error.shareOfWhite.assign(target.inside.size(), std::numeric_limits<float>::quiet_NaN());
+  const Eigen::Array3f white = Eigen::Map<const Eigen::Array3f>(target.white.data());
+  parallelFor(0, error.shareOfWhite.size(), 4096, [&](std::size_t i) {
+    Eigen::Map<Eigen::Array3f> within(&error.radiance[3 * i]);
+    within *= within95;
+    const float gain = target.gain.empty() ? 1.0f : target.gain[i];
+    if (target.inside[i] != 0) error.shareOfWhite[i] = std::sqrt((within / (gain * white)).square().mean());
+  });
+  return error;
 }
 
 }  // namespace relucent::compensation

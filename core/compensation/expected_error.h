@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "relucent/compensation/target.h"
 #include "relucent/transport/transport_matrix.h"
 
 namespace relucent::compensation {
@@ -24,5 +28,20 @@ CameraStack expectedDeviation(const transport::TransportMatrix& transport, const
                               const ProjectorStack& picture);
 
 inline constexpr float within95 = 1.96f;
+
+/// How far what the cameras see of a picture may be from its prediction: 95 % of all values come within.
+struct ExpectedError {
+  CameraStack radiance;             // within95 times expectedDeviation()
+  std::vector<float> shareOfWhite;  // per camera pixel, of the content's white there: root of the mean square
+                                    // of the channels; NaN outside the content
+  bool isKnown() const { return !radiance.empty(); }
+  /// The root of the mean square over one camera's content; 0 without any.
+  double shareIn(std::size_t camera, const Rasters& cameras) const;
+  double shareOverall() const;
+};
+
+/// Of a compensation for `target`. Not known where nothing is of the leaves' errors, as of an import.
+ExpectedError expectedError(const MeasuredVenue& venue, const TransportVariance& variance,
+                            const Target& target, const ProjectorStack& picture);
 
 }  // namespace relucent::compensation

@@ -107,17 +107,6 @@ image::Image reasonNumbers(const std::vector<compensation::Uncorrectable>& map, 
   return numbers;
 }
 
-/// Over some pixels, all channels; 0 without any.
-double rootMeanSquare(const CameraStack& stack, const CameraMask& among) {
-  double squares = 0.0, values = 0.0;
-  for (std::size_t i = 0; i < stack.size(); ++i) {
-    if (among[i / 3] == 0) continue;
-    squares += static_cast<double>(stack[i]) * static_cast<double>(stack[i]);
-    values += 1.0;
-  }
-  return values > 0.0 ? std::sqrt(squares / values) : 0.0;
-}
-
 }  // namespace
 
 CompensateResult compensate(const fs::path& path, const CompensateSettings& settings, Progress& progress) {
@@ -167,12 +156,9 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
     result.contradiction = {contradiction.share, contradiction.shares};
   }
   result.notes = viewNotes(venue, target, contradiction);
-  CameraStack expected;
-  if (!measured.acquisition.variance.leaf.empty()) {
-    expected = expectedDeviation(venue.transport, measured.acquisition.variance, compensation.projector);
-    for (float& value : expected) value *= compensation::within95;
-    result.expectedError = rootMeanSquare(expected, target.inside) / static_cast<double>(target.white[0]);
-  }
+  const compensation::ExpectedError expected =
+      expectedError(venue, measured.acquisition.variance, target, compensation.projector);
+  if (expected.isKnown()) result.expectedError = expected.shareOverall();
   Progress explaining = progress.part(
       0.03, RELUCENT_MESSAGE("stage.finding-uncorrectable-pixels", "Looking for what cannot be corrected"));
   std::vector<compensation::Uncorrectable> reasons =
@@ -195,7 +181,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   writer.writeMap("uncorrectable", reasonNumbers(reasons, cameras.size(0)), "number of the reason");
   writer.writeColours("uncorrectable", reasonColours(reasons, cameras.size(0)));
   if (hasSeveralViews) writer.writeContradiction("contradiction", contradiction.worse);
-  if (!expected.empty()) writer.writeLinear("expected_error", expected, cameras, radianceUnits);
+  if (expected.isKnown()) writer.writeLinear("expected_error", expected.radiance, cameras, radianceUnits);
   result.files = writer.files();
   progress.report(1.0);
   return result;

@@ -6,6 +6,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/results.h"
+#include "relucent/compensation/expected_error.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/drift_record.h"
@@ -63,11 +64,15 @@ ReportComparison predictedComparison(const pipeline::NamedImage& image,
   compensation::Target target = compensation::fitTarget(image.linear, venue, {});
   compensation::Compensator compensator(venue, measured.inverse);
   const Rasters& cameras = venue.transport.cameras();
-  auto predicted = [&](compensation::Method method) {
-    CameraStack seen = venue.transport.apply(compensator.solve(method, target, progress).projector);
-    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += venue.black[i];
-    return image::imageFromStack(seen, cameras, 0);
+  auto seen = [&](const ProjectorStack& picture) {
+    CameraStack light = venue.transport.apply(picture);
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += venue.black[i];
+    return image::imageFromStack(light, cameras, 0);
   };
+  const ProjectorStack warped = compensator.solve(compensation::Method::none, target, progress).projector,
+                       refined = compensator.solve(compensation::Method::refined, target, progress).projector;
+  const compensation::ExpectedError expected =
+      expectedError(venue, measured.acquisition.variance, target, refined);
   std::size_t pixels = cameras.size(0).count();
   CameraMask inside(target.inside.begin(), target.inside.begin() + static_cast<std::ptrdiff_t>(pixels));
   double covered = 0.0;
@@ -79,12 +84,13 @@ ReportComparison predictedComparison(const pipeline::NamedImage& image,
   return {image.name,
           compensation::Method::refined,
           image::imageFromStack(target.wanted, cameras, 0),
-          predicted(compensation::Method::none),
-          predicted(compensation::Method::refined),
+          seen(warped),
+          seen(refined),
           target.white,
           std::move(inside),
           covered > 0.0 ? reachable / covered : 0.0,
-          false};
+          false,
+          expected.isKnown() ? std::optional(expected.shareIn(0, cameras)) : std::nullopt};
 }
 
 /// Mean of a map of CIEDE2000, where there is content.

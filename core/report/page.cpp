@@ -118,6 +118,7 @@ Data comparison(const ReportComparison& shown) {
   Data section;
   section.set("name", shown.name);
   section.set("reachable", percent(shown.reachable));
+  if (shown.uncertainty) section.set("uncertainty", percent(*shown.uncertainty));
   section.set("figures", figures);
   section.set("histogram", charts::svgOf(histogram(before.data(), after.data(), deltaEScale,
                                                    "Colour error ΔE (CIEDE2000)"),

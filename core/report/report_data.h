@@ -27,10 +27,11 @@ struct ReportComparison {
   image::Image wanted;
   image::Image uncompensated;
   image::Image compensated;
-  std::array<float, 3> white{};  // signal of the content's white
-  CameraMask inside;             // per pixel: the content covers it; empty: everywhere
-  double reachable = 0.0;        // share of the content's pixels
-  bool truth = false;            // through a simulated venue's true transport; else predicted from T
+  std::array<float, 3> white{};         // signal of the content's white
+  CameraMask inside;                    // per pixel: the content covers it; empty: everywhere
+  double reachable = 0.0;               // share of the content's pixels
+  bool truth = false;                   // through a simulated venue's true transport; else predicted from T
+  std::optional<double> uncertainty{};  // of a prediction, share of white: 95 of 100 pixels come within
 };
 
 /// The newest verification photograph: the content, projected as it is and compensated. To look at.

@@ -40,6 +40,10 @@ QString percentText(double share) {
   return isolated(digitsOf(percent, decimals) + narrowSpace + '%');
 }
 
+QString marginText(double share) {
+  return isolated(QString::fromUtf8("±") + narrowSpace + percentText(share));
+}
+
 QString countText(std::uint64_t count) {
   return isolated(grouped(QString::number(count)));
 }

@@ -15,6 +15,8 @@ QString numberText(double value);
 QString decimalText(double value, int decimals);
 /// "98.6 %" of a share, with a narrow no-break space.
 QString percentText(double share);
+/// "± 1.2 %" of a share that may be too little or too much.
+QString marginText(double share);
 /// 21 480: grouped with narrow no-break spaces.
 QString countText(std::uint64_t count);
 /// 21 480, 30.1 million, 944 million, 2.1 billion: with a word where there are many digits.

@@ -104,6 +104,35 @@ class TestExpectedError : public QObject {
     QVERIFY(lit > 100);
   }
 
+  /// Of white where the pixel is, over the content alone; views apart and together.
+  void sharesAreOfTheWhiteThereIs() {
+    const Scene scene = makeScene({});
+    const MeasuredVenue venue{scene.transport, scene.black, scene.transport.floodlight(), scene.usable};
+    TransportVariance variance = noVariance(scene);
+    std::ranges::fill(variance.black, 4e-4f);
+    std::ranges::fill(variance.leaf, 1e-4f);
+    Target target = fitTarget(image::Image({40, 30}, 3, 1.0f), venue, {});
+    const ProjectorStack picture = checks(scene);
+    const ExpectedError once = expectedError(venue, variance, target, picture);
+    QVERIFY(once.isKnown());
+    const CameraStack deviation = expectedDeviation(scene.transport, variance, picture);
+    double squares = 0.0, values = 0.0;
+    for (std::size_t i = 0; i < deviation.size(); ++i) {
+      QVERIFY(isNear(once.radiance[i], within95 * deviation[i]));
+      QCOMPARE(std::isnan(once.shareOfWhite[i / 3]), target.inside[i / 3] == 0);
+      if (target.inside[i / 3] == 0) continue;
+      squares += std::pow(static_cast<double>(once.radiance[i] / target.white[i % 3]), 2);
+      values += 1.0;
+    }
+    const double expected = std::sqrt(squares / values);
+    QVERIFY(std::abs(once.shareOverall() / expected - 1.0) < 1e-4);
+    QCOMPARE(once.shareIn(0, venue.transport.cameras()), once.shareOverall());  // there is one view
+    target.gain.assign(target.inside.size(), 2.0f);
+    const ExpectedError brighter = expectedError(venue, variance, target, picture);
+    QVERIFY(std::abs(2.0 * brighter.shareOverall() / once.shareOverall() - 1.0) < 1e-5);
+    QVERIFY(!expectedError(venue, {variance.black, variance.flood, {}}, target, picture).isKnown());
+  }
+
   void noisierRowsHaveLargerErrors() {
     const Scene scene = makeScene({});
     TransportVariance variance = noVariance(scene);

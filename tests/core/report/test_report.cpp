@@ -320,6 +320,14 @@ class TestReport : public QObject {
     QVERIFY(!html(data).contains("Most memory used"));
   }
 
+  /// Law: how far off a prediction may be is told where it is known, and only there.
+  void uncertaintyIsTold() {
+    ReportData data = fullData();
+    QVERIFY(!html(data).contains("95 of 100 pixels"));
+    data.comparisons.front().uncertainty = 0.0123;
+    QVERIFY(html(data).simplified().contains("95 of 100 pixels come within ± 1.2 % of white"));
+  }
+
   void nothingIsFetchedFromAnywhere() {
     QString page = html(fullData());
     for (const char* forbidden : {"http:", "https:", "<script", "<link", "@import", "url("})

@@ -6099,10 +6099,6 @@ projector %2</source>
         <translation>مشهد الجمهور</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>متوقّع من القياس</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>الضوء ضمن المدى</translation>
     </message>
@@ -6437,6 +6433,54 @@ projector %2</source>
     <message>
         <source>The picture is shown as before.</source>
         <translation>تُعرض الصورة كما كانت.</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>ساطع</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>الألوان التي لا يستطيع السطح إظهارها تكون ساطعة قدر الإمكان: الأبيض على جدار أصفر يصير أصفر.</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>بينهما</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>الألوان التي لا يستطيع السطح إظهارها تعتم قليلًا وتنحرف أقل.</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>أمين</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>الألوان التي لا يستطيع السطح إظهارها تعتم حتى تصح درجة لونها: للوجوه والشعارات.</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>ألوان بعيدة المنال</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>الألوان التي لا يستطيع السطح إظهارها</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>عدم اليقين</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>‏95 من كل 100 بكسل تبتعد عن المتوقّع بهذا القدر على الأكثر، بالنسبة المئوية من الأبيض. تقلّله صور أكثر أو تعريضات أطول.</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>مقدار ما قد يبتعد به الضوء عن المتوقّع بسبب ضجيج القياس</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>‏95 من كل 100 بكسل تبقى ضمن القيمة المعروضة، وفي المتوسط %1 من الأبيض</translation>
     </message>
 </context>
 <context>

@@ -5951,10 +5951,6 @@ Projektor %2</translation>
         <translation>Publikumssicht</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>aus der Messung vorhergesagt</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>Erreichbares Licht</translation>
     </message>
@@ -6289,6 +6285,54 @@ Projektor %2</translation>
     <message>
         <source>The picture is shown as before.</source>
         <translation>Das Bild wird wie zuvor gezeigt.</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>Hell</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>Farben, die die Fläche nicht zeigen kann, werden so hell wie möglich: Weiß auf einer gelben Wand wird gelb.</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>Dazwischen</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>Farben, die die Fläche nicht zeigen kann, werden etwas dunkler und verschieben sich weniger.</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Farbtreu</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>Farben, die die Fläche nicht zeigen kann, werden dunkler, bis ihr Farbton stimmt: für Gesichter und Logos.</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>Unerreichbare Farben</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>Farben, die die Fläche nicht zeigen kann</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>Unsicherheit</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>95 von 100 Pixeln weichen höchstens so weit von der Vorhersage ab, in Prozent von Weiß. Mehr Fotos oder längere Belichtungen verkleinern es.</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>Wie weit das Licht durch das Rauschen der Messung von der Vorhersage abweichen kann</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>95 von 100 Pixeln bleiben innerhalb des gezeigten Werts, im Mittel %1 von Weiß</translation>
     </message>
 </context>
 <context>

@@ -5951,10 +5951,6 @@ proyector %2</translation>
         <translation>Vista del público</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>previsto a partir de la medición</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>Luz alcanzable</translation>
     </message>
@@ -6289,6 +6285,54 @@ proyector %2</translation>
     <message>
         <source>The picture is shown as before.</source>
         <translation>La imagen se muestra como antes.</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>Brillante</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>Los colores que la superficie no puede mostrar son tan brillantes como sea posible: el blanco sobre una pared amarilla se vuelve amarillo.</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>Intermedio</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>Los colores que la superficie no puede mostrar se oscurecen un poco y cambian menos.</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Fiel</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>Los colores que la superficie no puede mostrar se oscurecen hasta que su tono es correcto: para caras y logotipos.</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>Colores fuera de alcance</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>Colores que la superficie no puede mostrar</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>Incertidumbre</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>95 de cada 100 píxeles se apartan como mucho esto de lo previsto, en porcentaje del blanco. Más fotografías o exposiciones más largas lo reducen.</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>Cuánto puede apartarse la luz de lo previsto por el ruido de la medición</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>95 de cada 100 píxeles quedan dentro del valor mostrado, en promedio %1 del blanco</translation>
     </message>
 </context>
 <context>

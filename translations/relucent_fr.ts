@@ -5951,10 +5951,6 @@ projecteur %2</translation>
         <translation>Vue du public</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>prévue d’après la mesure</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>Lumière atteignable</translation>
     </message>
@@ -6289,6 +6285,54 @@ projecteur %2</translation>
     <message>
         <source>The picture is shown as before.</source>
         <translation>L’image est affichée comme avant.</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>Lumineux</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>Les couleurs que la surface ne peut pas montrer sont aussi lumineuses que possible : du blanc sur un mur jaune devient jaune.</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>Intermédiaire</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>Les couleurs que la surface ne peut pas montrer deviennent un peu plus sombres et changent moins.</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Fidèle</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>Les couleurs que la surface ne peut pas montrer sont assombries jusqu’à ce que leur teinte soit juste : pour les visages et les logos.</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>Couleurs hors d’atteinte</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>Couleurs que la surface ne peut pas montrer</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>Incertitude</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>95 pixels sur 100 s’écartent au plus d’autant de ce qui est prévu, en pour cent du blanc. Plus de photos ou des poses plus longues la réduisent.</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>De combien la lumière peut s’écarter de ce qui est prévu, par le bruit de la mesure</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>95 pixels sur 100 restent dans la valeur affichée, en moyenne %1 du blanc</translation>
     </message>
 </context>
 <context>

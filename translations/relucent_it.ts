@@ -5951,10 +5951,6 @@ proiettore %2</translation>
         <translation>Vista del pubblico</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>prevista dalla misura</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>Luce raggiungibile</translation>
     </message>
@@ -6289,6 +6285,54 @@ proiettore %2</translation>
     <message>
         <source>The picture is shown as before.</source>
         <translation>L’immagine è mostrata come prima.</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>Luminoso</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>I colori che la superficie non può mostrare sono il più luminosi possibile: il bianco su una parete gialla diventa giallo.</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>Intermedio</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>I colori che la superficie non può mostrare diventano un po’ più scuri e cambiano meno.</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>Fedele</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>I colori che la superficie non può mostrare vengono scuriti finché la tonalità è giusta: per volti e loghi.</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>Colori fuori portata</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>Colori che la superficie non può mostrare</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>Incertezza</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>95 pixel su 100 si scostano al massimo di tanto da quanto previsto, in percentuale del bianco. Più foto o esposizioni più lunghe la riducono.</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>Quanto la luce può scostarsi da quanto previsto per il rumore della misura</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>95 pixel su 100 restano entro il valore mostrato, in media %1 del bianco</translation>
     </message>
 </context>
 <context>

@@ -5914,10 +5914,6 @@ projector %2</source>
         <translation>観客からの見え方</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>測定からの予測</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>再現可能な光</translation>
     </message>
@@ -6252,6 +6248,54 @@ projector %2</source>
     <message>
         <source>The picture is shown as before.</source>
         <translation>画像はこれまでどおり表示されます。</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>明るく</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>面が出せない色をできるだけ明るくします。黄色い壁の白は黄色くなります。</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>中間</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>面が出せない色を少し暗くし、色相のずれを抑えます。</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>忠実</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>面が出せない色を、色相が正しくなるまで暗くします。顔やロゴ向けです。</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>再現できない色</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>面が出せない色</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不確かさ</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>100画素のうち95画素が予測からこの範囲に収まります（白に対するパーセント）。写真を増やすか露光を長くすると小さくなります。</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>測定のノイズのために光が予測からどれだけずれうるか</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>100画素のうち95画素が表示値の範囲に収まります。平均は白の%1です</translation>
     </message>
 </context>
 <context>

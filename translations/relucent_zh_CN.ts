@@ -5914,10 +5914,6 @@ projector %2</source>
         <translation>观众视图</translation>
     </message>
     <message>
-        <source>predicted from the measurement</source>
-        <translation>根据测量预测</translation>
-    </message>
-    <message>
         <source>Reachable light</source>
         <translation>可达光量</translation>
     </message>
@@ -6252,6 +6248,54 @@ projector %2</source>
     <message>
         <source>The picture is shown as before.</source>
         <translation>图片仍按原样显示。</translation>
+    </message>
+    <message>
+        <source>Bright</source>
+        <translation>明亮</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are as bright as can be: white on a yellow wall turns yellow.</source>
+        <translation>表面无法显示的颜色尽可能亮：黄墙上的白色会变黄。</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>居中</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show become somewhat dimmer and shift less.</source>
+        <translation>表面无法显示的颜色稍微变暗，偏色更少。</translation>
+    </message>
+    <message>
+        <source>True</source>
+        <translation>忠实</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show are dimmed until their hue is right: for faces and logos.</source>
+        <translation>表面无法显示的颜色会调暗到色相正确：适合人脸和标志。</translation>
+    </message>
+    <message>
+        <source>Colours out of reach</source>
+        <translation>无法达到的颜色</translation>
+    </message>
+    <message>
+        <source>Colours that the surface cannot show</source>
+        <translation>表面无法显示的颜色</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>不确定度</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within this of what is predicted, in percent of white. More photographs or longer exposures make it smaller.</source>
+        <translation>100 个像素中有 95 个与预测的偏差不超过此值，以白色的百分比表示。更多照片或更长曝光会使其变小。</translation>
+    </message>
+    <message>
+        <source>How far the light may be from what is predicted, by the measurement&apos;s noise</source>
+        <translation>由于测量噪声，光可能偏离预测多少</translation>
+    </message>
+    <message>
+        <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
+        <translation>100 个像素中有 95 个在所示数值以内，平均为白色的 %1</translation>
     </message>
 </context>
 <context>

@@ -144,6 +144,10 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
   addNamed(sub, "--objective", "Which errors count: " + listOfNames<compensation::Objective>(),
            target.objective)
       ->type_name("OBJECTIVE");
+  addNamed(sub, "--clipping",
+           "Colours of which a place cannot show one channel: " + listOfNames<compensation::Clipping>(),
+           target.clipping)
+      ->type_name("CLIPPING");
   addViews(sub, target);
 }
 

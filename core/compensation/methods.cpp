@@ -146,8 +146,12 @@ Compensation Compensator::byInverse(const std::function<ProjectorStack(const Cam
                                     const Target& target, const ProjectorMask& free,
                                     const ProjectorStack& preconditioner, const Progress& progress) const {
   // What no projection can reach would be asked of its neighbours too: wanted as nearly as it can be had.
-  CameraStack wantedLessBlack = stackOf<CameraStack>(target.wanted.size(), [&](std::size_t i) {
-    return std::clamp(target.wanted[i] - venue_.black[i], 0.0f, std::max(0.0f, venue_.flood[i]));
+  CameraStack wantedLessBlack(target.wanted.size(), 0.0f);
+  parallelFor(0, wantedLessBlack.size() / 3, 4096, [&](std::size_t i) {
+    using Colour = Eigen::Map<const Eigen::Vector3f>;
+    Eigen::Map<Eigen::Vector3f> wanted(&wantedLessBlack[3 * i]);
+    wanted = held(Colour(&target.wanted[3 * i]) - Colour(&venue_.black[3 * i]), Eigen::Vector3f::Zero(),
+                  Colour(&venue_.flood[3 * i]).cwiseMax(0.0f), target.clipping);
   });
   Compensation result;
   result.projector = inverse(wantedLessBlack);

@@ -109,11 +109,13 @@ Compensation solvedAgain(const Compensator& compensator, const Target& target, c
                          Compensation p, int rounds, Progress& progress) {
   const MeasuredVenue& venue = compensator.venue();
   Target corrected = target;
-  parallelFor(0, corrected.asked.size(), 4096, [&](std::size_t i) {
-    if (target.inside[i / 3] == 0) return;
-    const float asked = target.asked[i];
-    corrected.asked[i] = std::clamp(target.wanted[i] - venue.black[i] - unexplained[i], std::min(0.0f, asked),
-                                    std::max(venue.flood[i], asked));
+  parallelFor(0, corrected.inside.size(), 4096, [&](std::size_t i) {
+    if (target.inside[i] == 0) return;
+    using Colour = Eigen::Map<const Eigen::Vector3f>;
+    const Colour asked(&target.asked[3 * i]);
+    Eigen::Map<Eigen::Vector3f> corrects(&corrected.asked[3 * i]);
+    corrects = held(Colour(&target.wanted[3 * i]) - Colour(&venue.black[3 * i]) - Colour(&unexplained[3 * i]),
+                    asked.cwiseMin(0.0f), asked.cwiseMax(Colour(&venue.flood[3 * i])), target.clipping);
   });
   return compensator.goOn(corrected, std::move(p), rounds, progress);
 }

@@ -368,6 +368,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   if (settings.brightness != Brightness::even)
     target.gain = gainsOf(venue, target, mixing, settings.brightness,
                           static_cast<double>(linearContent.width()) / linearContent.height());
+  target.clipping = settings.clipping;
   target.asked.assign(3 * pixels, 0.0f);
   target.reachable.assign(pixels, 0);
   target.weight.assign(pixels, 0.0f);
@@ -381,7 +382,8 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
     Eigen::Map<Eigen::Vector3f> asked(&target.asked[3 * i]);
     asked = wanted - black;
-    if (settings.objective == Objective::seen) asked = asked.cwiseMin(flood).cwiseMax(0.0f);
+    if (settings.objective == Objective::seen)
+      asked = held(asked, Eigen::Vector3f::Zero(), flood.cwiseMax(0.0f), settings.clipping);
     if (!venue.usable[i]) return;
     bool reachable =
         (wanted.array() >= black.array()).all() && (wanted.array() <= (black + flood).array()).all();

@@ -9,6 +9,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/compensation/brightness.h"
+#include "relucent/compensation/clipping.h"
 #include "relucent/compensation/placement.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/compensation/views.h"
@@ -78,6 +79,7 @@ struct TargetSettings {
   std::optional<double> blackLift{};
   Brightness brightness = Brightness::even;
   Objective objective = Objective::seen;
+  Clipping clipping = Clipping::channels;  // of what is asked for where it is held to what can be had
   /// Weight of unreachable pixels; none: as the objective has it.
   std::optional<double> unreachableWeight{};
 
@@ -109,6 +111,7 @@ struct Target {
   /// Per camera: where the content was placed in its own view; none: it lies on the surface.
   std::vector<std::optional<Placement>> placements{};
   std::vector<float> viewWeight{};  // per camera, of its view; the largest is 1
+  Clipping clipping = Clipping::channels;
 };
 
 /// The weight of unreachable pixels.

@@ -66,6 +66,7 @@ void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& req
   target.unreachable = unreachableWeightOf(engine_.settings.target);
   if (engine_.settings.target.objective == compensation::Objective::seen && white > 0.0f)
     target.perWhite = 1.0f / white;
+  target.sharedLoss = compensation::sharedLoss(engine_.settings.target.clipping);
   target.known = known_.data();
   target.unmix = windows_.unmix;
   target.wanted = wanted_.data();

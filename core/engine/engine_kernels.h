@@ -19,6 +19,7 @@ struct ContentTarget {
   float offset = 0.0f;
   float unreachable = 0.0f;      // the weight of what cannot be reached
   float perWhite = 0.0f;         // 1 / white, by compensation::Objective::seen; otherwise 0
+  float sharedLoss = 0.0f;       // compensation::sharedLoss()
   const float* known = nullptr;  // 8: black 3, and the weight of its view; flood 3, and the gain of white
   const float* unmix = nullptr;  // 3x3, row-major
   float* wanted = nullptr;       // 4: what is asked for; its weight
@@ -71,8 +72,8 @@ struct EngineKernels {
   void (*correct)(const PatchRows& patch, const CameraArrays& camera, float* columns);
   /// p <- clamp(p + length c back); returns the number of visibly clipped values. `back`: 4 a pixel.
   std::size_t (*update)(float* p, const float* c, const float* back, float length, std::size_t pixels);
-  /// c of StepPreconditioner's share and the fourth of `back`. `least`: of every pixel, infinite where it is not
-  /// free.
+  /// c of StepPreconditioner's share and the fourth of `back`. `least`: of every pixel, infinite where it is
+  /// not free.
   void (*precondition)(float* c, const float* back, const float* share, const float* least,
                        std::size_t pixels);
 };

@@ -407,9 +407,21 @@ RELUCENT_KERNEL Four meanOver(const WarpTiles::Footprint& at, const std::uint16_
 struct Fitting {
   Mixings mixing;
   Wide offset, unreachable;
-  Wide luminance;  // shares of the channels over white; where light counts alike, 0
-  bool isHeld;     // no more is asked for than there is
+  Wide luminance;   // shares of the channels over white; where light counts alike, 0
+  Wide sharedLoss;  // of what the worst channel loses, by the others: compensation::held()
+  bool isHeld;      // no more is asked for than there is
+  bool isLossShared;
 };
+
+/// Light of some camera pixels without what compensation::held() takes from all of its channels, before each
+/// is clamped.
+RELUCENT_KERNEL Wide withSharedLoss(const Wide& light, const Wide& most, const Fitting& fitting) {
+  const Wide one = allLanes(1.0f), kept = light > most ? most / light : one;
+  const Wide second = RELUCENT_SHUFFLED(kept, kept, 1, 2, 0, 3),
+             third = RELUCENT_SHUFFLED(kept, kept, 2, 0, 1, 3);
+  const Wide less = second < third ? second : third, least = kept < less ? kept : less;
+  return (one - fitting.sharedLoss * (one - least)) * light;
+}
 
 /// Makes of content what is wanted of some camera pixels, and what the windows are given.
 RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const Fitting& fitting,
@@ -423,7 +435,8 @@ RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const 
       within & RELUCENT_SHUFFLED(within, within, 1, 2, 0, 3) & RELUCENT_SHUFFLED(within, within, 2, 0, 1, 3);
   const Wide zero{}, view = RELUCENT_SHUFFLED(black, black, 3, 3, 3, 3), one = allLanes(1.0f);
   const Wide share = reachable ? one : fitting.unreachable, ofWindows = view * share;
-  const Wide most = flood > zero ? flood : zero, positive = wanted > zero ? wanted : zero;
+  const Wide most = flood > zero ? flood : zero, lit = wanted > zero ? wanted : zero;
+  const Wide positive = fitting.isLossShared ? withSharedLoss(lit, most, fitting) : lit;
   const Wide held = positive < most ? positive : most;
   const Wide lights = fitting.luminance * (held + black);
   const Wide luminance = RELUCENT_SHUFFLED(lights, lights, 0, 0, 0, 0) +
@@ -443,7 +456,13 @@ RELUCENT_KERNEL void fit(const std::uint32_t* pixel, const Wide& content, const 
 
 RELUCENT_KERNEL void placeTile(const WarpTiles& warp, const WarpTiles::Tile& tile, const float* part,
                                const ContentTarget& target) {
-  Fitting fitting{{}, allLanes(target.offset), allLanes(target.unreachable), {}, target.perWhite > 0.0f};
+  Fitting fitting{{},
+                  allLanes(target.offset),
+                  allLanes(target.unreachable),
+                  {},
+                  allLanes(target.sharedLoss),
+                  target.perWhite > 0.0f,
+                  target.sharedLoss > 0.0f};
   alignas(64) float luminance[lanes];
   for (std::size_t i = 0; i < lanes; ++i)
     luminance[i] = i % 4 < 3 ? target.perWhite * image::luminanceWeights[i % 4] : 0.0f;
@@ -522,7 +541,8 @@ RELUCENT_KERNEL Pixels channelsOf(const float* values) {
 
 /// One value a pixel, for all of its channels.
 RELUCENT_KERNEL Pixels forChannels(const Four& value) {
-  return {{__builtin_shufflevector(value, value, 0, 0, 0, 1), __builtin_shufflevector(value, value, 1, 1, 2, 2),
+  return {{__builtin_shufflevector(value, value, 0, 0, 0, 1),
+           __builtin_shufflevector(value, value, 1, 1, 2, 2),
            __builtin_shufflevector(value, value, 2, 3, 3, 3)}};
 }
 
@@ -531,7 +551,8 @@ using FourIntegers [[gnu::vector_size(16)]] = std::int32_t;
 constexpr std::size_t pixelsTogether = 4;
 
 /// Values of an update in place; `cut` counts down where a value is visibly cut off.
-RELUCENT_KERNEL void updateSome(float* p, const float* c, const float* back, float length, FourIntegers& cut) {
+RELUCENT_KERNEL void updateSome(float* p, const float* c, const float* back, float length,
+                                FourIntegers& cut) {
   const Pixels step = channelsOf(back);
   const Four zero{}, one = 1.0f - zero, below = -visibleCut - zero, above = (1.0f + visibleCut) - zero;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -550,7 +571,8 @@ RELUCENT_KERNEL std::size_t updateAll(float* p, const float* c, const float* bac
   for (; i + pixelsTogether <= pixels; i += pixelsTogether)
     updateSome(p + 3 * i, c + 3 * i, back + sumFloats * i, length, cut);
   if (i < pixels) {
-    float values[3 * pixelsTogether] = {}, steps[3 * pixelsTogether] = {}, sums[sumFloats * pixelsTogether] = {};
+    float values[3 * pixelsTogether] = {}, steps[3 * pixelsTogether] = {},
+                     sums[sumFloats * pixelsTogether] = {};
     std::copy_n(p + 3 * i, 3 * (pixels - i), values);
     std::copy_n(c + 3 * i, 3 * (pixels - i), steps);
     std::copy_n(back + sumFloats * i, sumFloats * (pixels - i), sums);

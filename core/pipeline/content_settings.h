@@ -19,6 +19,7 @@ struct ContentSettings {
   std::optional<double> blackLift{};
   compensation::Brightness brightness = compensation::Brightness::even;
   compensation::Objective objective = compensation::Objective::seen;
+  compensation::Clipping clipping = compensation::Clipping::channels;
   compensation::Fit fit = compensation::Fit::fit;
   std::optional<compensation::Corners> corners;  // as TargetSettings
   std::vector<compensation::ViewSettings> views;

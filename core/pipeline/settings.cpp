@@ -182,6 +182,7 @@ compensation::TargetSettings targetOf(const ContentSettings& settings) {
   target.blackLift = settings.blackLift;
   target.brightness = settings.brightness;
   target.objective = settings.objective;
+  target.clipping = settings.clipping;
   return target;
 }
 

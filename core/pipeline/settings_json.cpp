@@ -406,6 +406,8 @@ calibration::Json stagesToJson(const CalibrateSettings& settings) {
   // Left out where it is what versions did that knew no other, so that their fingerprints stay.
   if (settings.content.brightness != compensation::Brightness::even)
     content["brightness"] = settings.content.brightness;
+  if (settings.content.clipping != compensation::Clipping::channels)
+    content["clipping"] = settings.content.clipping;
   for (const compensation::ViewSettings& view : settings.content.views)
     content["views"].push_back(viewToJson(view));
   if (settings.content.viewer) content["viewer"] = *settings.content.viewer;
@@ -443,6 +445,8 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.content.viewer = ofContent<compensation::Position>(sorted, "viewer");
     settings.content.brightness =
         ofContent<compensation::Brightness>(sorted, "brightness").value_or(compensation::Brightness::even);
+    settings.content.clipping =
+        ofContent<compensation::Clipping>(sorted, "clipping").value_or(compensation::Clipping::channels);
   } catch (const Sorted::exception& cause) {
     failForeign(cause);
   }

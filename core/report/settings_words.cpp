@@ -133,6 +133,18 @@ const char* brightnessWords(compensation::Brightness brightness) {
   return "one for each part of a picture";
 }
 
+const char* clippingWords(compensation::Clipping clipping) {
+  switch (clipping) {
+    case compensation::Clipping::channels:
+      return "as bright as can be";
+    case compensation::Clipping::half:
+      return "between bright and true";
+    case compensation::Clipping::hue:
+      break;
+  }
+  return "dimmed until their hue is right";
+}
+
 std::string viewWords(const compensation::ViewSettings& view) {
   return fmt::format("weight {:.3g}, {}", view.weight,
                      view.placement == compensation::ViewPlacement::own ? "a picture of its own"
@@ -147,6 +159,7 @@ void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings&
                                  : std::filesystem::path(content.picture).filename().string()});
   list.push_back({"Correction", methodWords(content.method)});
   list.push_back({"Brightness of white", brightnessWords(content.brightness)});
+  list.push_back({"Colours out of reach", clippingWords(content.clipping)});
   list.push_back({"May stay too dark", percent(content.reachablePercentile / 100.0) + " of the picture"});
   list.push_back({"Blacks lifted by", content.blackLift ? percent(*content.blackLift)
                                                         : "as little as hides the edges of projectors"});

@@ -77,6 +77,7 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
   placing.set(7, luminance);
   placing.set(8, compensation::sensitivityOffset);
   placing.set(9, isHeld);
+  placing.set(10, compensation::sharedLoss(engine.settings.target.clipping));
   placing.run(cameraPixels);
 }
 

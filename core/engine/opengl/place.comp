@@ -21,6 +21,7 @@ layout(location = 6) uniform mat3 mixing;
 layout(location = 7) uniform vec3 luminance;
 layout(location = 8) uniform float sensitivityOffset;
 layout(location = 9) uniform bool isHeld;
+layout(location = 10) uniform float sharedLoss;  // compensation::sharedLoss()
 
 const uint rgb8 = 0u, rgba8 = 1u, bgra8 = 2u;
 
@@ -80,7 +81,9 @@ void main() {
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);
-  vec3 held = clamp(rest, vec3(0.0), max(flood, vec3(0.0)));
+  vec3 most = max(flood, vec3(0.0)), lit = max(rest, vec3(0.0));
+  vec3 kept = mix(vec3(1.0), most / max(lit, vec3(1e-30)), greaterThan(lit, most));
+  vec3 held = min((1.0 - sharedLoss * (1.0 - min(min(kept.r, kept.g), kept.b))) * lit, most);
   float sensitivity = 1.0;
   if (isHeld) sensitivity = (1.0 + sensitivityOffset) / (min(dot(luminance, held + black.xyz), 1.0) + sensitivityOffset);
   float share = weightOf(black.w, known.w) * (reachable ? 1.0 : unreachableWeight);

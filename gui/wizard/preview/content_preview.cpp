@@ -10,6 +10,7 @@
 #include "output/drive_pictures.h"
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
+#include "relucent/compensation/expected_error.h"
 #include "relucent/compensation/prediction.h"
 #include "relucent/compensation/uncorrectable.h"
 #include "relucent/image/colour.h"
@@ -56,6 +57,13 @@ std::vector<float> reachOf(const compensation::MeasuredVenue& venue, const compe
     reach[i] = brightest / (target.white[0] * gain);
   }
   return reach;
+}
+
+void addUncertainty(const compensation::ExpectedError& expected, const Rasters& cameras, std::size_t camera,
+                    ViewPreview& view) {
+  const auto begin = expected.shareOfWhite.begin() + static_cast<std::ptrdiff_t>(cameras.offset(camera));
+  view.uncertainty.assign(begin, begin + static_cast<std::ptrdiff_t>(cameras.size(camera).count()));
+  view.uncertaintyMean = expected.shareIn(camera, cameras);
 }
 
 CameraMask maskOf(const CameraMask& all, const Rasters& cameras, std::size_t camera) {
@@ -133,8 +141,12 @@ std::shared_ptr<const ContentPreview> previewOf(const PreviewEngine& engine,
   preview->sentWithout = drivePictures(warped.projector, projectors, engine.encoders);
   preview->content = content;
   preview->picture = settings.picture;
-  for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
+  const compensation::ExpectedError expected =
+      expectedError(venue, engine.measured.acquisition.variance, target, corrected.projector);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     preview->views.push_back(viewOf(camera, venue, target, without.camera, with.camera));
+    if (expected.isKnown()) addUncertainty(expected, cameras, camera, preview->views.back());
+  }
   preview->white = target.white[0] * meanGain(target);
   preview->blackLift = target.blackLift;
   preview->corners = target.corners;

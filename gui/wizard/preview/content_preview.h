@@ -25,9 +25,13 @@ struct MethodPreview {
 struct ViewPreview {
   image::Image without, with;  // predicted: nothing corrected, and by the chosen method
   image::Image deltaE;         // CIEDE2000; NaN outside the content
-  std::vector<float> reach;    // brightest possible, as a share of the content's white there
+  // How far off the light may be, 95 of 100 values, as a share of the content's white there; empty: not
+  // known.
+  std::vector<float> uncertainty{};
+  std::vector<float> reach;  // brightest possible, as a share of the content's white there
   CameraMask reachable, inside;
   double reachableShare = 0.0, deltaEMean = 0.0, psnr = 0.0;
+  double uncertaintyMean = 0.0;                  // root of the mean square over the content
   double weight = 1.0;                           // of this view in the solve, the heaviest is 1
   std::optional<compensation::Corners> corners;  // none: it lies on the surface
 };

@@ -45,7 +45,7 @@ QImage hatchesOf(const ViewPreview& preview) {
 
 constexpr int leastHeight = 260;  // of its card: a picture that can be judged
 
-enum Shown { picture, reachable, difference, contradiction };
+enum Shown { picture, reachable, difference, uncertainty, contradiction };
 
 class PreviewStage : public QWidget {
  public:
@@ -54,15 +54,14 @@ class PreviewStage : public QWidget {
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(space::gap);
     card_ = new Card(PreviewPage::tr("Audience view"));
-    card_->setSubtitle(PreviewPage::tr("predicted from the measurement"));
     card_->setMinimumHeight(leastHeight);
-    kind_ = new Segmented(
-        {PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"), PreviewPage::tr("Difference"),
-         PreviewPage::tr("Contradiction")});
+    kind_ = new Segmented({PreviewPage::tr("Picture"), PreviewPage::tr("Reachable light"),
+                           PreviewPage::tr("Difference"), PreviewPage::tr("Uncertainty"),
+                           PreviewPage::tr("Contradiction")});
     kind_->setObjectName("preview-kind");
     card_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, card_));
     card_->addAction(kind_);
-    views_ = {place_ = new CornerView, new ImageView, new ImageView, new ImageView};
+    views_ = {place_ = new CornerView, new ImageView, new ImageView, new ImageView, new ImageView};
     for (ImageView* view : views_) {
       view->setLink(&link_);
       view->setEmptyText(PreviewPage::tr("Preparing the preview"));
@@ -78,6 +77,8 @@ class PreviewStage : public QWidget {
         "The brightest light that can be reached; hatched where the content is out of reach"));
     views_[difference]->setAccessibleName(
         PreviewPage::tr("Colour difference between what is wanted and what is predicted"));
+    views_[uncertainty]->setAccessibleName(
+        PreviewPage::tr("How far the light may be from what is predicted, by the measurement's noise"));
     views_[contradiction]->setAccessibleName(
         PreviewPage::tr("How much worse a view is because of what the other views ask for"));
     views_[contradiction]->setEmptyText(PreviewPage::tr("Comparing the views"));
@@ -129,10 +130,13 @@ class PreviewStage : public QWidget {
     };
     if (shown_ && index == reachable) values = [of] { return image::Image(of().with.size(), 1, of().reach); };
     if (shown_ && index == difference) values = [of] { return of().deltaE; };
+    if (shown_ && index == uncertainty)
+      values = [of] { return image::Image(of().with.size(), 1, of().uncertainty); };
     if (shown_ && index == contradiction && contradiction_)
       values = [found = contradiction_, camera = camera_] { return found->worse[camera]; };
     if (shown_ && index == picture) values = [of] { return of().with; };
-    static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000", "CIEDE2000"};
+    static constexpr std::array units{"camera signal per second", "of white", "CIEDE2000", "of white",
+                                      "CIEDE2000"};
     return {*views_[index], {values, units[index]}};
   }
   std::size_t shownCamera() const {
@@ -148,8 +152,11 @@ class PreviewStage : public QWidget {
     place_->setWrong(!page_.problem().isEmpty());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
-    offerContradiction();
-    if (preview == shown_ && contradiction_ == page_.contradiction() && (!preview || camera_ == shownCamera()))
+    offer(contradiction, page_.cameras() > 1);
+    // Of an import nothing is known of errors.
+    if (preview) offer(uncertainty, !preview->views.front().uncertainty.empty());
+    if (preview == shown_ && contradiction_ == page_.contradiction() &&
+        (!preview || camera_ == shownCamera()))
       return;
     shown_ = preview;
     contradiction_ = page_.contradiction();
@@ -178,16 +185,27 @@ class PreviewStage : public QWidget {
       return isolated(QString::fromUtf8("%1: ΔE %2")
                           .arg(placeText(pixel.x(), pixel.y()), numberText(static_cast<double>(difference))));
     });
+    showUncertainty(view);
     showContradiction();
   }
 
-  /// Of several views.
-  void offerContradiction() {
-    const bool isOffered = page_.cameras() > 1;
-    kind_->setOffered(contradiction, isOffered);
-    if (isOffered || kind_->current() != contradiction) return;
+  void offer(Shown kind, bool isOffered) {
+    kind_->setOffered(kind, isOffered);
+    if (isOffered || kind_->current() != kind) return;
     kind_->setCurrent(picture);
     Q_EMIT kind_->chosen(picture);
+  }
+  void showUncertainty(const ViewPreview& view) {
+    if (view.uncertainty.empty()) {
+      views_[uncertainty]->setPicture({});
+      return;
+    }
+    const ColourScale scale{ColourMap::viridis, 0.001, 0.2, true};
+    views_[uncertainty]->setScale(scale, PreviewPage::tr("of white"), true);
+    views_[uncertainty]->setPicture(mapped(view.uncertainty, view.with.size(), scale));
+    views_[uncertainty]->setCaption(
+        PreviewPage::tr("95 of 100 pixels come within the value shown, on average %1 of white")
+            .arg(marginText(view.uncertaintyMean)));
   }
   void showContradiction() {
     ImageView* view = views_[contradiction];
@@ -214,12 +232,12 @@ class PreviewStage : public QWidget {
   Card* card_;
   Segmented* kind_;
   CornerView* place_;
-  std::array<ImageView*, 4> views_{};
+  std::array<ImageView*, 5> views_{};
   MethodsCard* methods_;
   QPointer<QWidget> room_;
   std::shared_ptr<const ContentPreview> shown_;
   std::shared_ptr<const compensation::Contradiction> contradiction_;  // of it
-  std::size_t camera_ = 0;  // of it
+  std::size_t camera_ = 0;                                            // of it
 };
 
 }  // namespace

@@ -322,9 +322,45 @@ class TestTarget : public QObject {
       }
       float luminance = 0.0f;
       for (std::size_t c = 0; c < 3; ++c)
-        luminance += image::luminanceWeights[c] * (seen.asked[3 * i + c] + venue.black[3 * i + c]) / seen.white[c];
+        luminance +=
+            image::luminanceWeights[c] * (seen.asked[3 * i + c] + venue.black[3 * i + c]) / seen.white[c];
       QVERIFY(std::abs(seen.weight[i] / (seen.windowsWeight[i] * sensitivity(luminance)) - 1.0f) < 1e-5f);
     }
+  }
+
+  void colourIsHeldAsSaid_data() {
+    QTest::addColumn<Clipping>("clipping");
+    for (Clipping clipping : allValues<Clipping>())
+      QTest::newRow(std::string(nameOf(clipping)).c_str()) << clipping;
+  }
+  /// What can be had stays as it is; of what cannot, the brightest channel that clips is as bright as can be
+  /// by every way, and by hue all are in the proportion that is wanted.
+  void colourIsHeldAsSaid() {
+    QFETCH(Clipping, clipping);
+    const MeasuredVenue venue = venueOf(makeScene({}));
+    TargetSettings settings;
+    settings.reachablePercentile = 60.0;
+    settings.clipping = clipping;
+    const Target target = fitTarget(makeContent(Content::saturated, {40, 30}, 4), venue, settings);
+    int beyond = 0;
+    for (std::size_t i = 0; i < target.inside.size(); ++i) {
+      if (!target.inside[i] || !venue.usable[i]) continue;
+      float kept = 1.0f;
+      std::array<float, 3> light{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        light[c] = std::max(0.0f, target.wanted[3 * i + c] - venue.black[3 * i + c]);
+        if (light[c] > venue.flood[3 * i + c]) kept = std::min(kept, venue.flood[3 * i + c] / light[c]);
+      }
+      beyond += kept < 1.0f ? 1 : 0;
+      const float share = clipping == Clipping::channels ? 1.0f
+                          : clipping == Clipping::half   ? (1.0f + kept) / 2.0f
+                                                         : kept;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float expected = std::min(share * light[c], venue.flood[3 * i + c]);
+        QVERIFY(std::abs(target.asked[3 * i + c] - expected) <= 1e-5f * (1.0f + expected));
+      }
+    }
+    QVERIFY(beyond > 50);
   }
 
   void blackIsLifted() {

@@ -131,7 +131,8 @@ inline const std::vector<std::string>& engineSceneNames() {
   static const std::vector<std::string> names{
       "wall",         "defocus",      "coarse tiles",     "several devices", "several views",
       "single pixel", "holes",        "neighbours share", "several share",   "two views",
-      "weights",      "own pictures", "one asks",         "light",           "weights of light"};
+      "weights",      "own pictures", "one asks",         "light",           "weights of light",
+      "hue",          "hue in half"};
   return names;
 }
 
@@ -145,6 +146,12 @@ inline EngineScene madeEngineScene(const std::string& name) {
   if (name == "light") {
     EngineScene scene = engineScene(venueOf(makeScene({})));
     scene.target = compensation::TargetSettings::ofLight();
+    return scene;
+  }
+  if (name == "hue" || name == "hue in half") {
+    EngineScene scene = engineScene(venueOf(makeScene({})));
+    scene.target.reachablePercentile = 40.0;
+    scene.target.clipping = name == "hue" ? compensation::Clipping::hue : compensation::Clipping::half;
     return scene;
   }
   if (name == "two views" || name == "weights" || name == "own pictures" || name == "one asks" ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How bright white is where, as Preview offers it.
+// How bright white is where, what becomes of colours out of reach, and how certain a prediction is, as
+// Preview offers it.
 #include <QLabel>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -7,6 +8,7 @@
 #include "gui/wizard/simulated_session.h"
 #include "relucent/pipeline/calibrate.h"
 #include "theme/controls.h"
+#include "views/number_text.h"
 #include "wizard/preview/preview_inspector.h"
 #include "wizard/preview/preview_page.h"
 
@@ -34,11 +36,13 @@ class TestWhite : public QObject {
   std::unique_ptr<QWidget> inspector_;
 
   Session& session() { return own_.session; }
-  Segmented* choice() const { return inspector_->findChild<Segmented*>("white"); }
-  QString sentence() const { return inspector_->findChild<QLabel*>("white-sentence")->text(); }
-  void choose(int index) {
+  Segmented* choice(const char* name = "white") const { return inspector_->findChild<Segmented*>(name); }
+  QString sentence(const QString& of = "white") const {
+    return inspector_->findChild<QLabel*>(of + "-sentence")->text();
+  }
+  void choose(int index, const char* name = "white") {
     const auto before = page_->preview();
-    Q_EMIT choice()->chosen(index);
+    Q_EMIT choice(name)->chosen(index);
     QTRY_VERIFY_WITH_TIMEOUT(page_->preview() != before && !page_->isComputing(), patience);
   }
 
@@ -89,6 +93,43 @@ class TestWhite : public QObject {
     choose(0);
     QCOMPARE(page_->preview()->white, even->white);
     QCOMPARE(page_->preview()->sentWith.front(), even->sentWith.front());
+  }
+
+  /// Law: each way of holding colours is a setting of the content and has a sentence of its own; a blue that
+  /// the surface cannot show is sent with less of everything, the more the truer it is to be.
+  void coloursOutOfReachAreDimmed() {
+    QImage blue(64, 48, QImage::Format_RGB32);
+    blue.fill(QColor(90, 90, 255));
+    QVERIFY(blue.save(pictures_.filePath("blue.png")));
+    page_->choosePicture(pictures_.filePath("blue.png"));
+    QTRY_VERIFY_WITH_TIMEOUT(page_->pictureName().contains("blue") && !page_->isComputing(), patience);
+    pipeline::ContentSettings settings = page_->settings();
+    settings.reachablePercentile = 60.0;  // so that most of it is out of reach
+    const auto dim = page_->preview();
+    page_->setSettings(settings);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->preview() != dim && !page_->isComputing(), patience);
+    QVERIFY(page_->preview()->reachableShare < 0.7);
+    QStringList sentences{sentence("clipping")};
+    double brighter = meanOf(page_->preview()->sentWith.front());
+    for (const auto& [index, way] : {std::pair(1, Clipping::half), std::pair(2, Clipping::hue)}) {
+      choose(index, "clipping");
+      QVERIFY(page_->settings().clipping == way);
+      QVERIFY(!sentences.contains(sentence("clipping")));
+      sentences << sentence("clipping");
+      const double dimmer = meanOf(page_->preview()->sentWith.front());
+      QVERIFY2(dimmer < brighter, qPrintable(QString("%1 after %2").arg(dimmer).arg(brighter)));
+      brighter = dimmer;
+    }
+  }
+
+  /// Law: how far off the light may be is known of what was measured, is shown.
+  void uncertaintyIsShown() {
+    const ViewPreview& view = page_->preview()->first();
+    QCOMPARE(view.uncertainty.size(), view.inside.size());
+    QVERIFY(view.uncertaintyMean > 1e-4 && view.uncertaintyMean < 0.2);
+    const auto* row = inspector_->findChild<ValueRow*>("uncertainty");
+    QVERIFY(!row->isHidden());
+    QVERIFY(row->findChildren<QLabel*>().last()->text().contains(marginText(view.uncertaintyMean)));
   }
 
   /// Law: it is kept with the calibration when it is accepted.

@@ -118,6 +118,12 @@ QImage readContent(const QString& file) {
   return encodedFrom(image);
 }
 
+QImage blackOn(const Canvas& canvas) {
+  QImage black(canvas.size, QImage::Format_RGBX8888);
+  black.fill(Qt::black);
+  return black;
+}
+
 QImage onCanvas(const QImage& picture, const Canvas& canvas) {
   require(!picture.isNull() && !canvas.size.isEmpty(), "an empty picture or canvas");
   Qt::AspectRatioMode mode = canvas.fit == compensation::Fit::fill  ? Qt::IgnoreAspectRatio

@@ -25,6 +25,9 @@ QImage readContent(const QString& file);
 /// Contract: neither is empty.
 QImage onCanvas(const QImage& picture, const Canvas& canvas);
 
+/// Format_RGBX8888.
+QImage blackOn(const Canvas& canvas);
+
 /// See compensation::contentIdentity(). `picture`: the file's size. Empty if the file cannot be read.
 std::string identityOf(const QString& file, QSize picture, const Canvas& canvas);
 

@@ -12,7 +12,7 @@ void FrameSlot::put(const QVideoFrame& frame) {
   // The end of a film is an empty frame; its last picture stays.
   if (!frame.isValid()) return;
   QMutexLocker lock(&guard_);
-  newest_ = {frame, nextFrameNumber(), newest_.jpeg};
+  newest_ = {frame, nextFrameNumber(), newest_.jpeg, std::chrono::steady_clock::now()};
   came_.wakeAll();
 }
 

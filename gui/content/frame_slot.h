@@ -4,6 +4,7 @@
 #include <QMutex>
 #include <QVideoFrame>
 #include <QWaitCondition>
+#include <chrono>
 
 #include "content/content_source.h"
 
@@ -26,6 +27,7 @@ class FrameSlot {
     QVideoFrame frame;
     std::uint64_t number = 0;  // 0: none yet
     bool jpeg = false;
+    std::chrono::steady_clock::time_point arrived{};  // when it was put here
   };
   Newest newest() const;
 

@@ -73,15 +73,17 @@ LiveCamera::LiveCamera(const QString& which, const Canvas& canvas) : canvas_(can
                 RELUCENT_MESSAGE("content.connect-capture-device",
                                  "plug it in, close other programs that use it, and try again"));
   }
-  LiveCamera::at({});
+  LiveCamera::newest();  // what cannot be shown is refused now
 }
 
 LiveCamera::~LiveCamera() = default;
 
-ContentPicture LiveCamera::at(ContentTime) {
-  FrameSlot::Newest newest = session_->frames.newest();
-  if (newest.number != picture_.number)
-    picture_ = {onCanvas(pictureOf(newest.frame), canvas_), newest.number};
+ContentPicture LiveCamera::newest() {
+  const FrameSlot::Newest frame = session_->frames.newest();
+  if (frame.number != picture_.number) {
+    picture_ = {onCanvas(pictureOf(frame.frame), canvas_), frame.number};
+    picture_.arrived = frame.arrived;
+  }
   return picture_;
 }
 

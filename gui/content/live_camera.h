@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "content/canvas.h"
-#include "content/content_source.h"
+#include "content/live_source.h"
 
 namespace relucent::gui {
 
 /// The live picture of a capture device: a camera, or a frame grabber. While it delivers nothing its last
 /// picture stays.
-class LiveCamera : public ContentSource {
+class LiveCamera : public LiveSource {
  public:
   /// `which`: the device's name, or a part of it; empty: the first one. Waits for a first picture.
   /// Throws: Error{device} with the available devices if there is no such one, or if it delivers no picture;
@@ -18,8 +18,8 @@ class LiveCamera : public ContentSource {
   LiveCamera(const QString& which, const Canvas& canvas);
   ~LiveCamera() override;
 
-  ContentPicture at(ContentTime) override;
-  std::optional<ContentTime> length() const override { return std::nullopt; }
+ protected:
+  ContentPicture newest() override;
 
  private:
   struct Session;

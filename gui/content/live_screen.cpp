@@ -70,18 +70,16 @@ LiveScreen::LiveScreen(What what, const QString& which, const Canvas& canvas)
 
 LiveScreen::~LiveScreen() = default;
 
-ContentPicture LiveScreen::at(ContentTime) {
+ContentPicture LiveScreen::newest() {
+  const auto arrived = std::chrono::steady_clock::now();
   QImage now = grabber_->grab();
   // What has not changed need not be computed again.
   if (!now.isNull() && now != grabbed_) {
     grabbed_ = std::move(now);
     picture_ = {onCanvas(grabbed_, canvas_), nextFrameNumber()};
+    picture_.arrived = arrived;
   }
-  if (picture_.image.isNull()) {
-    QImage black(canvas_.size, QImage::Format_RGBX8888);
-    black.fill(Qt::black);
-    picture_ = {black, nextFrameNumber()};
-  }
+  if (picture_.image.isNull()) picture_ = {blackOn(canvas_), nextFrameNumber()};
   return picture_;
 }
 

@@ -4,14 +4,14 @@
 #include <memory>
 
 #include "content/canvas.h"
-#include "content/content_source.h"
+#include "content/live_source.h"
 
 namespace relucent::gui {
 
 /// The live picture of one of the desktop's screens, or of a window, through the X server: its present
 /// contents, without the pointer. Covered parts of a window are missing. While the screen or window does not
 /// exist its last picture stays.
-class LiveScreen : public ContentSource {
+class LiveScreen : public LiveSource {
  public:
   enum class What {
     screen,  // by its connector: HDMI-1
@@ -22,8 +22,8 @@ class LiveScreen : public ContentSource {
   LiveScreen(What what, const QString& which, const Canvas& canvas);
   ~LiveScreen() override;
 
-  ContentPicture at(ContentTime) override;
-  std::optional<ContentTime> length() const override { return std::nullopt; }
+ protected:
+  ContentPicture newest() override;
 
  private:
   class Grabber;

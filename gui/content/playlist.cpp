@@ -10,6 +10,7 @@
 #include "content/image_sequence.h"
 #include "content/live_camera.h"
 #include "content/live_screen.h"
+#include "content/live_stream.h"
 #include "content/still_image.h"
 #include "content/test_chart.h"
 #include "content/video.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t mostSentences = 100;
 constexpr ContentTime betweenTries{1'000'000};
+constexpr ContentTime livePatience{10'000'000};
 
 std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canvas) {
   if (std::optional<TestChart> chart = testChartFromName(name))
@@ -50,6 +52,8 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
       return std::make_unique<LiveScreen>(LiveScreen::What::window, address.which, canvas);
     case ContentAddress::Kind::camera:
       return std::make_unique<LiveCamera>(address.which, canvas);
+    case ContentAddress::Kind::stream:
+      return std::make_unique<LiveStream>(streamAddressFrom(address.which), canvas);
     case ContentAddress::Kind::file:
       break;
   }
@@ -94,24 +98,42 @@ void Playlist::openNext(qsizetype after) {
 }
 
 void Playlist::open(qsizetype index) {
+  opened_ = {};
   openingIndex_ = index;
   opening_ = startedInBackground([item = settings_.items[index], canvas = canvas_] {
     return std::shared_ptr<ContentSource>(openContent(item, canvas));
   });
 }
 
+void Playlist::skip(const Message& sentence) {
+  const bool isNew = std::find(skipped_.begin(), skipped_.end(), sentence) == skipped_.end();
+  if (isNew && skipped_.size() < mostSentences) skipped_.push_back(sentence);
+  openNext(openingIndex_);
+}
+
 bool Playlist::nextIsReady(ContentTime now) {
   if (next_.source) return true;
-  if (ended_ || !opening_.isFinished()) return false;
-  try {
-    next_ = {openingIndex_, resultOf(opening_), now};
-    return true;
-  } catch (const Error& error) {
-    const Message sentence = error.sentence();
-    const bool isNew = std::find(skipped_.begin(), skipped_.end(), sentence) == skipped_.end();
-    if (isNew && skipped_.size() < mostSentences) skipped_.push_back(sentence);
+  if (!opened_.source) {
+    if (ended_ || !opening_.isFinished()) return false;
+    try {
+      opened_ = {openingIndex_, resultOf(opening_), now};
+    } catch (const Error& error) {
+      skip(error.sentence());
+      return false;
+    }
   }
-  openNext(openingIndex_);
+  // Where nothing plays, black is as good as anything until it comes.
+  if (opened_.source->isReady() || !current_.source) {
+    next_ = std::exchange(opened_, {});
+    next_.begin = now;
+    return true;
+  }
+  if (now < opened_.begin + livePatience) return false;
+  const std::optional<LiveState> live = opened_.source->live();
+  Message problem = RELUCENT_MESSAGE("stream.not-yet", "it has given no picture yet");
+  if (live && !live->problem.empty()) problem = live->problem;
+  skip(RELUCENT_MESSAGE("stream.not-ready", "{}: {}")
+           .with(live ? live->address.toStdString() : std::string(), problem));
   return false;
 }
 
@@ -121,7 +143,8 @@ void Playlist::begin(ContentTime now) {
   opening_.waitForFinished();
   current_ = {};
   ended_ = false;
-  openNext(-1);
+  // What the constructor opens, not once more: some cameras have one visitor at a time.
+  if (!std::exchange(isFresh_, false)) openNext(-1);
   // The first picture is worth waiting for.
   for (qsizetype tried = 0; tried < settings_.items.size() && !ended_; ++tried) {
     opening_.waitForFinished();
@@ -143,7 +166,10 @@ ContentPicture Playlist::frameOf(const Playing& item, ContentTime time) {
 
 Playlist::Status Playlist::status() const {
   QMutexLocker lock(&statusGuard_);
-  return status_;
+  Status status = status_;
+  for (const auto& source : live_)
+    if (const std::optional<LiveState> live = source->live()) status.live.push_back(*live);
+  return status;
 }
 
 void Playlist::playItem(qsizetype index) {
@@ -163,8 +189,12 @@ void Playlist::openWanted() {
 
 ContentPicture Playlist::at(ContentTime time) {
   ContentPicture picture = pictureAt(time);
+  std::vector<std::shared_ptr<ContentSource>> live;
+  for (const auto& source : {current_.source, next_.source, opened_.source})
+    if (source && source->live()) live.push_back(source);
   QMutexLocker lock(&statusGuard_);
   status_ = {current_.index, skipped_};
+  live_.swap(live);  // those of before go after the lock
   return picture;
 }
 

@@ -47,7 +47,7 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
 
 /// Plays items one after the other, with cross-fades, in a loop. The next item is opened on another thread as
 /// soon as one begins; if it is not ready in time, the present one stays longer. Unreadable items are
-/// reported, skipped, and tried again in the next round.
+/// reported, skipped, and tried again in the next round; so are streams that give no picture in time.
 class Playlist : public ContentSource {
  public:
   /// Throws: Error{input} for wrong settings.
@@ -62,6 +62,7 @@ class Playlist : public ContentSource {
     qsizetype playing = -1;  // which item; -1 before the first
     std::vector<Message>
         skipped;  // the items that could not be read so far, one sentence each, the newest last
+    std::vector<LiveState> live{};  // what may be lost: of the playing item, and of the next one
   };
   /// Another item, from 0, with the usual fade as soon as it is ready. May be called from any thread.
   /// Contract: it is one of the list's.
@@ -85,6 +86,7 @@ class Playlist : public ContentSource {
   void open(qsizetype index);
   void openWanted();
   bool nextIsReady(ContentTime now);
+  void skip(const Message& sentence);
   ContentPicture frameOf(const Playing& item, ContentTime time);
 
   PlaylistSettings settings_;
@@ -92,14 +94,17 @@ class Playlist : public ContentSource {
   Playing current_, next_;
   QFuture<Outcome<std::shared_ptr<ContentSource>>> opening_;
   qsizetype openingIndex_ = -1;
+  Playing opened_;      // and not ready to be the next one
   bool jumps_ = false;  // the next one need not wait for the present one's end
   bool ended_ = false;
+  bool isFresh_ = true;  // it has not begun
   ContentTime last_{0};
   ContentTime tryAgain_{0};  // after nothing could be read
   std::vector<Message> skipped_;
   mutable QMutex statusGuard_;
   Status status_;
-  std::optional<qsizetype> wanted_;  // of playItem(), guarded too
+  std::vector<std::shared_ptr<ContentSource>> live_;  // of status_, guarded too
+  std::optional<qsizetype> wanted_;                   // of playItem(), guarded too
 };
 
 }  // namespace relucent::gui

@@ -44,11 +44,11 @@ std::vector<Message> problems(const PlaylistSettings& settings) {
       found.push_back(
           RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
                                    "{}: a picture is shown for more than 0 seconds and at most a day")
-              .with(item.path.toStdString()));
+              .with(shownPath(item.path).toStdString()));
     if (!(item.picturesPerSecond > 0.0 && item.picturesPerSecond <= 240.0))
       found.push_back(RELUCENT_ENGLISH_MESSAGE("content.film-too-fast",
                                                "{}: a film has more than 0 and at most 240 pictures a second")
-                          .with(item.path.toStdString()));
+                          .with(shownPath(item.path).toStdString()));
   }
   return found;
 }

@@ -89,7 +89,7 @@ void OutputPlaylist::save() const {
 
 QString OutputPlaylist::nameOf(const PlaylistItem& item) {
   if (item.path == defaultPicture()) return tr("Demonstration picture");
-  if (addressOf(item.path).kind != ContentAddress::Kind::file) return item.path;
+  if (addressOf(item.path).kind != ContentAddress::Kind::file) return shownPath(item.path);
   return QFileInfo(item.path).fileName();
 }
 

@@ -202,6 +202,10 @@ std::vector<Message> OutputProjection::skipped() const {
   return isOpen() && content_ ? content_->status().skipped : std::vector<Message>();
 }
 
+std::vector<LiveState> OutputProjection::live() const {
+  return isOpen() && content_ ? content_->status().live : std::vector<LiveState>();
+}
+
 QImage OutputProjection::onProjector(std::size_t projector) const {
   if (!player_) return {};
   QImage drive = tap_->get(projector).image();

@@ -72,6 +72,8 @@ class OutputProjection : public QObject {
   qsizetype playing() const;
   /// What of the list could not be read, the newest last.
   std::vector<Message> skipped() const;
+  /// What of it may be lost and come back, and how that is.
+  std::vector<LiveState> live() const;
 
   /// What a projector shows now, as far as this program knows; null while it is closed.
   QImage onProjector(std::size_t projector = 0) const;

@@ -31,6 +31,8 @@ QStringList overlayLines(const OverlayState& state) {
                           : Overlay::tr("not compensated")};
   if (now.viewerSeconds > 0.0)
     lines.append(Overlay::tr("follows a viewer within %1 ms").arg(number(1e3 * now.viewerSeconds)));
+  if (now.liveSeconds > 0.0)
+    lines.append(Overlay::tr("live picture within %1 ms of its arrival").arg(number(1e3 * now.liveSeconds)));
   if (state.frozen) lines.append(Overlay::tr("frozen"));
   if (state.chart) lines.append(Overlay::tr("test chart: %1").arg(testChartName(*state.chart)));
   return lines;

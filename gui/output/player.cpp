@@ -22,6 +22,10 @@ ContentTime microseconds(const QElapsedTimer& timer) {
   return std::chrono::duration_cast<ContentTime>(std::chrono::nanoseconds(timer.nsecsElapsed()));
 }
 
+double secondsSince(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
 /// The shortest time between two pictures that any of the displays shows.
 double refreshSeconds(const std::vector<ProjectorWindow*>& windows) {
   double rate = 60.0;
@@ -109,7 +113,8 @@ void Player::beginFrame() {
     RenderRequest wanted = request;
     wanted.thorough = rests;
     Outdated outdated = [&] { return content->at(clock.time()).number != picture.number; };
-    return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted, outdated)};
+    return {picture.number, same ? last.since : time, wanted, renderer->render(picture, wanted, outdated),
+            picture.arrived};
   }));
 }
 
@@ -118,6 +123,7 @@ void Player::frameReady() {
   try {
     Frame frame = resultOf(working_.future());
     bool fresh = frame.content != last_.content || frame.request != last_.request || !last_.rendered.settled;
+    const bool isNew = frame.content != last_.content;
     last_ = std::move(frame);
     if (fresh) {
       ++frames_;
@@ -126,7 +132,8 @@ void Player::frameReady() {
       present();
       const ContentTime now = microseconds(running_);
       const double waited = following_ ? 1e-6 * static_cast<double>((now - *following_).count()) : 0.0;
-      recent_.push_back({now, last_.rendered.seconds, last_.content, waited});
+      const double live = isNew && last_.arrived ? secondsSince(*last_.arrived) : 0.0;
+      recent_.push_back({now, last_.rendered.seconds, last_.content, waited, live});
       while (recent_.size() > mostRecent) recent_.pop_front();
     }
   } catch (const Error& error) {
@@ -168,6 +175,7 @@ PlayerStatistics Player::statistics() const {
     if (static_cast<double>((now - frame.when).count()) > 1e6 * windowSeconds) continue;
     seconds += frame.seconds;
     result.viewerSeconds = std::max(result.viewerSeconds, frame.viewerSeconds);
+    result.liveSeconds = std::max(result.liveSeconds, frame.liveSeconds);
     ++count;
     changes += before != nullptr && before->content != frame.content;
     before = &frame;

@@ -89,6 +89,7 @@ class Player : public QObject {
     ContentTime since{0};  // that the content stands
     RenderRequest request;
     RenderedFrame rendered;
+    std::optional<std::chrono::steady_clock::time_point> arrived{};  // of a live picture
   };
   /// A frame passed to the windows.
   struct Shown {
@@ -96,6 +97,7 @@ class Player : public QObject {
     double seconds = 0.0;
     std::uint64_t content = 0;
     double viewerSeconds = 0.0;  // since the first move that it follows; 0: nobody has moved
+    double liveSeconds = 0.0;    // since it arrived; 0: it is no new live picture
   };
 
   void next();

@@ -17,6 +17,8 @@ struct PlayerStatistics {
   // with their next refresh; 0: nobody has moved.
   double viewerSeconds = 0.0;
   bool perfected = false;  // the last frame is a picture that photographs of it corrected
+  // The longest from a live picture's arrival at this computer until windows had it; 0: none plays.
+  double liveSeconds = 0.0;
 };
 
 }  // namespace relucent::gui

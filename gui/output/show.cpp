@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::chrono::seconds noticed{1};  // of sleep
 constexpr int healthInterval = 10'000;      // milliseconds
+constexpr int streamsInterval = 1'000;
 constexpr int shortestPause = 1'000;        // before it is tried again, doubled with every failure ...
 constexpr int longestPause = 60'000;        // ... up to here
 constexpr int forgivenAfter = 10 * 60'000;  // of playing without one
@@ -67,6 +68,8 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
   for (const QString& problem : awake_.problems()) log_.warn(problem);
   health_.setInterval(healthInterval);
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
+  streamsLooked_.setInterval(streamsInterval);
+  connect(&streamsLooked_, &QTimer::timeout, this, &Show::tellStreams);
   again_.setSingleShot(true);
   connect(&again_, &QTimer::timeout, this, [this] {
     // Displays of projectors that are to be off are not missed, and those that are photographed are not free.
@@ -193,6 +196,16 @@ void Show::tellWatch() {
                        !player_->isBlack() && !player_->hasOverlay());
 }
 
+void Show::tellStreams() {
+  if (!content_) return;
+  const auto news = streams_.news(content_->status().live, std::chrono::steady_clock::now());
+  for (const auto& [sentence, isWarning] : news) {
+    const QString line = QString::fromStdString(english(sentence));
+    isWarning ? log_.warn(line) : log_.tell(line);
+  }
+  if (!news.empty()) writeHealth(state_);
+}
+
 void Show::tellProjectors() {
   if (projectors_) projectors_->want(wishes());
 }
@@ -203,6 +216,7 @@ void Show::wakeDisplays() {
 
 void Show::start() {
   health_.start();
+  streamsLooked_.start();
   if (!player_) return;  // it begins once it can be opened
   wakeDisplays();
   for (const auto& window : windows_) window->shine();
@@ -260,6 +274,7 @@ void Show::stop() {
   photographs_.cancel();
   again_.stop();
   health_.stop();
+  streamsLooked_.stop();
   if (player_) player_->stop();
   for (const auto& window : windows_) window->stop();
   if (state_ == ShowState::stopped) return;
@@ -531,6 +546,10 @@ QJsonObject Show::health() const {
   if (nights_ && !nights_->alarm().empty())
     health["alarm"] = QString::fromStdString(englishSentence(nights_->alarm()));
   if (watch_) health["watch"] = toJson(watch_->status());
+  if (!content.live.empty()) {
+    health["streams"] = toJson(content.live);
+    health["live_milliseconds"] = 1e3 * statistics.liveSeconds;
+  }
   if (projectors_) health["projectors"] = toJson(projectors_->states());
   return health;
 }

@@ -16,6 +16,7 @@
 #include "output/show_photography.h"
 #include "output/show_projectors.h"
 #include "output/show_settings.h"
+#include "output/show_streams.h"
 #include "output/show_watch.h"
 #include "relucent/base/message.h"
 #include "remote/remote_control.h"
@@ -103,6 +104,7 @@ class Show : public QObject, private RemoteActions {
   void takeUp(bool whole);
   void beginWatch(std::unique_ptr<WatchSource> source);
   void tellWatch();
+  void tellStreams();
   void photographed(const QString& work, const QString& verdict, const QString& sentence);
 
   ShowSettings settings_;
@@ -115,7 +117,7 @@ class Show : public QObject, private RemoteActions {
   std::shared_ptr<Playlist> content_;
   std::unique_ptr<Player> player_;
   QString renderer_;
-  QTimer health_, again_;
+  QTimer health_, again_, streamsLooked_;
   int failures_ = 0;
   qsizetype toldSkipped_ = 0;
   ShowState state_ = ShowState::starting;
@@ -131,6 +133,7 @@ class Show : public QObject, private RemoteActions {
   std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
   std::shared_ptr<PlayedTap> played_;
   std::unique_ptr<ShowWatch> watch_;  // nullptr: nobody watches
+  StreamTeller streams_;
 };
 
 }  // namespace relucent::gui

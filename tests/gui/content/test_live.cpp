@@ -50,6 +50,9 @@ class TestLive : public QObject {
 
   const QSize size_{301, 203};
   Canvas canvas() const { return {size_, Fit::fill}; }
+  ContentTime time_{0};
+  /// A show whose time goes on.
+  ContentTime next() { return time_ += std::chrono::milliseconds(1); }
 
  private slots:
   void cleanup() {
@@ -62,22 +65,35 @@ class TestLive : public QObject {
     window.setGeometry(screenOn("DUMMY1")->geometry());
     window.QWindow::show();
     LiveScreen live(LiveScreen::What::screen, "DUMMY1", {picture.size(), Fit::fill});
-    QTRY_VERIFY(rgb(live.at({})) == picture);
-    std::uint64_t number = live.at({}).number;
-    QCOMPARE(live.at({}).number, number);  // nothing has changed
+    QTRY_VERIFY(rgb(live.at(next())) == picture);
+    std::uint64_t number = live.at(next()).number;
+    QCOMPARE(live.at(next()).number, number);  // nothing has changed
     picture = noise(picture.size(), 2);
     window.show(picture);
-    QTRY_VERIFY(rgb(live.at({})) == picture);
-    QVERIFY(live.at({}).number != number);
+    QTRY_VERIFY(rgb(live.at(next())) == picture);
+    QVERIFY(live.at(next()).number != number);
+  }
+
+  void standsWhileTimeStands() {
+    const QImage before = noise(screenOn("DUMMY1")->size(), 1), after = noise(before.size(), 2);
+    Shown window(before);
+    window.setGeometry(screenOn("DUMMY1")->geometry());
+    window.QWindow::show();
+    LiveScreen live(LiveScreen::What::screen, "DUMMY1", {before.size(), Fit::fill});
+    QTRY_VERIFY(rgb(live.at(next())) == before);
+    window.show(after);
+    QTRY_VERIFY(seenOn("DUMMY1") == after);
+    QVERIFY(rgb(live.at(time_)) == before);
+    QVERIFY(rgb(live.at(next())) == after);
   }
 
   void anUnpluggedScreenLeavesItsLastPicture() {
     LiveScreen live(LiveScreen::What::screen, "DUMMY1", canvas());
-    QImage before = live.at({}).image;
+    QImage before = live.at(next()).image;
     unplug();
-    QVERIFY(live.at({}).image == before);
+    QVERIFY(live.at(next()).image == before);
     plug();
-    QCOMPARE(live.at({}).image.size(), size_);
+    QCOMPARE(live.at(next()).image.size(), size_);
   }
 
   void aWindowIsFoundByItsTitleOrNumber_data() {
@@ -94,9 +110,9 @@ class TestLive : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(window.get()));
     QString which = byNumber ? QString("0x%1").arg(window->winId(), 0, 16) : "slides OF";
     LiveScreen live(LiveScreen::What::window, which, canvas());
-    QTRY_VERIFY(rgb(live.at({})) == picture);
+    QTRY_VERIFY(rgb(live.at(next())) == picture);
     window.reset();
-    QVERIFY(rgb(live.at({})) == picture);  // its last one
+    QVERIFY(rgb(live.at(next())) == picture);  // its last one
   }
 
   void whatIsNotThereIsNamed() {
@@ -128,9 +144,9 @@ class TestLive : public QObject {
     chooseMediaBackend();
     if (QMediaDevices::videoInputs().isEmpty()) QSKIP("this machine has no capture device");
     LiveCamera live("", canvas());
-    QCOMPARE(live.at({}).image.size(), size_);
-    std::uint64_t first = live.at({}).number;
-    QTRY_VERIFY(live.at({}).number != first);
+    QCOMPARE(live.at(next()).image.size(), size_);
+    std::uint64_t first = live.at(next()).number;
+    QTRY_VERIFY(live.at(next()).number != first);
   }
 };
 

@@ -126,12 +126,14 @@ class TestOutputPlaylist : public QObject {
     QTest::newRow("film") << "/a/b.mp4" << false;
     QTest::newRow("folder of pictures") << QDir::tempPath() << false;
     QTest::newRow("camera") << "camera:USB" << false;
+    QTest::newRow("stream") << "stream:http://user:secret@camera/picture.jpg" << false;
   }
   void stillsAreTold() {
     QFETCH(QString, path);
     QFETCH(bool, still);
     QCOMPARE(OutputPlaylist::isStill({path}), still);
     QVERIFY(!OutputPlaylist::nameOf({path}).isEmpty());
+    QVERIFY(!OutputPlaylist::nameOf({path}).contains("secret"));
   }
 };
 

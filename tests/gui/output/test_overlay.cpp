@@ -32,6 +32,14 @@ class TestOverlay : public QObject {
     QVERIFY2(text.contains("viewer within 42.1 ms"), qPrintable(text));
   }
 
+  void tellsHowOldALivePictureIs() {
+    PlayerStatistics now;
+    QVERIFY(!overlayLines({now, true, false, std::nullopt}).join('\n').contains("live"));
+    now.liveSeconds = 0.0333;
+    const QString text = overlayLines({now, true, false, std::nullopt}).join('\n');
+    QVERIFY2(text.contains("live picture within 33.3 ms"), qPrintable(text));
+  }
+
   void tellsWhatWasSwitched() {
     QString text = overlayLines({{}, false, true, TestChart::ramps}).join('\n');
     QVERIFY(text.contains("not compensated") && text.contains("frozen") && text.contains("ramps"));

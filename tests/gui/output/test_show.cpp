@@ -11,6 +11,7 @@
 
 #include "gui/output/scripted_renderer.h"
 #include "gui/output/two_screens.h"
+#include "support/stream_sender.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -125,6 +126,32 @@ class TestShow : public QObject {
     QVERIFY(health()["watch"].toObject()["problem"].toString().contains("names no camera"));
     QCOMPARE(log().count("nobody watches the show: the calibration names no camera"), 1);
     QCOMPARE(health()["state"].toString(), QString("playing"));
+  }
+
+  /// A password that somebody wrote into a list stays there.
+  void aStreamIsWatchedAndItsPasswordKept() {
+    test::HttpSender sender;
+    const QString place = QString("127.0.0.1:%1").arg(sender.port());
+    auto show = showOf(settings({"stream:http://user:secret@" + place + "/mjpeg?key=secret"}));
+    show->start();
+    const auto stream = [this] { return health()["streams"].toArray().at(0).toObject(); };
+    QTRY_COMPARE(stream()["state"].toString(), QString("playing"));
+    QCOMPARE(stream()["size"].toString(), QString("64x48"));
+    QTRY_VERIFY(show->player().statistics().liveSeconds > 0.0);
+    QVERIFY(show->player().statistics().liveSeconds < 5.0);
+    show->look();
+    QVERIFY(health()["live_milliseconds"].toDouble() > 0.0);
+    sender.stop();
+    QTRY_COMPARE(stream()["state"].toString(), QString("lost"));
+    QVERIFY(sender.start());
+    QTRY_COMPARE_WITH_TIMEOUT(stream()["state"].toString(), QString("playing"), 10'000);
+    show->stop();
+    QFile file(folder_->filePath("log/health.json"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QString all = log() + QString::fromUtf8(file.readAll());
+    for (const char* line : {"connecting to http://", "plays, 64x48", "is lost: ", "is back after"})
+      QCOMPARE(log().count(line), 1);
+    QVERIFY(all.contains(place) && !all.contains("secret"));
   }
 
   void whatTheRendererSaysStandsInTheLog() {

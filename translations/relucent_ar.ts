@@ -240,6 +240,10 @@
         <source>perfected by photographs</source>
         <translation>حُسِّنت بالصور</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>الصورة الحية خلال %1 مللي ثانية من وصولها</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5821,6 +5825,30 @@ projector %2</source>
         <source>Takes the repair back.</source>
         <translation>يتراجع عن الإصلاح.</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>من الوصول إلى الضوء</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>من وصول الصورة الحية إلى هذا الحاسوب حتى تكون لدى أجهزة العرض: أطول مدة في الثواني الخمس الأخيرة. الطريق إلى هنا غير محسوب.</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>جارٍ الاتصال بـ %1</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>فُقد: %1. %2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>إضافة بث</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>صورة حية من الشبكة، كما ترسلها الكاميرات وأجهزة الترميز.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6813,6 +6841,26 @@ projector %2</source>
         <source>What to do</source>
         <translation>ما العمل</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>تأخر الصورة الحية (م‌ث)</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>عمليات البث</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>مرات الانقطاع</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>بكسلات</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>الزمن من المرسل بحسب ساعته (م‌ث)</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6964,6 +7012,45 @@ projector %2</source>
     <message>
         <source>doubtful</source>
         <translation>مشكوك فيه</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>إضافة بث</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>صورة حية من الشبكة دون صوتها: RTSP أو SRT أو RTP أو UDP أو HTTP أو RTMP. أثناء تشغيلها يكون هذا الحاسوب متصلًا بذلك العنوان.</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>العنوان</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>يُكتب اسم المستخدم وكلمة المرور قبل المضيف، كما في ⁨rtsp://user:password@host⁩. يُحفظان في قائمة التشغيل ولا يُعرضان في أي مكان.</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>أثناء انقطاعه</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>صورته الأخيرة</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>أسود</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>إضافة</translation>
     </message>
 </context>
 <context>
@@ -8863,6 +8950,195 @@ projector %2</source>
     <message>
         <source>Writing the results</source>
         <translation>كتابة النتائج</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>في عنوان البث ينقص المضيف أو المنفذ أو أحدهما خاطئ</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>تحقق من الاسم في العنوان، أو اكتب الرقم</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>تحقق من الشبكة والعنوان</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>تحقق مما يلي المضيف في العنوان</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>تحقق من المرسل والشبكة والعنوان</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>لقد انتهى</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>لم يُعثر على مضيفه</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>لا توجد ذاكرة كافية لصوره</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>لا يوجد شيء في مساره</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>لم يعطِ أي صورة بعد</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>رُفض الاتصال</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>اجعله يُرسل بصيغة H.264 أو Motion JPEG</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>لم تصل أي صورة خلال {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>لم تصل أي صورة منذ {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>شغّل المرسل وتحقق من المنفذ</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>شغّل المرسل من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>ينتهي عنوان البث بخيار غير معروف</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>هذا ليس عنوان بث</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>لا يمكن الوصول إلى مضيفه</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>تتعذر قراءته ({})</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>ما يصل ليس فيديو يمكن عرضه</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>يطلب اسم مستخدم وكلمة مرور آخرين</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>اكتبه مثل {}، وفي أسماء المستخدمين وكلمات المرور اكتب % ورقمين بدل علامات مثل @ و : و /</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>اكتب #hold=last أو #hold=black</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>اكتبهما في العنوان قبل المضيف: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>اجعله يبدأ بأحد هذه: {}</translation>
     </message>
 </context>
 <context>

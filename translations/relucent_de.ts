@@ -236,6 +236,10 @@
         <source>perfected by photographs</source>
         <translation>durch Fotos perfektioniert</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>Live-Bild binnen %1 ms nach seiner Ankunft</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5681,6 +5685,30 @@ Projektor %2</translation>
         <source>Takes the repair back.</source>
         <translation>Nimmt die Reparatur zurück.</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>Ankunft bis Licht</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>Von der Ankunft eines Live-Bildes an diesem Rechner, bis die Projektoren es haben: die längste Zeit der letzten fünf Sekunden. Der Weg hierher ist nicht darin.</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>Verbindung mit %1 wird aufgebaut</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>Verloren: %1. %2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>Stream hinzufügen</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>Ein Live-Bild aus dem Netz, wie Kameras und Encoder es senden.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6661,6 +6689,26 @@ Projektor %2</translation>
         <source>What to do</source>
         <translation>Was zu tun ist</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>Verzögerung des Live-Bildes (ms)</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>Streams</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>Verluste</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>Zeit vom Sender, nach dessen Uhr (ms)</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6796,6 +6844,45 @@ Projektor %2</translation>
     <message>
         <source>doubtful</source>
         <translation>zweifelhaft</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>Stream hinzufügen</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>Ein Live-Bild aus dem Netz, ohne seinen Ton: RTSP, SRT, RTP, UDP, HTTP oder RTMP. Solange es spielt, ist dieser Rechner mit der Adresse verbunden.</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>Benutzername und Kennwort stehen vor dem Host, wie in rtsp://user:password@host. Sie werden in der Playlist aufbewahrt und nirgends angezeigt.</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>Solange er verloren ist</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>Sein letztes Bild</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Schwarz</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
     </message>
 </context>
 <context>
@@ -8659,6 +8746,195 @@ Projektor %2</translation>
     <message>
         <source>Writing the results</source>
         <translation>Schreiben der Ergebnisse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>in der Adresse des Streams fehlt der Host oder sein Port, oder einer von beiden ist falsch</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>prüfen Sie den Namen in der Adresse, oder schreiben Sie die Nummer</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>prüfen Sie Netz und Adresse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>prüfen Sie, was in der Adresse hinter dem Host steht</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>prüfen Sie Sender, Netz und Adresse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>er ist zu Ende</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>sein Host wird nicht gefunden</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>für seine Bilder reicht der Speicher nicht</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>unter seinem Pfad ist nichts</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>er hat noch kein Bild geliefert</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>die Verbindung wurde abgelehnt</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>lassen Sie ihn als H.264 oder Motion JPEG senden</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>binnen {} s kam kein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>seit {} s kam kein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>starten Sie den Sender, und prüfen Sie den Port</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>starten Sie den Sender erneut</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>die Adresse des Streams endet mit einer unbekannten Wahl</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>das ist keine Adresse eines Streams</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>sein Host ist nicht erreichbar</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>er kann nicht gelesen werden ({})</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>was kommt, ist kein Video, das gezeigt werden kann</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>er verlangt einen anderen Benutzernamen und ein anderes Kennwort</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>schreiben Sie sie wie {}, und in Benutzernamen und Kennwörtern % und zwei Ziffern für Zeichen wie @, : und /</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>schreiben Sie #hold=last oder #hold=black</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>schreiben Sie sie in der Adresse vor den Host: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>lassen Sie sie mit einem von diesen beginnen: {}</translation>
     </message>
 </context>
 <context>

@@ -236,6 +236,10 @@
         <source>perfected by photographs</source>
         <translation>perfectionnée par des photos</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>image en direct à %1 ms de son arrivée</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5681,6 +5685,30 @@ projecteur %2</translation>
         <source>Takes the repair back.</source>
         <translation>Annule la réparation.</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>de l’arrivée à la lumière</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>De l’arrivée d’une image en direct sur cet ordinateur jusqu’à ce que les projecteurs l’aient : le maximum des cinq dernières secondes. Le trajet jusqu’ici n’est pas compris.</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>Connexion à %1</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>Perdu : %1. %2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>Ajouter un flux</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>Une image en direct du réseau, comme l’envoient caméras et encodeurs.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6661,6 +6689,26 @@ projecteur %2</translation>
         <source>What to do</source>
         <translation>Ce qu’il faut faire</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>Retard de l’image en direct (ms)</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>Flux</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>Pertes</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixels</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>Temps depuis l’émetteur, selon son horloge (ms)</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6796,6 +6844,45 @@ projecteur %2</translation>
     <message>
         <source>doubtful</source>
         <translation>douteux</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>Ajouter un flux</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>Une image en direct du réseau, sans le son : RTSP, SRT, RTP, UDP, HTTP ou RTMP. Pendant la lecture, cet ordinateur est connecté à cette adresse.</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Adresse</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>Le nom d’utilisateur et le mot de passe précèdent l’hôte, comme dans rtsp://user:password@host. Ils sont conservés dans la liste de lecture et ne s’affichent nulle part.</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>Pendant qu’il est perdu</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>Sa dernière image</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Noir</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Ajouter</translation>
     </message>
 </context>
 <context>
@@ -8659,6 +8746,195 @@ projecteur %2</translation>
     <message>
         <source>Writing the results</source>
         <translation>Écriture des résultats</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>dans l’adresse du flux, l’hôte ou son port manque ou est faux</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>vérifiez le nom dans l’adresse, ou écrivez le numéro</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>vérifiez le réseau et l’adresse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>vérifiez ce qui suit l’hôte dans l’adresse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>vérifiez l’émetteur, le réseau et l’adresse</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>il est terminé</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>son hôte est introuvable</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>la mémoire ne suffit pas pour ses images</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>il n’y a rien à son chemin</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{} : {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>il n’a encore donné aucune image</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>la connexion a été refusée</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>faites-le envoyer en H.264 ou Motion JPEG</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>aucune image n’est arrivée en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>aucune image n’est arrivée depuis {} s</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>démarrez l’émetteur et vérifiez le port</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>redémarrez l’émetteur</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>l’adresse du flux se termine par un choix inconnu</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>ce n’est pas l’adresse d’un flux</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>son hôte est injoignable</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>il ne peut pas être lu ({})</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>ce qui arrive n’est pas une vidéo qui puisse être montrée</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>il demande un autre nom d’utilisateur et un autre mot de passe</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>écrivez-la comme {}, et dans les noms d’utilisateur et mots de passe % et deux chiffres pour des signes comme @, : et /</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>écrivez #hold=last ou #hold=black</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>écrivez-les dans l’adresse avant l’hôte : {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>faites-la commencer par l’un de : {}</translation>
     </message>
 </context>
 <context>

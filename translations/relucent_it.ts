@@ -236,6 +236,10 @@
         <source>perfected by photographs</source>
         <translation>perfezionata con fotografie</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>immagine dal vivo entro %1 ms dall’arrivo</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5681,6 +5685,30 @@ proiettore %2</translation>
         <source>Takes the repair back.</source>
         <translation>Annulla la riparazione.</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>dall’arrivo alla luce</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>Dall’arrivo di un’immagine dal vivo a questo computer finché i proiettori la ricevono: il massimo degli ultimi cinque secondi. Il percorso fin qui non è compreso.</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>Connessione a %1</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>Perso: %1. %2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>Aggiungi un flusso</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>Un’immagine dal vivo dalla rete, come la inviano telecamere e codificatori.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6661,6 +6689,26 @@ proiettore %2</translation>
         <source>What to do</source>
         <translation>Che cosa fare</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>Ritardo dell’immagine dal vivo (ms)</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>Flussi</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>Interruzioni</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>Tempo dal mittente, secondo il suo orologio (ms)</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6796,6 +6844,45 @@ proiettore %2</translation>
     <message>
         <source>doubtful</source>
         <translation>dubbio</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>Aggiungi un flusso</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>Un’immagine dal vivo dalla rete, senza audio: RTSP, SRT, RTP, UDP, HTTP o RTMP. Durante la riproduzione questo computer è connesso a quell’indirizzo.</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>Indirizzo</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>Nome utente e password stanno prima dell’host, come in rtsp://user:password@host. Restano nella playlist e non vengono mostrati da nessuna parte.</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>Mentre è interrotto</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>La sua ultima immagine</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>Nero</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Aggiungi</translation>
     </message>
 </context>
 <context>
@@ -8659,6 +8746,195 @@ proiettore %2</translation>
     <message>
         <source>Writing the results</source>
         <translation>Scrittura dei risultati</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>nell’indirizzo del flusso l’host o la sua porta mancano o sono errati</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>controllare il nome nell’indirizzo o scrivere il numero</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>controllare la rete e l’indirizzo</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>controllare che cosa segue l’host nell’indirizzo</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>controllare il mittente, la rete e l’indirizzo</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>è terminato</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>il suo host non si trova</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>la memoria non basta per le sue immagini</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>non c’è nulla al suo percorso</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>non ha ancora dato alcuna immagine</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>la connessione è stata rifiutata</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>farlo inviare come H.264 o Motion JPEG</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>nessuna immagine è arrivata entro {} s</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>nessuna immagine è arrivata da {} s</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>avviare il mittente e controllare la porta</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>riavviare il mittente</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>l’indirizzo del flusso termina con una scelta sconosciuta</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>questo non è l’indirizzo di un flusso</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>il suo host non è raggiungibile</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>non può essere letto ({})</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>ciò che arriva non è un video che si possa mostrare</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>chiede un altro nome utente e un’altra password</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>scriverlo come {}, e in nomi utente e password % e due cifre per segni come @, : e /</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>scrivere #hold=last o #hold=black</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>scriverli nell’indirizzo prima dell’host: {}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>farlo iniziare con uno di questi: {}</translation>
     </message>
 </context>
 <context>

@@ -235,6 +235,10 @@
         <source>perfected by photographs</source>
         <translation>写真により仕上げ済み</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>ライブ映像は到着から %1 ms 以内</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5646,6 +5650,30 @@ projector %2</source>
         <source>Takes the repair back.</source>
         <translation>修復を取り消します。</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>到着から投影まで</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>ライブ映像がこのコンピューターに到着してからプロジェクターに渡るまでの時間で、直近 5 秒間の最大値です。ここまでの伝送時間は含みません。</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>%1 に接続中</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>途切れました：%1。%2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>ストリームを追加</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>カメラやエンコーダーが送るネットワーク上のライブ映像です。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6623,6 +6651,26 @@ projector %2</source>
         <source>What to do</source>
         <translation>対処方法</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>ライブ映像の遅れ (ms)</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>ストリーム</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>途切れた回数</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>ピクセル</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>送信元からの時間、送信元の時計による (ms)</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6754,6 +6802,45 @@ projector %2</source>
     <message>
         <source>doubtful</source>
         <translation>要確認</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>ストリームを追加</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>ネットワークのライブ映像です。音声は再生しません。RTSP、SRT、RTP、UDP、HTTP、RTMP に対応します。再生中、このコンピューターはそのアドレスに接続します。</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>アドレス</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>ユーザー名とパスワードは rtsp://user:password@host のようにホストの前に書きます。プレイリストに保存され、どこにも表示されません。</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>途切れている間</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>最後の映像</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黒</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>追加</translation>
     </message>
 </context>
 <context>
@@ -8608,6 +8695,195 @@ projector %2</source>
     <message>
         <source>Writing the results</source>
         <translation>結果の書き込み</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>ストリームのアドレスにホストまたはポートがないか、正しくありません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>アドレスの名前を確認するか、番号で書いてください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>ネットワークとアドレスを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>アドレスのホストより後ろの部分を確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>送信元、ネットワーク、アドレスを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>終了しました</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>ホストが見つかりません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>映像に必要なメモリが足りません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>そのパスには何もありません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>まだ映像が届いていません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>接続が拒否されました</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>H.264 または Motion JPEG で送信してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>{} s 以内に映像が届きませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>{} s の間、映像が届いていません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>送信元を起動し、ポートを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>送信元を再び起動してください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>ストリームのアドレスの末尾の指定が不明です</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>これはストリームのアドレスではありません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>ホストに到達できません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>読み取れません ({})</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>届いたものは表示できる映像ではありません</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>別のユーザー名とパスワードが必要です</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>{} のように書き、ユーザー名とパスワードの @、:、/ などの記号は % と 2 桁の数字で書いてください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>#hold=last または #hold=black と書いてください</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>アドレスのホストの前に書いてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>次のいずれかで始めてください：{}</translation>
     </message>
 </context>
 <context>

@@ -235,6 +235,10 @@
         <source>perfected by photographs</source>
         <translation>已由照片完善</translation>
     </message>
+    <message>
+        <source>live picture within %1 ms of its arrival</source>
+        <translation>实时画面到达后 %1 ms 内</translation>
+    </message>
 </context>
 <context>
     <name>RecentVenues</name>
@@ -5646,6 +5650,30 @@ projector %2</source>
         <source>Takes the repair back.</source>
         <translation>撤销修复。</translation>
     </message>
+    <message>
+        <source>arrival to light</source>
+        <translation>从到达到投影</translation>
+    </message>
+    <message>
+        <source>From a live picture&apos;s arrival at this computer until the projectors have it: the longest of the last five seconds. The way there is not in it.</source>
+        <translation>实时画面从到达本机到交给投影机的时间：最近五秒内的最大值。传到本机所用的时间不计在内。</translation>
+    </message>
+    <message>
+        <source>Connecting to %1</source>
+        <translation>正在连接 %1</translation>
+    </message>
+    <message>
+        <source>Lost: %1. %2</source>
+        <translation>已中断：%1。%2</translation>
+    </message>
+    <message>
+        <source>Add a stream</source>
+        <translation>添加网络流</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, as cameras and encoders send it.</source>
+        <translation>来自网络的实时画面，由摄像机或编码器发送。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6623,6 +6651,26 @@ projector %2</source>
         <source>What to do</source>
         <translation>该怎么做</translation>
     </message>
+    <message>
+        <source>Delay of the live picture (ms)</source>
+        <translation>实时画面的延迟（毫秒）</translation>
+    </message>
+    <message>
+        <source>Streams</source>
+        <translation>网络流</translation>
+    </message>
+    <message>
+        <source>Losses</source>
+        <translation>中断次数</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>像素</translation>
+    </message>
+    <message>
+        <source>Time from the sender, by its clock (ms)</source>
+        <translation>自发送端起的时间，按其时钟（毫秒）</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StatusStrip</name>
@@ -6754,6 +6802,45 @@ projector %2</source>
     <message>
         <source>doubtful</source>
         <translation>存疑</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::StreamDialog</name>
+    <message>
+        <source>Add a stream</source>
+        <translation>添加网络流</translation>
+    </message>
+    <message>
+        <source>A live picture from the network, without its sound: RTSP, SRT, RTP, UDP, HTTP or RTMP. While it plays, this computer is connected to that address.</source>
+        <translation>来自网络的实时画面，不含声音：RTSP、SRT、RTP、UDP、HTTP 或 RTMP。播放期间，本机与该地址保持连接。</translation>
+    </message>
+    <message>
+        <source>Address</source>
+        <translation>地址</translation>
+    </message>
+    <message>
+        <source>User name and password stand before the host, as in rtsp://user:password@host. They are kept in the playlist, and shown nowhere.</source>
+        <translation>用户名和密码写在主机之前，例如 rtsp://user:password@host。它们保存在播放列表中，不会显示在任何地方。</translation>
+    </message>
+    <message>
+        <source>While it is lost</source>
+        <translation>中断期间</translation>
+    </message>
+    <message>
+        <source>Its last picture</source>
+        <translation>最后的画面</translation>
+    </message>
+    <message>
+        <source>Black</source>
+        <translation>黑</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
     </message>
 </context>
 <context>
@@ -8608,6 +8695,195 @@ projector %2</source>
     <message>
         <source>Writing the results</source>
         <translation>正在写入结果</translation>
+    </message>
+</context>
+<context>
+    <name>stream.address-incomplete</name>
+    <message>
+        <source>in a stream&apos;s address the host or its port is missing or wrong</source>
+        <translation>网络流地址中的主机或端口缺失或有误</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-host</name>
+    <message>
+        <source>check the name in the address, or write the number</source>
+        <translation>请检查地址中的名称，或改写数字地址</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-network</name>
+    <message>
+        <source>check the network and the address</source>
+        <translation>请检查网络和地址</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-path</name>
+    <message>
+        <source>check what stands behind the host in the address</source>
+        <translation>请检查地址中主机之后的部分</translation>
+    </message>
+</context>
+<context>
+    <name>stream.check-sender</name>
+    <message>
+        <source>check the sender, the network, and the address</source>
+        <translation>请检查发送端、网络和地址</translation>
+    </message>
+</context>
+<context>
+    <name>stream.ended</name>
+    <message>
+        <source>it has ended</source>
+        <translation>它已结束</translation>
+    </message>
+</context>
+<context>
+    <name>stream.host-unknown</name>
+    <message>
+        <source>its host is not found</source>
+        <translation>找不到它的主机</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-memory</name>
+    <message>
+        <source>there is not enough memory for its pictures</source>
+        <translation>内存不足以容纳其画面</translation>
+    </message>
+</context>
+<context>
+    <name>stream.no-such-path</name>
+    <message>
+        <source>there is nothing at its path</source>
+        <translation>该路径下没有内容</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-ready</name>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.not-yet</name>
+    <message>
+        <source>it has given no picture yet</source>
+        <translation>它尚未给出画面</translation>
+    </message>
+</context>
+<context>
+    <name>stream.refused</name>
+    <message>
+        <source>the connection was refused</source>
+        <translation>连接被拒绝</translation>
+    </message>
+</context>
+<context>
+    <name>stream.send-h264</name>
+    <message>
+        <source>let it be sent as H.264 or Motion JPEG</source>
+        <translation>请以 H.264 或 Motion JPEG 发送</translation>
+    </message>
+</context>
+<context>
+    <name>stream.silent</name>
+    <message>
+        <source>no picture came within {} s</source>
+        <translation>{} s 内没有收到画面</translation>
+    </message>
+</context>
+<context>
+    <name>stream.stalled</name>
+    <message>
+        <source>no picture has come for {} s</source>
+        <translation>已有 {} s 没有收到画面</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender</name>
+    <message>
+        <source>start the sender, and check the port</source>
+        <translation>请启动发送端并检查端口</translation>
+    </message>
+</context>
+<context>
+    <name>stream.start-sender-again</name>
+    <message>
+        <source>start the sender again</source>
+        <translation>请重新启动发送端</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-hold</name>
+    <message>
+        <source>the stream&apos;s address ends in an unknown choice</source>
+        <translation>网络流地址末尾的选项未知</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unknown-scheme</name>
+    <message>
+        <source>this is no address of a stream</source>
+        <translation>这不是网络流的地址</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreachable</name>
+    <message>
+        <source>its host cannot be reached</source>
+        <translation>无法连接到它的主机</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unreadable</name>
+    <message>
+        <source>it cannot be read ({})</source>
+        <translation>无法读取（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>stream.unusable</name>
+    <message>
+        <source>what comes is no video that can be shown</source>
+        <translation>收到的不是可以显示的视频</translation>
+    </message>
+</context>
+<context>
+    <name>stream.wants-password</name>
+    <message>
+        <source>it wants another user name and password</source>
+        <translation>它要求另外的用户名和密码</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-address</name>
+    <message>
+        <source>write it like {}, and in user names and passwords % and two digits for signs like @, : and /</source>
+        <translation>请写成 {} 的形式，用户名和密码中的 @、:、/ 等符号写成 % 加两位数字</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-hold</name>
+    <message>
+        <source>write #hold=last or #hold=black</source>
+        <translation>请写 #hold=last 或 #hold=black</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-password</name>
+    <message>
+        <source>write them into the address before the host: {}</source>
+        <translation>请写在地址中主机之前：{}</translation>
+    </message>
+</context>
+<context>
+    <name>stream.write-scheme</name>
+    <message>
+        <source>let it begin with one of {}</source>
+        <translation>请以下列之一开头：{}</translation>
     </message>
 </context>
 <context>

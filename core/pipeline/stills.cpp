@@ -15,7 +15,13 @@ namespace {
 
 constexpr std::array stillEndings{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".bmp", ".webp"};
 
+// What is no file, whatever its name ends with, see gui's ContentAddress.
+constexpr std::array otherContent{"chart:", "screen:", "window:", "camera:", "stream:"};
+
 bool isStill(const fs::path& file) {
+  const std::string path = file.string();
+  if (std::ranges::any_of(otherContent, [&](const char* kind) { return path.starts_with(kind); }))
+    return false;
   return std::ranges::count(stillEndings, lowered(file.extension().string())) > 0;
 }
 

@@ -37,7 +37,9 @@ QString contentFromRoot(const QString& path) {
 const QCommandLineOption content(
     "content",
     "What to play: a picture, a film, a folder of numbered pictures, a playlist, "
-    "chart:NAME, screen:CONNECTOR, window:TITLE or camera:NAME.",
+    "chart:NAME, screen:CONNECTOR, window:TITLE, camera:NAME, or stream:URL of a live picture on the network "
+    "(rtsp, srt, rtp, udp, http, rtmp), with #hold=black behind it where black is shown while it is lost "
+    "instead of its last picture. A password in it is seen in the list of processes, not in a playlist.",
     "PATH");
 const QCommandLineOption loop("loop", "Repeat the content.");
 const QCommandLineOption schedule("schedule", "Play during these hours of the day only; black outside them.",

@@ -7,6 +7,7 @@
 #include <QCoreApplication>
 #include <QFile>
 
+#include "content/stream_decoder.h"
 #include "remote/osc_message.h"
 
 namespace relucent::gui {
@@ -26,6 +27,7 @@ QString read(const QString& resource) {
 std::vector<pipeline::LibraryVersion> allLibraries() {
   std::vector<pipeline::LibraryVersion> libraries = pipeline::coreLibraries();
   libraries.push_back({"Qt", qVersion()});
+  libraries.push_back({"FFmpeg's libavformat", streamLibraryVersion().toStdString()});
   libraries.push_back({"liblo", oscLibraryVersion().toStdString()});
   libraries.push_back({"VTK", vtkVersion::GetVTKVersion()});
   libraries.push_back({"spdlog", std::to_string(SPDLOG_VER_MAJOR) + '.' + std::to_string(SPDLOG_VER_MINOR) +

@@ -62,7 +62,7 @@ StreamAddress streamAddressFrom(const QString& which) {
     if (hold != "#hold=black")
       throw Error(ErrorKind::input,
                   RELUCENT_MESSAGE("stream.unknown-hold",
-                                   "behind a stream's address stands what nobody can show while it is lost"),
+                                   "the stream's address ends in an unknown choice"),
                   RELUCENT_MESSAGE("stream.write-hold", "write #hold=last or #hold=black"),
                   shownStream(which).toStdString());
     address.hold = StreamAddress::Hold::black;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "content/content_address.h"
+#include "content/stream_address.h"
 #include "relucent/base/error.h"
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/screen_devices.h"
@@ -109,6 +110,8 @@ std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibra
 
 PlaylistSettings contentOf(const QString& path) {
   if (addressOf(path).kind != ContentAddress::Kind::file) {
+    if (const ContentAddress address = addressOf(path); address.kind == ContentAddress::Kind::stream)
+      streamAddressFrom(address.which);
     PlaylistSettings settings;
     settings.items.append({path});
     return settings;

@@ -63,7 +63,7 @@ std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibra
 std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named);
 
 /// The content at a path: a playlist's file, or anything that a playlist item may name.
-/// Throws: as readPlaylist().
+/// Throws: as readPlaylist(), streamAddressFrom().
 PlaylistSettings contentOf(const QString& path);
 
 }  // namespace relucent::gui

@@ -38,11 +38,16 @@ class PlaybackCard : public Card {
     row->setSpacing(space::gap);
     for (auto [readout, what] :
          {std::pair(&rate_, OutputPage::tr("frames a second")),
-          std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late"))})
+          std::pair(&time_, OutputPage::tr("frame time")), std::pair(&late_, OutputPage::tr("frames late")),
+          std::pair(&live_, OutputPage::tr("arrival to light"))})
       row->addWidget(*readout = new Readout(what));
     row->addStretch(1);
     body()->addLayout(row);
     rate_->setObjectName("frame-rate");
+    live_->setObjectName("live-delay");
+    live_->setToolTip(
+        OutputPage::tr("From a live picture's arrival at this computer until the projectors have it: the "
+                       "longest of the last five seconds. The way there is not in it."));
     addAction(nextChart_ = toolOf(Icon::picture, OutputPage::tr("Next test chart (T)")));
     addAction(figures_ = toolOf(Icon::pulse, OutputPage::tr("Figures over the picture (O)")));
     nextChart_->setObjectName("next-chart");
@@ -71,6 +76,9 @@ class PlaybackCard : public Card {
                         : none);
     // A picture that stands is not late for anything.
     late_->setValue(open && moves ? countText(s.late) : none, moves && s.late > 0);
+    const bool isLive = open && s.liveSeconds > 0.0;
+    live_->setVisible(isLive);
+    if (isLive) live_->setValue(OutputPage::tr("%1 ms").arg(decimalText(1000.0 * s.liveSeconds, 0)));
     setSubtitle(!open   ? OutputPage::tr("closed")
                 : moves ? OutputPage::tr("on %1").arg(engineText())
                         : OutputPage::tr("still picture, on %1").arg(engineText()));
@@ -109,7 +117,7 @@ class PlaybackCard : public Card {
     return name.startsWith("CPU") ? OutputPage::tr("the processor") : name;
   }
   OutputPage& page_;
-  Readout *rate_, *time_, *late_;
+  Readout *rate_, *time_, *late_, *live_;
   QToolButton *nextChart_, *figures_;
   LineChart* chart_;
 };

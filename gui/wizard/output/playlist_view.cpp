@@ -10,6 +10,7 @@
 #include <QUrl>
 #include <cmath>
 
+#include "content/content_address.h"
 #include "relucent/base/message.h"
 #include "text/message_text.h"
 #include "theme/controls.h"
@@ -17,6 +18,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
+#include "wizard/output/stream_dialog.h"
 
 namespace relucent::gui {
 
@@ -67,7 +69,7 @@ void PlaylistView::refresh() {
     if (entry->text() == name && entry->data(Qt::UserRole) == kind) continue;
     entry->setText(name);
     entry->setData(Qt::UserRole, kind);
-    entry->setToolTip(items[i].path);
+    entry->setToolTip(plainToolTip(shownPath(items[i].path)));
     entry->setIcon(plays ? iconOf(Icon::play, colours().accent)
                          : iconOf(still ? Icon::picture : Icon::film, colours().secondary));
     entry->setData(Qt::AccessibleTextRole, plays ? OutputPage::tr("%1, playing").arg(name) : name);
@@ -113,6 +115,31 @@ void PlaylistView::dropEvent(QDropEvent* event) {
   event->acceptProposedAction();
 }
 
+namespace {
+
+/// How the streams that play are doing; empty: well, or there are none.
+QString troubleText(const std::vector<LiveState>& streams) {
+  QStringList lines;
+  for (const LiveState& stream : streams) {
+    if (stream.phase == LiveState::Phase::connecting)
+      lines << OutputPage::tr("Connecting to %1").arg(isolated(stream.address));
+    else if (stream.phase == LiveState::Phase::lost)
+      lines << OutputPage::tr("Lost: %1. %2").arg(isolated(stream.address), fullSentence(stream.problem));
+  }
+  return lines.join('\n');
+}
+
+void askForStream(OutputPage& page, QWidget* parent) {
+  auto* dialog = new StreamDialog(parent->window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowModality(Qt::WindowModal);
+  QObject::connect(dialog, &StreamDialog::chosen, &page,
+                   [&page](const QString& path) { page.addFiles({path}); });
+  dialog->show();
+}
+
+}  // namespace
+
 QWidget* playlistPart(OutputPage& page) {
   auto* part = new QWidget;
   auto* column = new QVBoxLayout(part);
@@ -138,6 +165,10 @@ QWidget* playlistPart(OutputPage& page) {
   repeat->setObjectName("repeat");
   row->addWidget(repeat);
   column->addLayout(row);
+  QPushButton* stream = buttonOf(OutputPage::tr("Add a stream"));
+  stream->setObjectName("playlist-stream");
+  stream->setToolTip(OutputPage::tr("A live picture from the network, as cameras and encoders send it."));
+  column->addWidget(stream);
   auto* fadeRow = new ValueRow(OutputPage::tr("Cross-fade"));
   auto* fade = new QSlider(Qt::Horizontal);
   fade->setObjectName("fade");
@@ -148,10 +179,14 @@ QWidget* playlistPart(OutputPage& page) {
   QLabel* skipped = labelOf({}, "amber");
   skipped->setObjectName("skipped");
   column->addWidget(skipped);
+  QLabel* trouble = labelOf({}, "amber");
+  trouble->setObjectName("streams");
+  column->addWidget(trouble);
 
   QObject::connect(add, &QPushButton::clicked, &page, [&page, part] {
     page.addFiles(QFileDialog::getOpenFileNames(part, OutputPage::tr("Add pictures or films")));
   });
+  QObject::connect(stream, &QPushButton::clicked, &page, [&page, part] { askForStream(page, part); });
   auto move = [&page, list](int by) {
     int to = list->currentRow() + by;
     page.moveItem(list->currentRow(), by);
@@ -175,6 +210,9 @@ QWidget* playlistPart(OutputPage& page) {
     remove->setEnabled(!settings.items.isEmpty());
     const std::vector<Message> wrong = page.projection().skipped();
     skipped->setVisible(!wrong.empty());
+    const QString streams = troubleText(page.projection().live());
+    trouble->setVisible(!streams.isEmpty());
+    trouble->setText(streams);
     if (!wrong.empty()) skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.back())));
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::progressChanged);

@@ -405,7 +405,7 @@ class TestPerfect : public QObject {
     QCOMPARE(stillsOf(folder), (std::vector<fs::path>{folder / "a.jpg", folder / "b.PNG"}));
     std::ofstream(folder / "list.playlist")
         << R"({"version": 1, "items": [{"path": "b.PNG"}, {"path": "film.mp4"}, {"path": "../a.jpg"},
-               {"path": "screen:HDMI-1"}]})";
+               {"path": "screen:HDMI-1"}, {"path": "stream:http://camera/picture.jpg"}]})";
     QCOMPARE(stillsOf(folder / "list.playlist"), (std::vector<fs::path>{folder / "b.PNG", root() / "a.jpg"}));
     QCOMPARE(stillsOf(folder / "film.mp4"),
              std::vector<fs::path>{folder / "film.mp4"});  // told when it is read

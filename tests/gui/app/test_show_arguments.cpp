@@ -96,6 +96,10 @@ class TestShowArguments : public QObject {
     QVERIFY(again.canvas.size == first.canvas.size && again.adaptiveRange &&
             again.backend == BackendChoice::openGl && again.folder == QDir::current().filePath("logs"));
     QCOMPARE(parsed<InstallShow>(said + QStringList{"--install-autostart"}).start, Start::autostart);
+    QVERIFY(parsed<InstallShow>({"show", "v", "--content", "stream:rtsp://a/b", "--install-service"})
+                .arguments.contains("stream:rtsp://a/b"));
+    QVERIFY_THROWS_EXCEPTION(Error,
+                             parseShowArguments({"relucent", "show", "v", "--content", "stream:file:///b"}));
     QVERIFY(parsed<InstallShow>({"show", "v", "--content", "screen:HDMI-1", "--install-service"})
                 .arguments.contains("screen:HDMI-1"));
   }

@@ -11,8 +11,8 @@
 
 #include "gui/output/scripted_renderer.h"
 #include "gui/output/two_screens.h"
-#include "support/stream_sender.h"
 #include "support/sentences.h"
+#include "support/stream_sender.h"
 
 using namespace relucent;
 using namespace relucent::compensation;

@@ -12,7 +12,9 @@
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/settings_json.h"
+#include "support/stream_sender.h"
 #include "wizard/output/output_page.h"
+#include "wizard/output/playlist_view.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -235,6 +237,24 @@ class TestWhatPlays : public QObject {
     page_->close();
     openOutput();
     QTRY_VERIFY_WITH_TIMEOUT(!allBlack(seenOn("DUMMY1")), patience);
+  }
+
+  void aStreamThatIsLostIsTold() {
+    test::HttpSender sender;
+    page_->addFiles({"stream:" + sender.url().replace("//", "//user:secret@")});
+    while (page_->playlist().settings().items.size() > 1) page_->removeItem(0);
+    const std::unique_ptr<QWidget> part(playlistPart(*page_));
+    part->show();
+    auto* told = part->findChild<QLabel*>("streams");
+    openOutput();
+    QTRY_VERIFY(page_->projection().statistics().liveSeconds > 0.0);
+    QTRY_VERIFY(!told->isVisible());
+    sender.stop();
+    QTRY_VERIFY(told->isVisible() && told->text().contains(sender.url()));
+    QVERIFY2(!told->text().contains("secret"), qPrintable(told->text()));
+    QVERIFY(sender.start());
+    QTRY_VERIFY_WITH_TIMEOUT(!told->isVisible(), 10'000);
+    page_->close();
   }
 };
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// How streams get into Output's playlist. On two screens, see tests/support/with-two-screens.
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include "gui/wizard/simulated_session.h"
+#include "relucent/base/file.h"
+#include "wizard/output/output_page.h"
+#include "wizard/output/playlist_view.h"
+#include "wizard/output/stream_dialog.h"
+
+using namespace relucent;
+using namespace relucent::gui;
+
+class TestStreamDialog : public QObject {
+  Q_OBJECT
+
+  static QLineEdit& addressOf(const StreamDialog& dialog) {
+    return *dialog.findChild<QLineEdit*>("stream-address");
+  }
+
+ private slots:
+  void asksForAddressAndHold_data() {
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<int>("hold");
+    QTest::addColumn<QString>("path");
+    QTest::newRow("last picture") << " rtsp://camera/live " << 0 << "stream:rtsp://camera/live";
+    QTest::newRow("black") << "rtsp://camera/live" << 1 << "stream:rtsp://camera/live#hold=black";
+    QTest::newRow("as in a list") << "stream:udp://:5004" << 0 << "stream:udp://:5004";
+    QTest::newRow("already said") << "http://a/b#hold=last" << 1 << "stream:http://a/b#hold=last";
+  }
+  void asksForAddressAndHold() {
+    QFETCH(QString, typed);
+    QFETCH(int, hold);
+    StreamDialog dialog;
+    dialog.show();
+    QSignalSpy chosen(&dialog, &StreamDialog::chosen);
+    QVERIFY(addressOf(dialog).hasFocus() || dialog.focusWidget() == &addressOf(dialog));
+    QTest::keyClicks(&addressOf(dialog), typed);
+    auto* choice = dialog.findChild<Segmented*>("stream-hold");
+    choice->findChildren<QAbstractButton*>().at(hold)->click();
+    QCOMPARE(choice->current(), hold);
+    QTest::keyClick(&dialog, Qt::Key_Return);
+    QCOMPARE(chosen.size(), 1);
+    QTEST(chosen[0][0].toString(), "path");
+    QVERIFY(!dialog.isVisible());
+  }
+
+  void whatIsNoAddressIsSaidAtOnce() {
+    StreamDialog dialog;
+    dialog.show();
+    QSignalSpy chosen(&dialog, &StreamDialog::chosen);
+    auto* wrong = dialog.findChild<Note*>("stream-wrong");
+    QVERIFY(!wrong->isVisible());
+    QTest::keyClicks(&addressOf(dialog), "file:///etc/passwd");
+    dialog.findChild<QPushButton*>("stream-add")->click();
+    QVERIFY(wrong->isVisible() && dialog.isVisible() && chosen.isEmpty());
+    QTest::keyClicks(&addressOf(dialog), "x");
+    QVERIFY(!wrong->isVisible());
+    QTest::keyClick(&dialog, Qt::Key_Escape);
+    QVERIFY(!dialog.isVisible() && chosen.isEmpty());
+  }
+
+  /// What is typed is kept, and what is secret of it seen nowhere.
+  void getsIntoThePlaylist() {
+    SimulatedSession own;
+    OutputPage page(own.session);
+    own.begin();
+    const std::unique_ptr<QWidget> part(playlistPart(page));
+    part->show();
+    part->findChild<QPushButton*>("playlist-stream")->click();
+    auto* dialog = part->findChild<StreamDialog*>("stream-dialog");
+    QVERIFY(dialog != nullptr && dialog->isModal());
+    QTest::keyClicks(&addressOf(*dialog), "rtsp://user:secret@camera/live");
+    dialog->findChild<QPushButton*>("stream-add")->click();
+    const QString path = "stream:rtsp://user:secret@camera/live";
+    QCOMPARE(page.playlist().settings().items.last().path, path);
+    QVERIFY(readFile(page.playlist().file().toStdString()).find(path.toStdString()) != std::string::npos);
+    const auto* list = part->findChild<PlaylistView*>("playlist");
+    const QListWidgetItem* item = list->item(list->count() - 1);
+    QCOMPARE(item->text(), QString("rtsp://camera/live"));
+    for (int role : {int(Qt::DisplayRole), int(Qt::ToolTipRole), int(Qt::AccessibleTextRole)})
+      QVERIFY2(!item->data(role).toString().contains("secret"), qPrintable(item->data(role).toString()));
+  }
+};
+
+QTEST_MAIN(TestStreamDialog)
+#include "test_stream_dialog.moc"

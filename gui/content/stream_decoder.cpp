@@ -142,8 +142,9 @@ class StreamDecoder::Impl {
     input_.reset(opening);
     demand(avformat_find_stream_info(input_.get(), nullptr));
     // What has an end, or comes in pieces of several seconds, comes faster than it is to be seen.
-    isPaced_ = input_->duration > 0 || std::string_view(input_->iformat->name) == "hls" ||
-               std::string_view(input_->iformat->name) == "dash";
+    const std::string_view kind = input_->iformat->name;
+    const bool hasSize = input_->pb != nullptr && avio_size(input_->pb) > 0;
+    isPaced_ = hasSize || input_->duration > 0 || kind == "hls" || kind == "dash";
   }
 
   void openCodec() {

@@ -197,15 +197,16 @@ void HttpSender::answer(QTcpSocket* visitor) {
         "Connection: close\r\n\r\n");
     return visitor->disconnectFromHost();
   }
-  if (way == SenderWay::garbage || way == SenderWay::text || way == SenderWay::namesAFile) {
+  const bool isFilm = known->request.startsWith("GET /film.ts");
+  if (isFilm || way == SenderWay::garbage || way == SenderWay::text || way == SenderWay::list) {
     QByteArray content = "<!DOCTYPE html><html><body>Welcome</body></html>";
     quint32 noise = 1;
     if (way == SenderWay::garbage)
       for (content.clear(); content.size() < 20'000; content.append(static_cast<char>(noise >> 16)))
         noise = noise * 1'103'515'245 + 12'345;
-    if (way == SenderWay::namesAFile)
-      content =
-          "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\nfile://" + file.toUtf8() + "\n#EXT-X-ENDLIST\n";
+    if (way == SenderWay::list)
+      content = "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\n" + piece.toUtf8() + "\n#EXT-X-ENDLIST\n";
+    if (isFilm) content = film;
     visitor->write("HTTP/1.1 200 OK\r\nConnection: close\r\nContent-Length: " +
                    QByteArray::number(content.size()) + "\r\n\r\n" + content);
     return visitor->disconnectFromHost();
@@ -314,6 +315,37 @@ void RtspSender::send() {
     playing_->write(interleaved(0, rtpPacket(mpegVideo, head + bytes.mid(at, perDatagram), sequence_++, time_,
                                              at + perDatagram >= bytes.size())));
   time_ += ticks;
+}
+
+bool SrtSender::isThere() {
+  void* place = nullptr;
+  while (const char* name = avio_enum_protocols(&place, 1))
+    if (qstrcmp(name, "srt") == 0) return true;
+  return false;
+}
+
+SrtSender::SrtSender(quint16 port) : thread_([this, port] { run(port); }) {}
+
+SrtSender::~SrtSender() {
+  stopped_ = true;
+  thread_.join();
+}
+
+void SrtSender::run(quint16 port) {
+  const QByteArray url = QString("srt://127.0.0.1:%1?mode=listener").arg(port).toLatin1();
+  const AVIOInterruptCB interrupt{
+      [](void* stopped) { return static_cast<int>(*static_cast<std::atomic<bool>*>(stopped)); }, &stopped_};
+  AVIOContext* to = nullptr;
+  if (avio_open2(&to, url.constData(), AVIO_FLAG_WRITE, &interrupt, nullptr) < 0) return;
+  TransportStream stream;
+  while (!stopped_) {
+    const QByteArray bytes =
+        stream.picture({64, 48}, isGreen ? Samples{145, 54, 34} : Samples{81, 90, 240});
+    avio_write(to, reinterpret_cast<const unsigned char*>(bytes.constData()), static_cast<int>(bytes.size()));
+    avio_flush(to);
+    std::this_thread::sleep_for(std::chrono::milliseconds(interval));
+  }
+  avio_close(to);
 }
 
 quint16 freeUdpPort() {

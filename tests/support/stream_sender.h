@@ -11,8 +11,10 @@
 #include <QTimer>
 #include <QUdpSocket>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <thread>
 
 namespace relucent::test {
 
@@ -51,12 +53,12 @@ enum class SenderWay {
   garbage,        // answers with noise
   frozen,         // sends some pictures, then no more, and stays connected
   text,           // answers with a web page
-  namesAFile,     // answers with a list of pieces (HLS) that are a file of this computer
+  list,           // answers with a list of pieces (HLS), one, but for /film.ts
   wantsPassword,  // "user", "pa:ss@/word"
 };
 
 /// A web server at the loopback network that sends a live picture to whoever asks: at /mjpeg as Motion JPEG,
-/// at /ts as a transport stream. On the caller's thread.
+/// at /ts as a transport stream, at /film.ts as one that is there at once. On the caller's thread.
 class HttpSender : public QObject {
  public:
   explicit HttpSender(SenderWay way = SenderWay::plays);
@@ -72,7 +74,8 @@ class HttpSender : public QObject {
 
   SentPicture sent;
   SenderWay way;
-  QString file;  // for namesAFile
+  QString piece;    // address of the list's
+  QByteArray film;  // at /film.ts
 
  private:
   void answer(QTcpSocket* visitor);
@@ -129,6 +132,21 @@ class RtspSender : public QObject {
   quint32 time_ = 0;
   int pictures_ = 0;
   TransportStream stream_;
+};
+
+/// The transport stream over SRT, which waits for its receiver. On a thread of its own, as its calls block.
+class SrtSender {
+ public:
+  explicit SrtSender(quint16 port);
+  ~SrtSender();
+  /// Of FFmpeg as it is installed.
+  static bool isThere();
+  std::atomic<bool> isGreen{false};  // red at first
+
+ private:
+  void run(quint16 port);
+  std::atomic<bool> stopped_{false};
+  std::thread thread_;
 };
 
 /// A port that was free a moment ago.

@@ -10,6 +10,7 @@
 #include "content/content_address.h"
 #include "output/night_schedule.h"
 #include "relucent/compensation/content_identity.h"
+#include "remote/controller_template.h"
 
 namespace relucent::gui {
 namespace {
@@ -79,6 +80,11 @@ const QCommandLineOption oscAddress(
     "ADDRESS", "127.0.0.1");
 const QCommandLineOption oscFeedback("osc-feedback", "Tell every change to this address by OSC.",
                                      "HOST:PORT");
+const QCommandLineOption oscTemplate(
+    "osc-template",
+    "Write all OSC addresses for a controller and end: open-stage-control, a session of Open Stage Control "
+    "that sends to the port of --osc, or csv, a table.",
+    "FORMAT");
 const QCommandLineOption statusPage("status",
                                     "Show the show's state to browsers on this TCP port, read only.", "PORT");
 const QCommandLineOption statusAddress(
@@ -178,6 +184,18 @@ std::optional<pipeline::WatchSettings> watchFrom(const QCommandLineParser& parse
   return pipeline::WatchSettings{0, camera.toStdString()};
 }
 
+/// Throws: WrongArguments.
+QString templateOf(const QCommandLineParser& parser) {
+  constexpr quint16 usualPort = 7700;
+  const auto format = valueNamed<ControllerFormat>(parser.value(oscTemplate).toStdString());
+  if (!format) throw WrongArguments("the format of --osc-template must be open-stage-control or csv");
+  NetworkPlace place = oscPlaceOf(parser).value_or(NetworkPlace{QHostAddress::LocalHost, usualPort});
+  // Nobody can send to all addresses.
+  if (place.host == QHostAddress::AnyIPv4 || place.host == QHostAddress::AnyIPv6)
+    place.host = QHostAddress::LocalHost;
+  return QString::fromUtf8(controllerTemplate(*format, place));
+}
+
 void readProjectors(const QCommandLineParser& parser, ShowSettings& settings) {
   settings.switchesPower = parser.isSet(switchProjectors);
   settings.closesShutter = parser.isSet(closeShutter);
@@ -259,31 +277,11 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content,
-                     loop,
-                     schedule,
-                     night,
-                     alarm,
-                     display,
-                     canvas,
-                     adaptive,
-                     brightness,
-                     backend,
-                     cameraPosition,
-                     osc,
-                     oscAddress,
-                     oscFeedback,
-                     statusPage,
-                     statusAddress,
-                     switchProjectors,
-                     powerOffAfter,
-                     closeShutter,
-                     watch,
-                     log,
-                     installService,
-                     installAutostart,
-                     removeService,
-                     removeAutostart});
+  parser.addOptions({content,       loop,           schedule,    night,      alarm,          display,
+                     canvas,        adaptive,       brightness,  backend,    cameraPosition, osc,
+                     oscAddress,    oscFeedback,    oscTemplate, statusPage, statusAddress,  switchProjectors,
+                     powerOffAfter, closeShutter,   watch,       log,        installService, installAutostart,
+                     removeService, removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))
@@ -293,6 +291,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (words.value(0) == "show" && words.size() == 1) {
     if (parser.isSet(removeService)) return UninstallShow{Start::service};
     if (parser.isSet(removeAutostart)) return UninstallShow{Start::autostart};
+    if (parser.isSet(oscTemplate)) return TextToPrint{templateOf(parser)};
   }
   if (words.size() != 2 || words[0] != "show")
     throw WrongArguments("usage: relucent show CALIBRATION --content PATH");

@@ -97,7 +97,8 @@ int run(const UninstallShow& unwanted) {
 bool asksForNoScreen(int argc, char** argv) {
   return std::any_of(argv + 1, argv + argc, [](std::string_view said) {
     return said == "-h" || said == "-v" || said.starts_with("--help") || said.starts_with("--version") ||
-           said.starts_with("--install-") || said.starts_with("--remove-");
+           said.starts_with("--install-") || said.starts_with("--osc-template") ||
+           said.starts_with("--remove-");
   });
 }
 

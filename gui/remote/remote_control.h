@@ -14,6 +14,20 @@
 
 namespace relucent::gui {
 
+/// What an address takes, for controllers that are made from the table.
+struct RemoteInput {
+  enum class Kind {
+    none,
+    onOff,  // 0 or 1
+    range,  // a number from least to most
+    whole,  // a whole number from least on
+    chart,  // a test chart's name, or none
+    place,  // x and y; least and most are those that a controller begins with, as places have no bounds
+  };
+  Kind kind = Kind::none;
+  double least = 0.0, most = 1.0;
+};
+
 /// An address that is listened to.
 struct RemoteCommand {
   const char* address;
@@ -24,6 +38,7 @@ struct RemoteCommand {
   Message (*run)(RemoteActions& actions, const std::vector<OscArgument>& arguments);
   /// The present value; nullptr: it has none.
   std::vector<OscArgument> (*value)(const RemoteState& state);
+  RemoteInput input{};
   bool isLong = false;  // only begun by the message: what comes of it is announced
 };
 /// All of them: the one table, from which README and tests take theirs.

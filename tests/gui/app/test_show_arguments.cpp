@@ -96,6 +96,8 @@ class TestShowArguments : public QObject {
     QVERIFY(again.canvas.size == first.canvas.size && again.adaptiveRange &&
             again.backend == BackendChoice::openGl && again.folder == QDir::current().filePath("logs"));
     QCOMPARE(parsed<InstallShow>(said + QStringList{"--install-autostart"}).start, Start::autostart);
+    QVERIFY(parsed<TextToPrint>({"show", "--osc", "7701", "--osc-template", "open-stage-control"})
+                .text.contains("127.0.0.1:7701"));
     QVERIFY(parsed<InstallShow>({"show", "v", "--content", "stream:rtsp://a/b", "--install-service"})
                 .arguments.contains("stream:rtsp://a/b"));
     QVERIFY_THROWS_EXCEPTION(Error,
@@ -224,6 +226,8 @@ class TestShowArguments : public QObject {
     QTest::newRow("nothing") << QStringList{} << "usage";
     QTest::newRow("another command") << QStringList{"play", "venue"} << "usage";
     QTest::newRow("two venues") << right + QStringList{"other"} << "usage";
+    QTest::newRow("no such controller")
+        << QStringList{"show", "--osc-template", "abacus"} << "open-stage-control";
     QTest::newRow("no content") << QStringList{"show", "venue"} << "--content";
     QTest::newRow("unknown option") << right + QStringList{"--fast"} << "fast";
     QTest::newRow("no size") << right + QStringList{"--canvas", "7x7"} << "WIDTHxHEIGHT";

@@ -5,38 +5,12 @@
 #include <QSignalSpy>
 #include <QtTest>
 
+#include "gui/remote/noted_actions.h"
+
 using namespace relucent;
 using namespace relucent::gui;
 
 namespace {
-
-/// Notes what it is told.
-class NotedActions : public RemoteActions {
- public:
-  RemoteState now{false, false, true, 1.0, {}, 0, 3};
-  std::optional<compensation::Position> viewer;
-  Message whyNoViewer;
-
-  RemoteState state() const override { return now; }
-  void setPaused(bool paused) override { now.paused = paused; }
-  void setBlack(bool black) override { now.black = black; }
-  void setCompensated(bool compensated) override { now.compensated = compensated; }
-  void setBrightness(double brightness) override { now.brightness = brightness; }
-  void setChart(std::optional<TestChart> chart) override { now.chart = chart; }
-  void playItem(qsizetype index) override { now.item = index; }
-  Message moveViewer(const compensation::Position& position) override {
-    if (whyNoViewer.empty()) viewer = position;
-    return whyNoViewer;
-  }
-  Message whyNoPhotographs;
-  QStringList begun;
-  Message check() override { return photograph("check"); }
-  Message perfect() override { return photograph("perfect"); }
-  Message photograph(const char* work) {
-    if (whyNoPhotographs.empty()) begun.append(work);
-    return whyNoPhotographs;
-  }
-};
 
 std::string described(const RemoteState& state) {
   return fmt::format("{} {} {} {} {} {}", state.paused, state.black, state.compensated, state.brightness,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/stream_dialog.h"
 
+#include <algorithm>
+
 #include "content/stream_address.h"
 #include "relucent/base/error.h"
 #include "text/message_text.h"
@@ -75,6 +77,8 @@ void StreamDialog::add() {
   } catch (const Error& error) {
     wrong_->setText(fullSentence(error.summary()), fullSentence(error.advice()));
     wrong_->show();
+    // A dialog that is seen does not grow by itself.
+    resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
     address_->setFocus();
     return;
   }

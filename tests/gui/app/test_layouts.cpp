@@ -23,6 +23,7 @@
 #include "wizard/linearize/linearize_page.h"
 #include "wizard/output/nights_dialog.h"
 #include "wizard/output/output_page.h"
+#include "wizard/output/stream_dialog.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/threshold/threshold_page.h"
 #include "wizard/venue/tidy_dialog.h"
@@ -438,6 +439,11 @@ class TestLayouts : public QObject {
       NightsDialog nights(pipeline::nightsOf(wizard_->session().path()), &wizard_->window());
       nights.show();
       faults << seen(nights, language, "weeks of nights");
+      StreamDialog stream(&wizard_->window());
+      stream.show();
+      stream.findChild<QLineEdit*>("stream-address")->setText("rtsp://camera:port/live");
+      stream.findChild<QPushButton*>("stream-add")->click();
+      faults << seen(stream, language, "a stream's address");
       return faults;
     });
     output.close();

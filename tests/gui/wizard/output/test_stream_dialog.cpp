@@ -3,6 +3,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "gui/app/layout_faults.h"
+#include "gui/app/naming_faults.h"
 #include "gui/wizard/simulated_session.h"
 #include "relucent/base/file.h"
 #include "wizard/output/output_page.h"
@@ -55,6 +57,9 @@ class TestStreamDialog : public QObject {
     QTest::keyClicks(&addressOf(dialog), "file:///etc/passwd");
     dialog.findChild<QPushButton*>("stream-add")->click();
     QVERIFY(wrong->isVisible() && dialog.isVisible() && chosen.isEmpty());
+    for (int i = 0; i < 3; ++i) QCoreApplication::processEvents();
+    const QStringList faults = LayoutFaults::of(dialog) + NamingFaults::of(dialog);
+    QVERIFY2(faults.isEmpty(), qPrintable(faults.join('\n')));
     QTest::keyClicks(&addressOf(dialog), "x");
     QVERIFY(!wrong->isVisible());
     QTest::keyClick(&dialog, Qt::Key_Escape);

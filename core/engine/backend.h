@@ -44,7 +44,11 @@ class EngineBackend {
   /// Takes over what ViewFollower changed in the content that was set; what was projected last stays.
   /// Throws: as setContent().
   virtual void contentFollowed() = 0;
-  /// What counts as projected last: a projector stack, 0 to 1.  Throws: as setContent().
+  /// Takes over what AvailabilityFollower changed; of what was projected last that stays which may.
+  /// Throws: as setContent().
+  virtual void availabilityFollowed() = 0;
+  /// What counts as projected last: a projector stack, 0 to 1, of which a pixel has as much as is available.
+  /// Throws: as setContent().
   virtual void startFrom(std::span<const float> projector) = 0;
   /// One frame. `frame.size` must be what setContent() was given. `words`: one 32-bit word for each pixel of
   /// all projectors in turn, see DriveEncoder. False: the device was lost, `words` are invalid.

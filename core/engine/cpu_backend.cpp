@@ -54,6 +54,9 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
   adjoint_.resize(sumFloats * nodes);
   waiting_.resize(sumFloats * patchSums_.places());
   leastBound_.resize(engine.brightest.size());
+  firstLine_.push_back(0);
+  for (const Size& size : engine.venue.transport.projectors().sizes())
+    firstLine_.push_back(firstLine_.back() + static_cast<std::size_t>(size.height));
   preconditioner_.resize(3 * engine.brightest.size());
 }
 
@@ -73,14 +76,46 @@ void CpuBackend::takeWeights() {
   const EngineContent& content = *content_;
   for (std::size_t i = 0; i < content.weight.size(); ++i) {
     known_[8 * i + 3] = content.weight[i];
-    std::copy_n(&content.lit[3 * i], 3, &lit_[4 * i]);
   }
   // Where nothing is free C is 0, so that p stays 0.
   for (std::size_t j = 0; j < leastBound_.size(); ++j)
     leastBound_[j] =
         content.free[j] != 0 ? engine_.preconditioner.least() : std::numeric_limits<float>::infinity();
-  findFreeTiles();
+  takeAvailable();
   freeValues_ = 3 * static_cast<std::size_t>(std::count(content.free.begin(), content.free.end(), 1));
+}
+
+void CpuBackend::takeAvailable() {
+  const EngineContent& content = *content_;
+  const CameraStack& flood = engine_.venue.flood;
+  const bool all = content.available.empty();
+  parallelFor(0, content.weight.size(), 16384, [&](std::size_t i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float missing = all ? 0.0f : content.missing[3 * i + c];
+      known_[8 * i + 4 + c] = all ? flood[3 * i + c] : std::max(0.0f, flood[3 * i + c] - missing);
+      lit_[4 * i + c] = all ? content.lit[3 * i + c] : std::max(0.0f, content.lit[3 * i + c] - missing);
+    }
+  });
+  const Rasters& projectors = engine_.venue.transport.projectors();
+  dimmed_.assign(all ? 0 : firstLine_.back(), 0);
+  for (std::size_t device = 0; device < projectors.devices() && !all; ++device)
+    parallelFor(0, static_cast<std::size_t>(projectors.size(device).height), 16, [&](std::size_t y) {
+      const Size size = projectors.size(device);
+      const auto line = content.available.begin() +
+                        static_cast<std::ptrdiff_t>(projectors.offset(device) + indexOf(size, {0, static_cast<int>(y)}));
+      dimmed_[lineOf(device, static_cast<int>(y))] =
+          std::any_of(line, line + size.width, [](float share) { return share < 1.0f; });
+    });
+  findFreeTiles();
+}
+
+void CpuBackend::availabilityFollowed() {
+  require(content_ != nullptr, "content whose light arrives was not set");
+  takeAvailable();
+  if (content_->available.empty()) return;
+  parallelFor(0, content_->available.size(), 16384, [&](std::size_t j) {
+    for (std::size_t c = 0; c < 3; ++c) nodes_[3 * j + c] = std::min(nodes_[3 * j + c], content_->available[j]);
+  });
 }
 
 void CpuBackend::contentFollowed() {
@@ -94,7 +129,7 @@ void CpuBackend::startFrom(std::span<const float> projector) {
   require(content_ != nullptr && projector.size() == 3 * engine_.brightest.size(),
           "{} values of {} projector pixels", projector.size(), engine_.brightest.size());
   for (std::size_t i = 0; i < projector.size(); ++i)
-    nodes_[i] = content_->free[i / 3] ? clamp01(projector[i]) : 0.0f;
+    nodes_[i] = shareOf(i / 3) * clamp01(projector[i]);
   hasLast_ = true;
 }
 
@@ -171,17 +206,20 @@ void CpuBackend::findFreeTiles() {
   freeOfTile_.resize(tiles.count());
   for (std::size_t device = 0; device < tiles.devices(); ++device) {
     const Size size = projectors.size(device), grid = tiles.size(device);
-    for (std::size_t tile = 0; tile < grid.count(); ++tile) {
+    parallelFor(0, grid.count(), 512, [&](std::size_t tile) {
       const Pixel place = pixelAt(grid, tile);
       const int left = windows_.tile * place.x, top = windows_.tile * place.y;
-      std::size_t pixels = 0, free = 0;
+      std::size_t pixels = 0, none = 0, all = 0;
       for (int y = top; y < std::min(top + windows_.tile, size.height); ++y)
-        for (int x = left; x < std::min(left + windows_.tile, size.width); ++x, ++pixels)
-          free += content_->free[projectors.offset(device) + indexOf(size, {x, y})];
-      freeOfTile_[tiles.offset(device) + tile] = free == 0        ? Free::none
-                                                 : free == pixels ? Free::all
-                                                                  : Free::some;
-    }
+        for (int x = left; x < std::min(left + windows_.tile, size.width); ++x, ++pixels) {
+          const float share = shareOf(projectors.offset(device) + indexOf(size, {x, y}));
+          none += share == 0.0f;
+          all += share == 1.0f;
+        }
+      freeOfTile_[tiles.offset(device) + tile] = none == pixels  ? Free::none
+                                                 : all == pixels ? Free::all
+                                                                 : Free::some;
+    });
   }
 }
 
@@ -207,7 +245,7 @@ void CpuBackend::putTiles(std::size_t device, std::size_t tileRow, bool clamped,
       if (freeOfTile_[tile] == Free::some)
         for (std::size_t x = 0; x < width; ++x)
           for (std::size_t c = 0; c < 3; ++c)
-            line[3 * x + c] *= static_cast<float>(content_->free[first + x]);
+            line[3 * x + c] *= shareOf(first + x);
       float* p = &nodes_[3 * first];
       // A length that the compiler knows.
       if (width == 4)
@@ -272,6 +310,9 @@ void CpuBackend::preconditionLine(std::size_t device, int y) noexcept {
   kernels_.precondition(&preconditioner_[3 * first], &adjoint_[sumFloats * first],
                         &engine_.preconditioner.share()[3 * first], &leastBound_[first],
                         static_cast<std::size_t>(projectors.size(device).width));
+  if (!isDimmed(device, y)) return;
+  const auto width = static_cast<std::size_t>(projectors.size(device).width);
+  for (std::size_t i = 0; i < 3 * width; ++i) preconditioner_[3 * first + i] *= content_->available[first + i / 3];
 }
 
 void CpuBackend::fillMeans() noexcept {
@@ -304,6 +345,9 @@ void CpuBackend::finishPair(Pass pass, std::size_t device, int pair, float lengt
         kernels_.update(&nodes_[3 * first], &preconditioner_[3 * first], &adjoint_[sumFloats * first], length,
                         static_cast<std::size_t>(size.width));
     clipped_.fetch_add(cut, std::memory_order_relaxed);
+    if (isDimmed(device, y))
+      for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(size.width); ++i)
+        nodes_[3 * first + i] = std::min(nodes_[3 * first + i], content_->available[first + i / 3]);
     if (!words.empty()) encodeLine(device, y, words);
   }
   if (words.empty()) layout.fillMeansOfLine(device, pair, nodeValues());

@@ -23,6 +23,7 @@ class CpuBackend : public EngineBackend {
   std::string_view name() const override { return name_; }
   void setContent(const EngineContent& content) override;
   void contentFollowed() override;
+  void availabilityFollowed() override;
   void startFrom(std::span<const float> projector) override;
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
@@ -44,6 +45,13 @@ class CpuBackend : public EngineBackend {
   void warpOnly(OutputWords words) noexcept;
   /// What depends on weights and on what is free.
   void takeWeights();
+  /// What depends on the light that arrives.
+  void takeAvailable();
+  /// The part of a projector pixel's light that may be used: 0 where it is not free.
+  float shareOf(std::size_t pixel) const noexcept {
+    const float free = content_->free[pixel] ? 1.0f : 0.0f;
+    return content_->available.empty() ? free : free * content_->available[pixel];
+  }
   /// The means of level 1 of what was projected last.
   void fillMeans() noexcept;
   /// p = clamp(M u).
@@ -68,6 +76,12 @@ class CpuBackend : public EngineBackend {
   /// C, of the correction's pass.
   void makePreconditioner() noexcept;
   void preconditionLine(std::size_t device, int y) noexcept;
+  bool isDimmed(std::size_t device, int y) const noexcept {
+    return !dimmed_.empty() && dimmed_[lineOf(device, y)] != 0;
+  }
+  std::size_t lineOf(std::size_t device, int y) const noexcept {
+    return firstLine_[device] + static_cast<std::size_t>(y);
+  }
   /// r = W (wanted - T p), the adjoint T^T r of all nodes, and for the correction u = U r and green of
   /// T^T W lit.
   void passThrough(Pass pass) noexcept;
@@ -95,6 +109,8 @@ class CpuBackend : public EngineBackend {
   WarpTiles warp_;
   enum class Free : std::uint8_t { none, some, all };
   std::vector<Free> freeOfTile_;  // of the windows' tiles
+  std::vector<std::size_t> firstLine_;  // of each projector, and the number of all lines
+  std::vector<std::uint8_t> dimmed_;  // per line of all projectors: less than all of some pixel's light arrives
   std::atomic<std::size_t> clipped_{0};
   std::size_t freeValues_ = 0;
   bool hasLast_ = false;  // nodes_ hold what was projected last

@@ -60,6 +60,9 @@ struct EngineContent {
   std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
   std::vector<std::optional<compensation::Placement>> placements;  // as Target's
   std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed
+  // Of light that somebody stands in, see AvailabilityFollower; both empty: all arrives.
+  std::vector<float> available;  // per projector pixel: a, 0 to 1
+  CameraStack missing;           // camera stack: T (1 - a) of what is free
 };
 
 /// Prepares content of a size, placed as fitTarget() places it.

@@ -49,6 +49,10 @@ void FallbackBackend::contentFollowed() {
   change([](EngineBackend& backend) { backend.contentFollowed(); });
 }
 
+void FallbackBackend::availabilityFollowed() {
+  change([](EngineBackend& backend) { backend.availabilityFollowed(); });
+}
+
 void FallbackBackend::startFrom(std::span<const float> projector) {
   change([projector](EngineBackend& backend) { backend.startFrom(projector); });
 }

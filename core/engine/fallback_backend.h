@@ -41,6 +41,7 @@ class FallbackBackend : public EngineBackend {
   void setContent(const EngineContent& content) override;
   /// The other back end has nothing that was projected last.
   void contentFollowed() override;
+  void availabilityFollowed() override;
   void startFrom(std::span<const float> projector) override;
   /// False only if the other one is lost too.
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,

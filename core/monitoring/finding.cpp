@@ -6,9 +6,10 @@
 namespace relucent::monitoring {
 namespace {
 
-Message placeOf(const Finding& finding) {
-  const int column = finding.x < 1.0 / 3.0 ? 0 : finding.x < 2.0 / 3.0 ? 1 : 2;
-  const int row = finding.y < 1.0 / 3.0 ? 0 : finding.y < 2.0 / 3.0 ? 1 : 2;
+/// Of shares of the view.
+Message placeOf(double x, double y) {
+  const int column = x < 1.0 / 3.0 ? 0 : x < 2.0 / 3.0 ? 1 : 2;
+  const int row = y < 1.0 / 3.0 ? 0 : y < 2.0 / 3.0 ? 1 : 2;
   switch (3 * row + column) {
     case 0:
       return RELUCENT_ENGLISH_MESSAGE("monitoring.place-top-left", "at the top left");
@@ -61,12 +62,17 @@ Message sentenceOf(const Finding& finding) {
     case FindingKind::shadowed:
       return RELUCENT_ENGLISH_MESSAGE("monitoring.shadowed",
                                       "{} % of the light has been missing for a while {}.")
-          .with(percent, placeOf(finding));
+          .with(percent, placeOf(finding.x, finding.y));
     case FindingKind::unrecognised:
       return RELUCENT_ENGLISH_MESSAGE("monitoring.unrecognised",
                                       "The camera has not seen what is played for a while.");
   }
   return {};
+}
+
+Message sentenceOf(const FilledShadow& shadow) {
+  return RELUCENT_ENGLISH_MESSAGE("monitoring.filled", "A shadow in the light of projector {} is filled {}.")
+      .with(as::label(shadow.projector + 1), placeOf(shadow.x, shadow.y));
 }
 
 Message adviceOf(const Finding& finding) {

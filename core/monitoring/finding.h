@@ -31,6 +31,14 @@ struct Finding {
   double since = 0.0;       // seconds, of the photographs' clock
 };
 
+/// A shadow that other projectors fill.
+struct FilledShadow {
+  std::size_t projector = 0;  // whose light does not arrive
+  double x = 0.0, y = 0.0;    // its middle as shares of the camera's view
+  std::size_t cells = 0;      // of that projector, see ShadowMap
+};
+Message sentenceOf(const FilledShadow& shadow);
+
 /// What happened, in one sentence.
 Message sentenceOf(const Finding& finding);
 /// What is still safe, and what to do.

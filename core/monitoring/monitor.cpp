@@ -45,6 +45,12 @@ Monitor::Monitor(WatchedVenue venue, MonitorSettings settings)
           venue_.transport.rows(), venue_.sampling.pixels.size());
 }
 
+std::vector<double> Monitor::gains() const {
+  std::vector<double> gains;
+  for (const Lasting& one : gain_) gains.push_back(std::max(0.0, 1.0 + one.median().value_or(0.0)));
+  return gains;
+}
+
 Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<const PlayedFrame> frames) {
   Look look;
   const Observed seen = observedOf(photograph, venue_);
@@ -52,9 +58,7 @@ Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<co
     look.use = Look::Use::saturated;
     return look;
   }
-  std::vector<double> gains;
-  for (const Lasting& one : gain_) gains.push_back(std::max(0.0, 1.0 + one.median().value_or(0.0)));
-  look.moment = momentOf(seen, frames, hdr::trueSeconds(venue_.camera, photograph.seconds), venue_, gains);
+  look.moment = momentOf(seen, frames, hdr::trueSeconds(venue_.camera, photograph.seconds), venue_, gains());
   look.light = fitLight(seen, look.moment, venue_);
   if (look.light.light > leastLight)
     unrecognised_.add(seconds, look.light.recognised < settings_.recognised ? 1.0 : 0.0, 0.0);

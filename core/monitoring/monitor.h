@@ -50,6 +50,8 @@ class Monitor {
   /// A photograph whose exposure began among these frames. `seconds`: when, of any clock that goes on.
   /// Contract: at least one frame; the frame has the camera's size.
   Look look(const rig::RawFrame& photograph, double seconds, std::span<const PlayedFrame> frames);
+  /// Of the projectors' channels as far as photographs tell them, three a projector: 1 as they were measured.
+  std::vector<double> gains() const;
   /// What lasts as of the last photograph, the gravest first.
   const std::vector<Finding>& findings() const { return findings_; }
   /// Share of all quantities that the photographs of the last seconds tell: 0 in the dark.

@@ -43,9 +43,9 @@ void addPixelsOf(const transport::Node& node, const transport::Block& block, con
 
 SampledTransport::SampledTransport(const transport::TransportMatrix& transport,
                                    const std::vector<std::uint32_t>& rows, std::size_t mostExact)
-    : rasters_(transport.projectors()) {
-  const transport::NodeLayout& layout = transport.layout();
-  std::vector<std::uint32_t> nodes;
+    : rasters_(transport.projectors()), layout_(transport.layout()) {
+  const transport::NodeLayout& layout = layout_;
+  std::vector<std::uint32_t>& nodes = nodes_;
   for (std::uint32_t row : rows) {
     const transport::LeafRow leaves = transport.row(row);
     nodes.insert(nodes.end(), leaves.columns().begin(), leaves.columns().end());
@@ -94,8 +94,19 @@ SampledTransport::SampledTransport(const transport::TransportMatrix& transport,
 }
 
 std::size_t SampledTransport::bytes() const {
-  return leaves_.bytes() + projectorOf_.size() + 4 * (pixels_.size() + nodePixels_.size()) +
+  return leaves_.bytes() + projectorOf_.size() + 4 * (nodes_.size() + pixels_.size() + nodePixels_.size()) +
          8 * nodeBegin_.size();
+}
+
+std::vector<SampledTransport::Arrival> SampledTransport::arrivalsOf(std::uint32_t sample) const {
+  std::vector<Arrival> arrivals;
+  for (std::size_t entry = leaves_.rowBegin(sample); entry < leaves_.rowBegin(sample + 1); ++entry) {
+    const std::size_t node = leaves_.column(entry);
+    float sum = 0.0f;
+    for (std::int16_t value : leaves_.code(entry)) sum += value;
+    arrivals.push_back({projectorOf_[node], layout_.block(layout_.node(nodes_[node])), leaves_.scale(sample) * sum});
+  }
+  return arrivals;
 }
 
 FrameMeans SampledTransport::meansOf(std::span<const float> light) const {

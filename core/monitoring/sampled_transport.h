@@ -40,8 +40,19 @@ class SampledTransport {
   /// c: camera's channel, k: projector's. The sum over j and k is T p. `means`: 0 to 1.
   std::vector<float> lightOf(std::span<const float> means, std::span<const std::uint32_t> samples) const;
 
+  /// Light at full drive that a sample sees of a part of a projector: the sum of a leaf's nine values.
+  struct Arrival {
+    std::size_t projector = 0;
+    transport::Block from;
+    float light = 0.0f;
+  };
+  /// Of all leaves of a sample.
+  std::vector<Arrival> arrivalsOf(std::uint32_t sample) const;
+
  private:
   Rasters rasters_;
+  transport::NodeLayout layout_;
+  std::vector<std::uint32_t> nodes_;       // of the layout, as they are numbered here
   transport::BlockSparse leaves_;          // of nodes that are used, numbered anew
   std::vector<std::uint8_t> projectorOf_;  // per node
   std::vector<std::uint32_t> pixels_;

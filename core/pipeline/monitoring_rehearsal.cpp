@@ -13,37 +13,14 @@
 #include "relucent/devices/temporary_folder.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/projection.h"
-#include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/watched_calibration.h"
 
 namespace relucent::pipeline {
 namespace {
 
-constexpr Size canvas{240, 180};
-constexpr double framesPerSecond = 25.0;
-constexpr std::int64_t sceneFrames = 60, slideFrames = 200, fadeFrames = 12;
+constexpr double framesPerSecond = RehearsedContent::framesPerSecond;
 constexpr double remembered = 0.45;      // seconds of frames that a photograph is looked for in
 constexpr double longestExposure = 0.1;  // seconds
-
-/// A part of an image, brought to the canvas: what a camera that pans sees.
-image::Image panned(const image::Image& from, double share, float brightness) {
-  image::Image picture(canvas, 3);
-  const double zoom = 0.7, left = share * (1.0 - zoom) * (from.width() - 1),
-               top = (1.0 - share) * (1.0 - zoom) * (from.height() - 1);
-  for (int y = 0; y < canvas.height; ++y)
-    for (int x = 0; x < canvas.width; ++x) {
-      const double u = left + zoom * x * (from.width() - 1) / (canvas.width - 1);
-      const double v = top + zoom * y * (from.height() - 1) / (canvas.height - 1);
-      const int u0 = std::min(static_cast<int>(u), from.width() - 2);
-      const int v0 = std::min(static_cast<int>(v), from.height() - 2);
-      const auto fu = static_cast<float>(u - u0), fv = static_cast<float>(v - v0);
-      for (int c = 0; c < 3; ++c)
-        picture.at(x, y, c) =
-            brightness * ((1 - fv) * ((1 - fu) * from.at(u0, v0, c) + fu * from.at(u0 + 1, v0, c)) +
-                          fv * ((1 - fu) * from.at(u0, v0 + 1, c) + fu * from.at(u0 + 1, v0 + 1, c)));
-    }
-  return picture;
-}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -63,7 +40,7 @@ struct MonitoringRehearsal::Parts {
   };
 
   Parts(const RehearsalSettings& asked, const std::filesystem::path& cacheFolder, Progress& progress)
-      : settings(asked), cache(cacheFolder), images(judgedImages(canvas)) {
+      : settings(asked), cache(cacheFolder), shown(asked.seed) {
     CalibrateSettings calibrating;
     calibrating.rig = settings.venue;
     devices::TemporaryFolder temporary;
@@ -78,61 +55,12 @@ struct MonitoringRehearsal::Parts {
     truth = std::make_shared<const venue::SimulatedVenue>(settings.venue, cache, progress);
   }
 
-  /// Frames that repeat have one key.
-  static std::int64_t keyOf(ShownContent content, std::int64_t frame, std::size_t images) {
-    const auto count = static_cast<std::int64_t>(images);
-    switch (content) {
-      case ShownContent::still:
-        return 0;
-      case ShownContent::film:
-      case ShownContent::dark:
-        return frame % (4 * sceneFrames);
-      case ShownContent::slides: {
-        const std::int64_t slide = frame / slideFrames % count, within = frame % slideFrames;
-        return slideFrames * slide + (within < slideFrames - fadeFrames ? 0 : within);
-      }
-    }
-    return 0;
-  }
-
-  image::Image contentOf(ShownContent content, std::int64_t key) const {
-    const auto at = [&](std::int64_t index) -> const image::Image& {
-      return images[static_cast<std::size_t>(index) % images.size()].linear;
-    };
-    const std::int64_t scene = key / sceneFrames, within = key % sceneFrames;
-    const double share = static_cast<double>(within) / (sceneFrames - 1);
-    switch (content) {
-      case ShownContent::still:
-        return images[settings.seed % 3].linear;
-      case ShownContent::film: {
-        // Every other scene ends by fading to black.
-        const double left = static_cast<double>(sceneFrames - 1 - within) / fadeFrames;
-        const double brightness = scene % 2 == 1 ? std::min(1.0, left) : 1.0;
-        return panned(at(static_cast<std::int64_t>(settings.seed) + scene),
-                      scene % 2 == 0 ? share : 1.0 - share, static_cast<float>(brightness));
-      }
-      case ShownContent::dark:
-        return panned(scene % 2 == 0 ? images.back().linear : images[4].linear, share, 0.4f);
-      case ShownContent::slides: {
-        const std::int64_t slide = key / slideFrames, within8 = key % slideFrames;
-        const float mix = within8 == 0 ? 0.0f
-                                       : static_cast<float>(within8 - (slideFrames - fadeFrames) + 1) /
-                                             static_cast<float>(fadeFrames + 1);
-        image::Image picture = at(slide);
-        for (std::size_t i = 0; i < picture.data().size(); ++i)
-          picture.data()[i] = (1.0f - mix) * picture.data()[i] + mix * at(slide + 1).data()[i];
-        return picture;
-      }
-    }
-    return {};
-  }
-
   const Prepared& prepared(ShownContent content, std::int64_t frame) {
-    const std::int64_t key = keyOf(content, frame, images.size());
+    const std::int64_t key = shown.keyOf(content, frame);
     auto [found, isNew] = kept.try_emplace({content, key});
     if (!isNew) return found->second;
     Progress quiet;
-    const compensation::Target target = fitTarget(contentOf(content, key), measured.venue, {});
+    const compensation::Target target = fitTarget(shown.at(content, key), measured.venue, {});
     const compensation::Compensation solved =
         compensator->solve(compensation::Method::windows, target, quiet);
     const Rasters& projectors = measured.venue.transport.projectors();
@@ -145,7 +73,7 @@ struct MonitoringRehearsal::Parts {
 
   RehearsalSettings settings;
   std::filesystem::path cache;
-  std::vector<NamedImage> images;
+  RehearsedContent shown;
   MeasuredCalibration measured;
   monitoring::WatchedVenue watched;
   std::optional<compensation::Compensator> compensator;
@@ -161,6 +89,7 @@ MonitoringRehearsal::~MonitoringRehearsal() = default;
 
 void MonitoringRehearsal::setSeed(std::uint64_t seed) {
   parts_->settings.seed = seed;
+  parts_->shown.setSeed(seed);
   parts_->kept.clear();
 }
 
@@ -220,7 +149,7 @@ RehearsalResult MonitoringRehearsal::run(ShownContent content, double duration,
     const auto first = static_cast<std::int64_t>(std::floor((wallTime - remembered) * framesPerSecond));
     const auto last = static_cast<std::int64_t>(std::floor((wallTime + exposure) * framesPerSecond));
     for (std::int64_t frame = first; frame <= last; ++frame) {
-      const std::int64_t key = Parts::keyOf(content, frame, parts.images.size());
+      const std::int64_t key = parts.shown.keyOf(content, frame);
       if (key == lastKey) continue;
       lastKey = key;
       frames.push_back({static_cast<double>(frame) / framesPerSecond, parts.prepared(content, frame).means});

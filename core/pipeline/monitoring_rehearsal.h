@@ -7,23 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "relucent/base/enum_names.h"
 #include "relucent/monitoring/monitor.h"
+#include "relucent/pipeline/rehearsed_content.h"
 #include "relucent/venue/played_show.h"
 #include "relucent/venue/venue.h"
 
 namespace relucent::pipeline {
-
-/// What plays while a venue is watched.
-enum class ShownContent { still, film, dark, slides };
-inline constexpr EnumName<ShownContent> shownContentNames[]{
-    {ShownContent::still, "still", "one picture all the time"},
-    {ShownContent::film, "film", "scenes that pan, cut and fade, 25 frames a second"},
-    {ShownContent::dark, "dark", "a film of night scenes"},
-    {ShownContent::slides, "slides", "pictures that take each other's place every 8 seconds"}};
-constexpr EnumNames<ShownContent> namesOf(ShownContent) {
-  return {"content", shownContentNames};
-}
 
 struct RehearsalSettings {
   venue::VenueSettings venue;   // as it was measured

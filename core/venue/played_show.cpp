@@ -17,6 +17,44 @@ namespace {
 constexpr std::size_t mostKept = 600;    // pictures, as the camera sees them
 constexpr float bodyReflectance = 0.3f;  // of a visitor before the camera, of the mean of what it sees
 
+CameraStack partOf(const CameraStack& all, const VenueLight& light, std::size_t camera) {
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(3 * light.cameras().offset(camera));
+  return CameraStack(
+      Stack(begin, begin + static_cast<std::ptrdiff_t>(3 * light.cameras().size(camera).count())));
+}
+
+/// Linear light of all projectors, black included.
+ProjectorStack lightOf(const std::vector<image::Image>& pictures, const VenueLight& light) {
+  ProjectorStack linear;
+  for (const image::Image& picture : pictures) {
+    const Stack one = light.projectorModel().light(picture);
+    linear.insert(linear.end(), one.begin(), one.end());
+  }
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] += light.projectorModel().black()[i % 3];
+  return linear;
+}
+
+float lampOf(const PlayedVenue& now, std::size_t projector, std::size_t channel) {
+  return now.lamps.empty() ? 1.0f : now.lamps[projector][channel];
+}
+
+/// Of the projectors' light, what reaches a camera past whoever stands in it.
+CameraStack shadowed(const std::vector<image::Image>& pictures, const PlayedVenue& now, std::size_t camera) {
+  const VenueLight& light = now.venue->light();
+  const Rasters& projectors = light.layout().projectors();
+  ProjectorStack linear = lightOf(pictures, light);
+  for (std::size_t j = 0; j < projectors.devices(); ++j)
+    for (std::size_t i = 0; i < projectors.size(j).count(); ++i) {
+      const Pixel pixel = pixelAt(projectors.size(j), i);
+      const bool isDark = std::any_of(now.inTheWay.begin(), now.inTheWay.end(), [&](const Silhouette& one) {
+        return one.projector == j && one.holds(projectors.size(j), pixel);
+      });
+      for (std::size_t c = 0; c < 3; ++c)
+        linear[3 * (projectors.offset(j) + i) + c] *= isDark ? 0.0f : lampOf(now, j, c);
+    }
+  return partOf(light.fromLight(linear), light, camera);
+}
+
 class ShowCamera : public rig::Camera {
  public:
   ShowCamera(PlayedShow show, VenueAt venueAt, std::function<double()> clock, std::size_t camera)
@@ -59,52 +97,15 @@ class ShowCamera : public rig::Camera {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * light[i];
   }
 
-  CameraStack partOf(const CameraStack& all, const VenueLight& light) const {
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(3 * light.cameras().offset(camera_));
-    return CameraStack(
-        Stack(begin, begin + static_cast<std::ptrdiff_t>(3 * light.cameras().size(camera_).count())));
-  }
-
-  /// Linear light of all projectors, black included.
-  static ProjectorStack lightOf(const std::vector<image::Image>& pictures, const VenueLight& light) {
-    ProjectorStack linear;
-    for (const image::Image& picture : pictures) {
-      const Stack one = light.projectorModel().light(picture);
-      linear.insert(linear.end(), one.begin(), one.end());
-    }
-    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] += light.projectorModel().black()[i % 3];
-    return linear;
-  }
-
   CameraStack seenOf(const PlayedPictures& pictures, const PlayedVenue& now) {
     const bool isShadowed = std::any_of(now.inTheWay.begin(), now.inTheWay.end(),
                                         [](const Silhouette& one) { return one.projector.has_value(); });
-    if (isShadowed) return shadowed(*pictures, now);
+    if (isShadowed) return shadowed(*pictures, now, camera_);
     const Seen& seen = kept(pictures, now);
     CameraStack sum(seen.light.front().front().size(), 0.0f);
     for (std::size_t j = 0; j < seen.light.size(); ++j)
       for (std::size_t c = 0; c < 3; ++c) add(seen.light[j][c], lampOf(now, j, c), sum);
     return sum;
-  }
-
-  static float lampOf(const PlayedVenue& now, std::size_t projector, std::size_t channel) {
-    return now.lamps.empty() ? 1.0f : now.lamps[projector][channel];
-  }
-
-  CameraStack shadowed(const std::vector<image::Image>& pictures, const PlayedVenue& now) const {
-    const VenueLight& light = now.venue->light();
-    const Rasters& projectors = light.layout().projectors();
-    ProjectorStack linear = lightOf(pictures, light);
-    for (std::size_t j = 0; j < projectors.devices(); ++j)
-      for (std::size_t i = 0; i < projectors.size(j).count(); ++i) {
-        const Pixel pixel = pixelAt(projectors.size(j), i);
-        const bool isDark = std::any_of(now.inTheWay.begin(), now.inTheWay.end(), [&](const Silhouette& one) {
-          return one.projector == j && one.holds(projectors.size(j), pixel);
-        });
-        for (std::size_t c = 0; c < 3; ++c)
-          linear[3 * (projectors.offset(j) + i) + c] *= isDark ? 0.0f : lampOf(now, j, c);
-      }
-    return partOf(light.fromLight(linear), light);
   }
 
   const Seen& kept(const PlayedPictures& pictures, const PlayedVenue& now) {
@@ -122,7 +123,7 @@ class ShowCamera : public rig::Camera {
           const std::size_t at = 3 * (projectors.offset(j) + i) + c;
           alone[at] = linear[at];
         }
-        channels[c] = partOf(light.fromLight(alone), light);
+        channels[c] = partOf(light.fromLight(alone), light, camera_);
       }
       seen.light.push_back(std::move(channels));
     }
@@ -154,6 +155,15 @@ class ShowCamera : public rig::Camera {
 std::unique_ptr<rig::Camera> cameraBeforeShow(PlayedShow show, VenueAt venueAt, std::function<double()> clock,
                                               std::size_t camera) {
   return std::make_unique<ShowCamera>(std::move(show), std::move(venueAt), std::move(clock), camera);
+}
+
+CameraStack trueLight(const std::vector<image::Image>& pictures, const PlayedVenue& now, std::size_t camera) {
+  const VenueLight& light = now.venue->light();
+  CameraStack radiance = shadowed(pictures, now, camera);
+  const std::size_t offset = 3 * light.cameras().offset(camera);
+  for (std::size_t i = 0; i < radiance.size(); ++i)
+    radiance[i] += (1.0f + now.moreRoomLight) * light.ambient()[offset + i];
+  return radiance;
 }
 
 }  // namespace relucent::venue

@@ -106,6 +106,10 @@ const QCommandLineOption watch("watch",
                                "in log, health file, status page "
                                "and by OSC.",
                                "CAMERA");
+const QCommandLineOption fillShadows("fill-shadows",
+                                     "Where two projectors overlap, fill the shadow of whoever stands in the "
+                                     "light of one by the others, as the "
+                                     "watching camera sees it: with --watch.");
 const QCommandLineOption installService(
     "install-service",
     "Start this show at every log-in and restart it after a failure: a systemd user unit.");
@@ -125,7 +129,7 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
        {schedule, night, alarm, canvas, brightness, backend, osc, oscAddress, oscFeedback, statusPage,
         statusAddress, powerOffAfter, watch})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
-  for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter})
+  for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter, fillShadows})
     if (parser.isSet(option)) again << "--" + option.names().first();
   return again;
 }
@@ -252,6 +256,9 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   settings.osc = oscPlaceOf(parser);
   settings.status = statusPlaceOf(parser);
   settings.watch = watchFrom(parser);
+  settings.fillsShadows = parser.isSet(fillShadows);
+  if (settings.fillsShadows && !settings.watch)
+    throw WrongArguments("shadows are filled as a camera sees them: say which, as --watch 1");
   readProjectors(parser, settings);
   if (parser.isSet(oscFeedback)) {
     settings.oscFeedback = networkPlaceFrom(parser.value(oscFeedback));
@@ -277,11 +284,33 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   parser.addPositionalArgument("calibration", "Folder of the calibration.", "CALIBRATION");
   QCommandLineOption log("log", "Folder of the log and the health file.", "DIR",
                          QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation));
-  parser.addOptions({content,       loop,           schedule,    night,      alarm,          display,
-                     canvas,        adaptive,       brightness,  backend,    cameraPosition, osc,
-                     oscAddress,    oscFeedback,    oscTemplate, statusPage, statusAddress,  switchProjectors,
-                     powerOffAfter, closeShutter,   watch,       log,        installService, installAutostart,
-                     removeService, removeAutostart});
+  parser.addOptions({content,
+                     loop,
+                     schedule,
+                     night,
+                     alarm,
+                     display,
+                     canvas,
+                     adaptive,
+                     brightness,
+                     backend,
+                     cameraPosition,
+                     osc,
+                     oscAddress,
+                     oscFeedback,
+                     oscTemplate,
+                     statusPage,
+                     statusAddress,
+                     switchProjectors,
+                     powerOffAfter,
+                     closeShutter,
+                     watch,
+                     fillShadows,
+                     log,
+                     installService,
+                     installAutostart,
+                     removeService,
+                     removeAutostart});
   if (!parser.parse(arguments)) throw WrongArguments(parser.errorText().toStdString());
   if (parser.isSet(help)) return TextToPrint{parser.helpText()};
   if (parser.isSet(version))

@@ -59,7 +59,7 @@ int run(const PlayShow& play) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         RendererSettings{settings.calibration, settings.canvas, settings.adaptiveRange, settings.brightness,
-                         settings.backend, settings.cameras},
+                         settings.backend, settings.cameras, settings.fillsShadows},
         quiet, [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
         [] {
           SharedGl* shared = SharedGl::instance();

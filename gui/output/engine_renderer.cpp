@@ -17,6 +17,10 @@ namespace {
 
 /// Of a frame's time, what computing may take: the rest is for upload, swap and whatever else runs.
 constexpr double shareOfBudget = 0.7;
+/// After a pause, a shadow does not come or go at once.
+constexpr std::chrono::duration<double> mostOfAFade{0.05};
+/// Of a still whose shadows are filled: what is missing is given by the first of them, and evened out by the next.
+constexpr int leastSteps = 2;
 
 /// Empty if not all are known, or there are no two.
 std::vector<compensation::Position> positionsOf(const std::vector<compensation::ViewSettings>& views,
@@ -68,6 +72,7 @@ EngineRenderer::EngineRenderer(const RendererSettings& wanted, Progress& progres
     home_.push_back(view < settings.target.views.size() ? settings.target.views[view].weight : 1.0);
   rest_.assign(content_->viewWeight.begin(), content_->viewWeight.end());
   if (!cameras_.empty()) follower_.emplace(*venue_, *content_);
+  if (wanted.fillsShadows) shadows_.emplace(*venue_);
   const compensation::Method method = chosen.content.method;
   // A range that follows the content is the engine's.
   if (!wanted.adaptiveRange || method != compensation::Method::refined)
@@ -103,8 +108,14 @@ int EngineRenderer::stepsFor(const RenderRequest& request) {
 
 RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request,
                                      const Outdated& outdated) {
-  // Brightness is the engine's.
-  if (!still_ || !request.thorough || !request.compensated || request.brightness != 1.0)
+  // Light that does not arrive is the engine's: no still is solved without it.
+  if (request.compensated && followShadows(request)) {
+    if (still_ && request.thorough && request.brightness == 1.0 && !isSolved(content, request))
+      solve(content, request, outdated);
+    return framed(content, request);
+  }
+  // Brightness is the engine's. After a shadow a still is at once what it was before.
+  if (!still_ || !(request.thorough || isSolved(content, request)) || !request.compensated || request.brightness != 1.0)
     return framed(content, request);
   if (std::optional<RenderedFrame> rendered = thorough(content, request, outdated))
     return *std::move(rendered);
@@ -117,11 +128,7 @@ std::optional<RenderedFrame> EngineRenderer::thorough(const ContentPicture& cont
                                                       const RenderRequest& request,
                                                       const Outdated& outdated) {
   Stopwatch watch;
-  // For whoever looks from where the content is for.
-  const compensation::Compensation* solved =
-      perfected_ && !request.viewer ? perfected_->of(content, request.edition) : nullptr;
-  const bool isPerfected = solved != nullptr;
-  if (!isPerfected) solved = still_->solve(content, outdated, weightsFor(request.viewer));
+  const auto [solved, isPerfected] = solve(content, request, outdated);
   if (solved == nullptr) return std::nullopt;
   if (follower_) {
     follow(request.viewer);
@@ -132,6 +139,41 @@ std::optional<RenderedFrame> EngineRenderer::thorough(const ContentPicture& cont
   RenderedFrame rendered = encoded(*solved, watch.seconds());
   rendered.perfected = isPerfected;
   return rendered;
+}
+
+EngineRenderer::Solved EngineRenderer::solve(const ContentPicture& content, const RenderRequest& request,
+                                             const Outdated& outdated) {
+  // For whoever looks from where the content is for.
+  Solved found;
+  if (perfected_ && !request.viewer) found.solved = perfected_->of(content, request.edition);
+  found.isPerfected = found.solved != nullptr;
+  if (!found.isPerfected) found.solved = still_->solve(content, outdated, weightsFor(request.viewer));
+  if (shadows_ && found.solved != nullptr) {
+    solved_ = found.solved->projector;
+    solvedNumber_ = content.number;
+    solvedFor_ = request;
+  }
+  return found;
+}
+
+bool EngineRenderer::isSolved(const ContentPicture& content, const RenderRequest& request) const {
+  return shadows_ && !solved_.empty() && solvedNumber_ == content.number && solvedFor_.edition == request.edition &&
+         solvedFor_.viewer == request.viewer && request.brightness == 1.0;
+}
+
+bool EngineRenderer::followShadows(const RenderRequest& request) {
+  if (!shadows_) return false;
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> elapsed = now - std::exchange(shadowsAsked_, now);
+  if (request.available != available_) {
+    available_ = request.available;
+    engine::Availability all;
+    for (const Size& size : calibration_.venue.transport.projectors().sizes())
+      all.projectors.push_back(engine::completeGrid(size, std::max(size.width, size.height)));
+    shadows_->aim(available_ ? *available_ : all, *content_);
+  }
+  if (shadows_->advance(std::min(elapsed, mostOfAFade), *content_)) backend_->availabilityFollowed();
+  return !content_->available.empty();
 }
 
 void EngineRenderer::interrupt() {
@@ -179,6 +221,13 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
                     last_.compensated &&
                     (request.viewer != last_.viewer || request.brightness != last_.brightness);
   if (wanted.fromLast) wanted.steps = std::max(wanted.steps, 1);
+  const bool isShadowed = request.compensated && !content_->available.empty();
+  if (isShadowed && isSolved(content, request)) {
+    // From the picture as it is without a shadow on: elsewhere it stays what it was.
+    backend_->startFrom(solved_);
+    wanted.fromLast = true;
+    wanted.steps = std::max(wanted.steps, leastSteps);
+  }
   const bool settled = !request.compensated || lightFor(frame, wanted);
   engine::FrameReport report;
   RenderedFrame rendered;
@@ -189,7 +238,7 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
 
   rendered.clipped = report.clipped;
   rendered.steps = report.steps;
-  rendered.settled = settled;
+  rendered.settled = settled && (!shadows_ || shadows_->settled());
   rendered.seconds = report.seconds.count();
   return rendered;
 }

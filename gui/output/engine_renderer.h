@@ -12,6 +12,7 @@
 #include "output/still_solver.h"
 #include "relucent/base/progress.h"
 #include "relucent/engine/adaptive_range.h"
+#include "relucent/engine/availability.h"
 #include "relucent/engine/engine_plan.h"
 #include "relucent/engine/fallback_backend.h"
 #include "relucent/engine/followed_brightness.h"
@@ -32,6 +33,8 @@ struct RendererSettings {
   engine::BackendChoice backend = engine::BackendChoice::automatic;
   /// Where the cameras stand; empty: as the calibration's content has it.
   std::vector<compensation::Position> cameras{};
+  /// Whether frames are made without light that somebody stands in, RenderRequest::available.
+  bool fillsShadows = false;
 };
 
 /// The real-time engine over a calibration.
@@ -59,6 +62,13 @@ class EngineRenderer : public FrameRenderer {
   /// By the graphics card where it shares its textures, else through memory. Throws: Error{device}.
   std::vector<DrivePicture> computed(const engine::ContentFrame& frame, const engine::FrameRequest& request,
                                      engine::FrameReport& report);
+  struct Solved {
+    const compensation::Compensation* solved = nullptr;  // nullptr: it is outdated
+    bool isPerfected = false;
+  };
+  Solved solve(const ContentPicture& content, const RenderRequest& request, const Outdated& outdated);
+  /// Whether that is the last one, and frames of shadows start from it.
+  bool isSolved(const ContentPicture& content, const RenderRequest& request) const;
   /// A still picture as well as possible; none: it is outdated, or the engine's.
   std::optional<RenderedFrame> thorough(const ContentPicture& content, const RenderRequest& request,
                                         const Outdated& outdated);
@@ -72,6 +82,8 @@ class EngineRenderer : public FrameRenderer {
   /// Weights of the views for that viewer; empty: as the calibration has them.
   std::vector<double> weightsFor(const std::optional<FrameViewer>& viewer) const;
   void follow(const std::optional<FrameViewer>& viewer);
+  /// Goes on towards the light that arrives. Whether it is less than all.
+  bool followShadows(const RenderRequest& request);
 
   Canvas canvas_;
   pipeline::MeasuredCalibration calibration_;
@@ -93,6 +105,13 @@ class EngineRenderer : public FrameRenderer {
   std::vector<double> rest_;                     // for whom its content is when nobody is followed
   std::optional<engine::ViewFollower> follower_;
   std::optional<FrameViewer> followed_;
+  std::optional<engine::AvailabilityFollower> shadows_;  // none: nobody asks for shadows to be filled
+  std::shared_ptr<const engine::Availability> available_;
+  std::chrono::steady_clock::time_point shadowsAsked_{};
+  // The last still as well as possible, which shadowed frames of it start from.
+  ProjectorStack solved_;
+  std::uint64_t solvedNumber_ = 0;
+  RenderRequest solvedFor_;
   // What the back end has projected last, to go on from.
   std::uint64_t number_ = 0;
   RenderRequest last_;

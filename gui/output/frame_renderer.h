@@ -4,6 +4,7 @@
 #include <QSize>
 #include <QString>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "content/content_source.h"
 #include "output/drive_picture.h"
 #include "relucent/compensation/viewer.h"
+#include "relucent/engine/availability.h"
 
 namespace relucent::gui {
 
@@ -32,6 +34,8 @@ struct RenderRequest {
   std::optional<FrameViewer> viewer{};  // none: as the calibration's content has it
   /// With another one, what the calibration keeps of the picture is looked for again.
   std::uint64_t edition = 0;
+  /// What somebody leaves of the projectors' light; none: all.
+  std::shared_ptr<const engine::Availability> available{};
 
   bool operator==(const RenderRequest&) const = default;
 };

@@ -105,7 +105,7 @@ void Player::beginFrame() {
     if (picture.image.isNull()) return {};
     bool same = picture.number == last.content && request.compensated == last.request.compensated &&
                 request.brightness == last.request.brightness && request.viewer == last.request.viewer &&
-                !last.rendered.drives.empty();
+                request.available == last.request.available && !last.rendered.drives.empty();
     bool rests = same && last.rendered.settled;
     if (rests && request.edition == last.request.edition &&
         (last.request.thorough || time - last.since < standsStill))
@@ -235,6 +235,11 @@ bool Player::walk(const compensation::Position& by) {
 void Player::setOverlay(bool shown) {
   shown ? overlayed_.start() : overlayed_.stop();
   present();
+}
+
+void Player::setAvailable(std::shared_ptr<const engine::Availability> available) {
+  request_.available = std::move(available);
+  renderer_->interrupt();
 }
 
 void Player::setContent(std::shared_ptr<ContentSource> content) {

@@ -52,6 +52,8 @@ class Player : public QObject {
   /// becomes again what it was without him. Whether it can be: the places of all cameras are known, and this
   /// one is finite.
   bool moveViewer(const compensation::Position& position);
+  /// What somebody leaves of the projectors' light, from the next frame on; nullptr: all.
+  void setAvailable(std::shared_ptr<const engine::Availability> available);
   /// Other content from the next frame on, of the renderer's canvas.
   void setContent(std::shared_ptr<ContentSource> content);
   /// What the calibration keeps of the picture that stands is looked for again: it may have been perfected.

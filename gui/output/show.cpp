@@ -148,6 +148,7 @@ void Show::open() {
   setCompensated(before.compensated);
   setBrightness(before.brightness);
   setChart(before.chart);
+  if (watch_) player_->setAvailable(watch_->status().available);
 }
 
 void Show::openOrWait() {
@@ -166,7 +167,9 @@ pjlink::Wanted Show::wishes() {
 
 void Show::beginWatch(std::unique_ptr<WatchSource> source) {
   played_ = std::make_shared<PlayedTap>();
-  watch_ = std::make_unique<ShowWatch>(std::move(source), played_);
+  WatchPace pace;
+  pace.fillsShadows = settings_.fillsShadows;
+  watch_ = std::make_unique<ShowWatch>(std::move(source), played_, std::move(pace));
   photographs_.waitFor(watch_->camera());
   const auto textOfMessage = [](const Message& message) { return QString::fromStdString(english(message)); };
   connect(watch_.get(), &ShowWatch::found, this, [this, textOfMessage](const monitoring::Finding& finding) {
@@ -183,6 +186,16 @@ void Show::beginWatch(std::unique_ptr<WatchSource> source) {
     if (control_)
       control_->announce("/watch", "over", {QString::fromStdString(std::string(nameOf(finding.kind))), what});
     writeHealth(state_);
+  });
+  connect(watch_.get(), &ShowWatch::shadowsChanged, this, [this, textOfMessage] {
+    const WatchStatus& now = watch_->status();
+    if (player_) player_->setAvailable(now.available);
+    if (!now.filled.empty() && !isFilling_) log_.tell(textOfMessage(sentenceOf(now.filled.front())));
+    if (now.filled.empty() && isFilling_) log_.tell("no shadow is filled any more");
+    if (std::exchange(isFilling_, !now.filled.empty()) != isFilling_) writeHealth(state_);
+  });
+  connect(watch_.get(), &ShowWatch::cannotFill, this, [this](const Message& sentence) {
+    log_.warn(QString::fromStdString(englishSentence(sentence)));
   });
   connect(watch_.get(), &ShowWatch::failed, this, [this](const Message& sentence) {
     log_.warn("nobody watches the show: " + QString::fromStdString(englishSentence(sentence)));

@@ -134,6 +134,7 @@ class Show : public QObject, private RemoteActions {
   std::shared_ptr<PlayedTap> played_;
   std::unique_ptr<ShowWatch> watch_;  // nullptr: nobody watches
   StreamTeller streams_;
+  bool isFilling_ = false;  // a shadow, as of the last word
 };
 
 }  // namespace relucent::gui

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -85,6 +86,11 @@ void PlayedTap::begin() {
   if (!last_.drives.empty()) sent_.push_back(last_);
 }
 
+std::vector<PlayedTap::Sent> PlayedTap::sentSoFar() {
+  const std::lock_guard lock(guard_);
+  return sent_;
+}
+
 std::vector<PlayedTap::Sent> PlayedTap::end() {
   const std::lock_guard lock(guard_);
   keeps_ = false;
@@ -102,12 +108,13 @@ class ShowWatch::Watcher {
   using Take = std::function<void(const WatchStatus&)>;
 
   Watcher(std::unique_ptr<WatchSource> source, std::shared_ptr<PlayedTap> tap,
-          std::shared_ptr<CameraUse> camera, WatchPace pace, Take take)
+          std::shared_ptr<CameraUse> camera, WatchPace pace, Take take, std::function<void()> cannotFill)
       : source_(std::move(source)),
         tap_(std::move(tap)),
         camera_(std::move(camera)),
         pace_(std::move(pace)),
         take_(std::move(take)),
+        cannotFill_(std::move(cannotFill)),
         thread_([this] { work(); }) {}
   ~Watcher() {
     {
@@ -134,6 +141,11 @@ class ShowWatch::Watcher {
   }
 
  private:
+  struct Photograph {
+    double begun = 0.0;  // seconds
+    rig::RawFrame frame;
+    std::vector<PlayedTap::Sent> sent;
+  };
   struct NoSink : ProgressSink {
     void progressed(double, const Message&) override {}
   };
@@ -187,10 +199,17 @@ class ShowWatch::Watcher {
         continue;
       }
       monitoring::Monitor monitor(std::move(watching.venue));
+      if (pace_.fillsShadows) tracker_.emplace(monitor.venue());
+      status_.fillsShadows = tracker_ && tracker_->canFill();
+      if (tracker_ && !status_.fillsShadows) {
+        tracker_.reset();
+        cannotFill_();
+      }
       status_.findings.clear();
       exposure_ = 0.0;
       watch(watching, monitor);
       letGo(watching);
+      tracker_.reset();
     } while (waitForAnother());
   }
 
@@ -210,7 +229,7 @@ class ShowWatch::Watcher {
         }
         look(watching, monitor);
         pause = pace_.again;
-        wait(pace_.between);
+        wait(tracker_ ? pace_.betweenShadows : pace_.between);
       } catch (const Error& error) {
         // Only until it answers again; what it told stays told.
         letGo(watching);
@@ -223,39 +242,83 @@ class ShowWatch::Watcher {
 
   void letGo(pipeline::WatchingCamera& watching) {
     if (!isOpen_) return;
+    if (tracker_) tracker_->forget();
+    known_ = {};
+    means_.clear();
+    tap_->end();
+    status_.filled.clear();
+    status_.available.reset();
     watching.used = {};
     watching.devices.reset();
     isOpen_ = false;
     camera_->end();
   }
 
-  void look(pipeline::WatchingCamera& watching, monitoring::Monitor& monitor) {
-    tap_->begin();
-    wait(pace_.before);
-    if (!isPlaying()) return;
-    const monitoring::WatchedVenue& venue = monitor.venue();
+  /// A photograph; false: none that could be evidence.
+  bool photograph(pipeline::WatchingCamera& watching, const monitoring::WatchedVenue& venue, Photograph& taken) {
     if (exposure_ == 0.0) exposure_ = watching.exposures.back();
-    const double begun = pace_.clock ? pace_.clock() : steadySeconds();
-    const rig::RawFrame photograph =
-        watching.camera().capture({{"watch", status_.photographs}, 0, exposure_});
-    const std::vector<PlayedTap::Sent> sent = tap_->end();
-    if (sent.empty() || !isPlaying()) return;  // a picture that went black meanwhile is no evidence
-    rig::checkFrame(photograph, venue.sampling.camera, watching.camera().name());
-    Stopwatch watch;
+    taken.begun = pace_.clock ? pace_.clock() : steadySeconds();
+    taken.frame = watching.camera().capture({{"watch", status_.photographs}, 0, exposure_});
+    taken.sent = tracker_ ? tap_->sentSoFar() : tap_->end();
+    if (taken.sent.empty() || !isPlaying()) return false;  // a picture that went black meanwhile is no evidence
+    rig::checkFrame(taken.frame, venue.sampling.camera, watching.camera().name());
+    return true;
+  }
+
+  /// Frames that were read for the photograph before are not read again.
+  std::vector<monitoring::PlayedFrame> framesOf(const std::vector<PlayedTap::Sent>& sent,
+                                                const pipeline::CodeLights& lights,
+                                                const monitoring::WatchedVenue& venue) {
     std::vector<monitoring::PlayedFrame> frames;
-    for (const PlayedTap::Sent& one : sent)
-      if (monitoring::FrameMeans means = meansOf(one.drives, watching.lights, venue.transport);
-          !means.empty())
-        frames.push_back({one.seconds, std::move(means)});
+    for (const PlayedTap::Sent& one : sent) {
+      const auto known = std::find_if(means_.begin(), means_.end(), [&](const monitoring::PlayedFrame& frame) {
+        return frame.since == one.seconds;
+      });
+      monitoring::FrameMeans means =
+          known != means_.end() ? std::move(known->means) : meansOf(one.drives, lights, venue.transport);
+      if (!means.empty()) frames.push_back({one.seconds, std::move(means)});
+    }
+    return frames;
+  }
+
+  void look(pipeline::WatchingCamera& watching, monitoring::Monitor& monitor) {
+    if (!tracker_ || means_.empty()) {
+      tap_->begin();
+      wait(pace_.before);
+      if (!isPlaying()) return;
+    }
+    const monitoring::WatchedVenue& venue = monitor.venue();
+    Photograph taken;
+    if (!photograph(watching, venue, taken)) return;
+    Stopwatch watch;
+    std::vector<monitoring::PlayedFrame> frames = framesOf(taken.sent, watching.lights, venue);
     if (frames.empty()) return;
-    const monitoring::Look look = monitor.look(photograph, begun, frames);
     exposure_ = monitoring::suitableExposure(frames.back().means, watching.exposures, longestExposure, venue);
-    ++status_.photographs;
-    status_.used += look.use == monitoring::Look::Use::told;
-    status_.informed = monitor.informed();
+    if (tracker_) lookForShadows(taken, frames, venue);
+    if (!tracker_ || taken.begun - lastLook_ >= std::chrono::duration<double>(pace_.between).count()) {
+      lastLook_ = taken.begun;
+      const monitoring::Look look = monitor.look(taken.frame, taken.begun, frames);
+      if (look.use == monitoring::Look::Use::told) known_ = {monitor.gains(), look.light.room};
+      ++status_.photographs;
+      status_.used += look.use == monitoring::Look::Use::told;
+      status_.informed = monitor.informed();
+      status_.findings = monitor.findings();
+    }
+    means_ = tracker_ ? std::move(frames) : std::vector<monitoring::PlayedFrame>();
     status_.milliseconds = 1e3 * watch.seconds();
-    status_.findings = monitor.findings();
     tell(WatchState::watching);
+  }
+
+  void lookForShadows(const Photograph& taken, const std::vector<monitoring::PlayedFrame>& frames,
+                      const monitoring::WatchedVenue& venue) {
+    if (known_.gains.empty()) known_.gains.assign(3 * venue.transport.projectors(), 1.0);
+    const monitoring::Observed seen = monitoring::observedOf(taken.frame, venue);
+    const monitoring::Moment moment = monitoring::momentOf(
+        seen, frames, hdr::trueSeconds(venue.camera, taken.frame.seconds), venue, known_.gains);
+    if (!tracker_->look(seen, moment, known_, taken.begun)) return;
+    status_.filled = tracker_->filled();
+    status_.available =
+        status_.filled.empty() ? nullptr : std::make_shared<const engine::Availability>(tracker_->available());
   }
 
   std::unique_ptr<WatchSource> source_;
@@ -263,8 +326,13 @@ class ShowWatch::Watcher {
   std::shared_ptr<CameraUse> camera_;
   WatchPace pace_;
   Take take_;
+  std::function<void()> cannotFill_;
   WatchStatus status_;
   double exposure_ = 0.0;  // seconds, of the next photograph; 0: none yet
+  std::optional<monitoring::ShadowTracker> tracker_;  // none: no shadows are filled
+  monitoring::KnownLight known_;                      // of the last look at what lasts
+  std::vector<monitoring::PlayedFrame> means_;        // of the last photograph
+  double lastLook_ = -1e30;                           // seconds
   NoSink sink_;
   StopRequest stop_;
   std::mutex guard_;
@@ -278,9 +346,16 @@ ShowWatch::ShowWatch(std::unique_ptr<WatchSource> source, std::shared_ptr<Played
                      QObject* parent)
     : QObject(parent) {
   watcher_ = std::make_unique<Watcher>(
-      std::move(source), std::move(tap), camera_, std::move(pace), [this](WatchStatus status) {
+      std::move(source), std::move(tap), camera_, std::move(pace),
+      [this](WatchStatus status) {
         QMetaObject::invokeMethod(
             this, [this, status = std::move(status)] { take(status); }, Qt::QueuedConnection);
+      },
+      [this] {
+        const Message sentence = RELUCENT_ENGLISH_MESSAGE(
+            "monitoring.nothing-to-fill",
+            "Shadows cannot be filled: the camera sees no place that two projectors light.");
+        QMetaObject::invokeMethod(this, [this, sentence] { Q_EMIT cannotFill(sentence); }, Qt::QueuedConnection);
       });
 }
 
@@ -304,6 +379,7 @@ void ShowWatch::take(const WatchStatus& status) {
     if (!holds(before.findings, finding)) Q_EMIT found(finding);
   for (const monitoring::Finding& finding : before.findings)
     if (!holds(status.findings, finding)) Q_EMIT over(finding);
+  if (status.available != before.available) Q_EMIT shadowsChanged();
   Q_EMIT changed();
 }
 
@@ -323,6 +399,15 @@ QJsonObject toJson(const WatchStatus& status) {
                    {"informed", status.informed},
                    {"milliseconds", status.milliseconds},
                    {"findings", findings}};
+  if (status.fillsShadows) {
+    QJsonArray filled;
+    for (const monitoring::FilledShadow& shadow : status.filled)
+      filled.append(QJsonObject{{"projector", static_cast<qint64>(shadow.projector) + 1},
+                                {"x", shadow.x},
+                                {"y", shadow.y},
+                                {"what", QString::fromStdString(english(sentenceOf(shadow)))}});
+    json["filled"] = filled;
+  }
   if (!status.problem.empty()) json["problem"] = QString::fromStdString(english(status.problem));
   return json;
 }

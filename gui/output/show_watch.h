@@ -15,6 +15,7 @@
 #include "relucent/base/enum_names.h"
 #include "relucent/base/progress.h"
 #include "relucent/monitoring/monitor.h"
+#include "relucent/monitoring/shadow_tracker.h"
 #include "relucent/pipeline/watched_calibration.h"
 
 namespace relucent::gui {
@@ -31,6 +32,8 @@ class PlayedTap {
   void put(const std::vector<DrivePicture>& drives);
   /// All frames are kept from now on, the present one too, of many the newest.
   void begin();
+  /// What was sent since, the oldest first; it goes on being kept.
+  std::vector<Sent> sentSoFar();
   /// What was sent since, the oldest first; empty: nothing has been sent yet.
   std::vector<Sent> end();
 
@@ -73,6 +76,9 @@ struct WatchStatus {
   double informed = 0.0;      // share of what can be told that recent photographs tell
   double milliseconds = 0.0;  // of work, of the last photograph
   std::vector<monitoring::Finding> findings;
+  bool fillsShadows = false;
+  std::vector<monitoring::FilledShadow> filled;
+  std::shared_ptr<const engine::Availability> available;  // what is to be projected; nullptr: all
 };
 
 /// When, and by which clock what lasts is told from what does not.
@@ -80,6 +86,9 @@ struct WatchPace {
   std::chrono::milliseconds between{2000};  // photographs
   std::chrono::milliseconds before{250};    // frames that may be what a photograph shows
   std::chrono::milliseconds again{5000};    // after a failure of the camera, doubled up to a minute
+  /// Photographs as quickly as the camera gives them, for shadows; of these some for what lasts.
+  bool fillsShadows = false;
+  std::chrono::milliseconds betweenShadows{10};
   std::function<double()> clock{};          // seconds, on the watching thread; empty: the steady clock
 };
 
@@ -107,6 +116,10 @@ class ShowWatch : public QObject {
   void found(const relucent::monitoring::Finding& finding);
   /// It is as it was measured again.
   void over(const relucent::monitoring::Finding& finding);
+  /// Other shadows are filled than before: WatchStatus::available.
+  void shadowsChanged();
+  /// No shadow can be filled in this venue.
+  void cannotFill(const relucent::Message& sentence);
   /// The camera or the calibration cannot be used; once while that lasts.
   void failed(const relucent::Message& sentence);
   void changed();

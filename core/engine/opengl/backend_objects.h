@@ -19,6 +19,8 @@ struct OpenGlBackend::Objects {
   /// What depends on what is free; `last`: with what was projected last.
   void takeFree(std::span<const float> last);
   void takeLight(std::span<const float> last);
+  /// What was projected last. Waits for the graphics card.
+  std::vector<float> lastLight();
   void takeWeights() noexcept;
   void render(const ContentFrame& frame, const FrameRequest& request, int steps) noexcept;
   void place(const ContentFrame& frame, const FrameRequest& request) noexcept;

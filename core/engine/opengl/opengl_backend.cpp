@@ -176,19 +176,33 @@ void OpenGlBackend::Objects::takeWeights() noexcept {
 
 void OpenGlBackend::Objects::takeFree(std::span<const float> last) {
   freeVersion = content->freeVersion;
-  for (std::size_t i = 0; i < cameraPixels; ++i)
-    std::copy_n(&content->lit[3 * i], 3, &known[knownFloats * i + 8]);
+  const CameraStack& flood = engine.venue.flood;
+  const bool all = content->available.empty();
+  for (std::size_t i = 0; i < 3 * cameraPixels; ++i) {
+    const float missing = all ? 0.0f : content->missing[i];
+    float* const to = &known[knownFloats * (i / 3) + i % 3];
+    to[4] = all ? flood[i] : std::max(0.0f, flood[i] - missing);
+    to[8] = all ? content->lit[i] : std::max(0.0f, content->lit[i] - missing);
+  }
   brightest.write(0, content->brightest.data(), sizeof(std::int32_t) * projectorPixels);
   camera.write(0, known.data(), known.size() * sizeof(float));
   takeLight(last);
   freeValues = 3 * static_cast<std::size_t>(std::count(content->free.begin(), content->free.end(), 1));
 }
 
+std::vector<float> OpenGlBackend::Objects::lastLight() {
+  std::vector<float> four(4 * projectorPixels), three(3 * projectorPixels);
+  light.read(0, four.data(), four.size() * sizeof(float));
+  for (std::size_t j = 0; j < projectorPixels; ++j) std::copy_n(&four[4 * j], 3, &three[3 * j]);
+  return three;
+}
+
 void OpenGlBackend::Objects::takeLight(std::span<const float> last) {
   std::vector<float> values(4 * projectorPixels);
   for (std::size_t j = 0; j < projectorPixels; ++j) {
-    if (!last.empty()) std::copy_n(&last[3 * j], 3, &values[4 * j]);
-    values[4 * j + 3] = content->free[j] ? 1.0f : 0.0f;
+    const float share = content->available.empty() ? 1.0f : content->available[j];
+    for (std::size_t c = 0; c < 3 && !last.empty(); ++c) values[4 * j + c] = std::min(last[3 * j + c], share);
+    values[4 * j + 3] = content->free[j] ? share : 0.0f;
   }
   light.write(0, values.data(), values.size() * sizeof(float));
 }
@@ -228,12 +242,17 @@ void OpenGlBackend::contentFollowed() {
   GlContext::Current current(*context_);
   if (current && !lost_) {
     objects_->takeWeights();
-    if (objects_->content->freeVersion != objects_->freeVersion) {
-      std::vector<float> light(4 * objects_->projectorPixels), last(3 * objects_->projectorPixels);
-      objects_->light.read(0, light.data(), light.size() * sizeof(float));
-      for (std::size_t j = 0; j < objects_->projectorPixels; ++j) std::copy_n(&light[4 * j], 3, &last[3 * j]);
-      objects_->takeFree(last);
-    }
+    if (objects_->content->freeVersion != objects_->freeVersion) objects_->takeFree(objects_->lastLight());
+    if (!context_->failed()) return;
+  }
+  throwLost();
+}
+
+void OpenGlBackend::availabilityFollowed() {
+  require(objects_->content != nullptr, "content whose light arrives was not set");
+  GlContext::Current current(*context_);
+  if (current && !lost_) {
+    objects_->takeFree(objects_->lastLight());
     if (!context_->failed()) return;
   }
   throwLost();
@@ -244,7 +263,10 @@ void OpenGlBackend::startFrom(std::span<const float> projector) {
           "{} values of {} projector pixels", projector.size(), objects_->projectorPixels);
   GlContext::Current current(*context_);
   if (current && !lost_) {
-    objects_->takeLight(projector);
+    const std::vector<float>& available = objects_->content->available;
+    std::vector<float> dimmed(projector.begin(), projector.end());
+    for (std::size_t i = 0; i < dimmed.size() && !available.empty(); ++i) dimmed[i] *= available[i / 3];
+    objects_->takeLight(dimmed);
     objects_->hasLast = true;
     if (!context_->failed()) return;
   }

@@ -22,6 +22,7 @@ class OpenGlBackend : public EngineBackend {
   std::string_view name() const override { return name_; }
   void setContent(const EngineContent& content) override;
   void contentFollowed() override;
+  void availabilityFollowed() override;
   void startFrom(std::span<const float> projector) override;
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;

@@ -37,9 +37,9 @@ void main() {
     sums[j] = back;
 #else
     vec4 before = light[j];
-    vec3 value = before.xyz + stepLength * preconditioner(sums[firstStep + j]) * back.xyz;
+    vec3 value = before.xyz + stepLength * before.w * preconditioner(sums[firstStep + j]) * back.xyz;
     cut = visiblyCut(value);
-    value = clampLight(value);
+    value = min(clampLight(value), vec3(before.w));
     light[j] = vec4(value, before.w);
     nodeLight[j] = packLight(value);
 #endif

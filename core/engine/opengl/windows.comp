@@ -6,7 +6,7 @@ layout(std430, binding = 0) readonly buffer Tiles { uvec4 tileAt[]; };  // first
 layout(std430, binding = 1) readonly buffer Rows { uint row[]; };
 layout(std430, binding = 2) readonly buffer Weights { uint codePair[]; };
 layout(std430, binding = 3) readonly buffer Unmixed { vec4 unmixed[]; };
-layout(std430, binding = 4) buffer Light { vec4 light[]; };  // and 1 where a pixel is free
+layout(std430, binding = 4) buffer Light { vec4 light[]; };  // and the share of a pixel that may be used, 0 where it is not free
 layout(std430, binding = 5) writeonly buffer NodeLight { uvec2 nodeLight[]; };
 #ifdef CORRECTION
 // Of every node what comes back of the residual, and of green of what is lit; then, from `firstStep` on, what C of every
@@ -39,18 +39,18 @@ uint store(uint tile, uint inTile, vec3 value) {
 #ifdef CORRECTION
   vec4 back = sums[j];
   // What hardly any weighted pixel sees would take steps of any length on rounding errors.
-  sums[firstStep + j].w = before.w * (back.w > least ? 1.0 / back.w : nextToNothing);
+  sums[firstStep + j].w = before.w > 0.0 ? (back.w > least ? 1.0 / back.w : nextToNothing) : 0.0;
 #ifdef LAST
-  value = before.w * before.xyz;
+  value = before.w > 0.0 ? before.xyz : vec3(0.0);
 #else
-  value = before.xyz + byInverse * before.w * value + byAdjoint * preconditioner(sums[firstStep + j]) * back.xyz;
+  value = before.xyz + before.w * (byInverse * value + byAdjoint * preconditioner(sums[firstStep + j]) * back.xyz);
 #endif
   uint cut = visiblyCut(value);
+  value = min(clampLight(value), vec3(before.w));
 #else
-  value *= before.w;
+  value = before.w * clampLight(value);
   const uint cut = 0u;
 #endif
-  value = clampLight(value);
   light[j] = vec4(value, before.w);
   nodeLight[j] = packLight(value);
   return cut;

@@ -27,6 +27,9 @@ class FailingBackend : public EngineBackend {
   void contentFollowed() override {
     takeOrFail([this] { cpu_.contentFollowed(); });
   }
+  void availabilityFollowed() override {
+    takeOrFail([this] { cpu_.availabilityFollowed(); });
+  }
   void startFrom(std::span<const float> projector) override {
     takeOrFail([&] { cpu_.startFrom(projector); });
   }

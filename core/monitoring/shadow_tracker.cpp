@@ -16,6 +16,7 @@ constexpr double halfThere = 0.5;     // share of light that is neither blocked 
 constexpr double leastRecognised = 0.4;
 constexpr int mostUnrecognised = 10;  // photographs
 constexpr int rounds = 12, sweeps = 3;
+constexpr double soon = 1.0, leastFirm = 0.5;  // seconds
 
 }  // namespace
 
@@ -31,6 +32,9 @@ void ShadowTracker::forget() {
   unexplained_.assign(map_.cells(), 0);
   lockedUntil_.assign(map_.cells(), -1e30);
   known_.assign(map_.cells(), -1e30);
+  freed_.assign(map_.cells(), -1e30);
+  firmUntil_.assign(map_.cells(), -1e30);
+  firmness_.assign(map_.cells(), 0.0);
   unrecognised_ = 0;
   choose();
 }
@@ -73,14 +77,15 @@ std::vector<std::vector<std::size_t>> ShadowTracker::connected(const BlockedCell
 }
 
 std::vector<ShadowTracker::Hypothesis> ShadowTracker::hypothesesOf(std::size_t projector,
-                                                                   const ShadowEvidence& evidence) const {
+                                                                   const ShadowEvidence& evidence,
+                                                                   double seconds) const {
   std::vector<Hypothesis> found;
   BlockedCells less(map_.cells(), 0), more(map_.cells(), 0);
   const ShadowMap::Grid& grid = map_.grids()[projector];
   for (std::size_t cell = grid.first; cell < grid.first + grid.cells.count(); ++cell) {
     if (evidence.informationOf(cell) < tells) continue;
     const bool arrives = evidence.shareOf(cell) > halfThere;
-    if (arrives && evidence.blocked()[cell] != 0) more[cell] = 1;
+    if (arrives && evidence.blocked()[cell] != 0 && seconds >= firmUntil_[cell]) more[cell] = 1;
     if (!arrives && evidence.blocked()[cell] == 0) less[cell] = 1;
   }
   for (const auto& [chosen, blocked] : {std::pair(&less, true), std::pair(&more, false)})
@@ -116,12 +121,12 @@ std::vector<std::size_t> ShadowTracker::take(const Hypothesis& hypothesis, Shado
   return changed;
 }
 
-void ShadowTracker::search(ShadowEvidence& evidence) const {
+void ShadowTracker::search(ShadowEvidence& evidence, double seconds) const {
   for (int round = 0; round < rounds; ++round) {
     double best = -settings_.certain;
     Hypothesis chosen;
     for (std::size_t j = 0; j < map_.projectors(); ++j)
-      for (const Hypothesis& one : hypothesesOf(j, evidence)) {
+      for (const Hypothesis& one : hypothesesOf(j, evidence, seconds)) {
         if (one.blocked && !isLarge(one, evidence)) continue;
         const double before = evidence.misfit();
         const std::vector<std::size_t> changed = take(one, evidence);
@@ -139,11 +144,12 @@ void ShadowTracker::search(ShadowEvidence& evidence) const {
   }
 }
 
-void ShadowTracker::followBorders(ShadowEvidence& evidence) const {
+void ShadowTracker::followBorders(ShadowEvidence& evidence, double seconds) const {
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::size_t cell = 0; cell < map_.cells(); ++cell) {
       if (evidence.informationOf(cell) < tells) continue;
       const bool isBlocked = evidence.blocked()[cell] != 0;
+      if (isBlocked && seconds < firmUntil_[cell]) continue;
       int unlike = 0;
       for (std::size_t beside : around_[cell]) unlike += (evidence.blocked()[beside] != 0) != isBlocked;
       if (unlike == 0) continue;
@@ -176,8 +182,18 @@ void ShadowTracker::freeUnknown(const ShadowEvidence& evidence, double seconds) 
     const bool isWithin =
         std::all_of(around_[cell].begin(), around_[cell].end(), [&](std::size_t beside) { return filled_[beside] != 0; });
     if (evidence.informationOf(cell) >= tells || blocked_[cell] == 0 || isWithin) known_[cell] = seconds;
-    if (blocked_[cell] != 0 && seconds - known_[cell] > settings_.unknown) blocked_[cell] = 0;
+    if (seconds - known_[cell] > settings_.unknown && seconds >= firmUntil_[cell]) blocked_[cell] = 0;
     if (seconds < lockedUntil_[cell]) blocked_[cell] = 0;
+  }
+}
+
+void ShadowTracker::steady(const BlockedCells& before, double seconds) {
+  for (std::size_t cell = 0; cell < map_.cells(); ++cell) {
+    if (before[cell] != 0 && blocked_[cell] == 0) freed_[cell] = seconds;
+    if (before[cell] != 0 || blocked_[cell] == 0) continue;
+    const bool isAgain = seconds - freed_[cell] < soon;
+    firmness_[cell] = isAgain ? std::clamp(2.0 * firmness_[cell], leastFirm, settings_.firm) : 0.0;
+    firmUntil_[cell] = isAgain ? seconds + firmness_[cell] : seconds;
   }
 }
 
@@ -207,8 +223,8 @@ bool ShadowTracker::choose() {
 bool ShadowTracker::look(const Observed& seen, const Moment& moment, const KnownLight& known, double seconds) {
   ShadowEvidence evidence(seen, moment, venue_, map_, known);
   evidence.assume(blocked_);
-  search(evidence);
-  followBorders(evidence);
+  search(evidence, seconds);
+  followBorders(evidence, seconds);
   recognised_ = evidence.explained() > leastRecognised;
   if (!recognised_) {
     // Another camera's view, or a lamp that went out: no shadow is known in it.
@@ -217,9 +233,10 @@ bool ShadowTracker::look(const Observed& seen, const Moment& moment, const Known
     return choose();
   }
   unrecognised_ = 0;
-  blocked_ = evidence.blocked();
+  const BlockedCells before = std::exchange(blocked_, evidence.blocked());
   giveUp(evidence, seconds);
   freeUnknown(evidence, seconds);
+  steady(before, seconds);
   return choose();
 }
 

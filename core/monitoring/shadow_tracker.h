@@ -19,7 +19,8 @@ struct ShadowSettings {
   double explained = 0.5;  // share of a shadow in which light must be as it says
   int patience = 3;        // photographs in which a filled shadow may not be as it says
   double given = 5.0;      // seconds after which what was given up is looked for again
-  double unknown = 3.0;    // seconds after which light is tried again of which nothing was seen
+  double unknown = 1.0;    // seconds after which light is tried again of which nothing was seen
+  double firm = 8.0;       // seconds at most for which a cell stays blocked that was freed too early
 };
 
 /// Whose light does not arrive where, by photographs of what plays, one after the other: visitors who stand in a
@@ -57,15 +58,17 @@ class ShadowTracker {
     std::vector<std::size_t> cells;
     bool blocked = false;
   };
-  std::vector<Hypothesis> hypothesesOf(std::size_t projector, const ShadowEvidence& evidence) const;
+  std::vector<Hypothesis> hypothesesOf(std::size_t projector, const ShadowEvidence& evidence, double seconds) const;
   std::vector<std::vector<std::size_t>> connected(const BlockedCells& chosen) const;
   bool isLarge(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const;
   /// Takes it, and frees what is unknown in the same place. Returns the cells that changed.
   std::vector<std::size_t> take(const Hypothesis& hypothesis, ShadowEvidence& evidence) const;
-  void search(ShadowEvidence& evidence) const;
-  void followBorders(ShadowEvidence& evidence) const;
+  void search(ShadowEvidence& evidence, double seconds) const;
+  void followBorders(ShadowEvidence& evidence, double seconds) const;
   void giveUp(const ShadowEvidence& evidence, double seconds);
   void freeUnknown(const ShadowEvidence& evidence, double seconds);
+  /// A cell that is blocked again soon after it was freed is not freed again as soon.
+  void steady(const BlockedCells& before, double seconds);
   bool canOthersGive(std::size_t cell) const;
   bool choose();
 
@@ -76,6 +79,7 @@ class ShadowTracker {
   BlockedCells blocked_, filled_;
   std::vector<int> unexplained_;            // photographs in turn, per cell
   std::vector<double> lockedUntil_, known_;  // seconds, per cell
+  std::vector<double> freed_, firmUntil_, firmness_;
   engine::Availability available_;
   int unrecognised_ = 0;
   bool recognised_ = true;

@@ -108,7 +108,8 @@ struct ShadowRehearsal::Parts {
   }
 
   ShadowedPicture judge(const std::vector<image::Image>& drives, const std::vector<image::Image>& reference,
-                        const image::Image& content, const venue::PlayedVenue& now) const {
+                        const std::vector<image::Image>& possible, const image::Image& content,
+                        const venue::PlayedVenue& now) const {
     const compensation::Target target = fitTarget(content, measured.venue, {});
     venue::PlayedVenue empty = now;
     empty.inTheWay.clear();
@@ -121,7 +122,7 @@ struct ShadowRehearsal::Parts {
       return compensation::errorIn(0, all, target, cameras).deltaE;
     };
     const image::Image filled = errorOf(venue::trueLight(drives, now)), unfilled = errorOf(dark),
-                       unshadowed = errorOf(alone);
+                       unshadowed = errorOf(alone), best = errorOf(venue::trueLight(possible, now));
     ShadowedPicture picture;
     std::size_t beside = 0;
     for (std::size_t i = 0; i < filled.data().size(); ++i) {
@@ -141,14 +142,32 @@ struct ShadowRehearsal::Parts {
       picture.filled += static_cast<double>(filled.data()[i]);
       picture.unfilled += static_cast<double>(unfilled.data()[i]);
       picture.unshadowed += static_cast<double>(unshadowed.data()[i]);
+      picture.possible += static_cast<double>(best.data()[i]);
     }
     const auto shadowed = static_cast<double>(std::max<std::size_t>(1, picture.shadowed));
     picture.filled /= shadowed;
     picture.unfilled /= shadowed;
     picture.unshadowed /= shadowed;
+    picture.possible /= shadowed;
     picture.beside /= static_cast<double>(std::max<std::size_t>(1, beside));
     picture.besideUnshadowed /= static_cast<double>(std::max<std::size_t>(1, beside));
     return picture;
+  }
+
+  /// What is not blocked, pixel by pixel.
+  engine::Availability availableOf(const std::vector<venue::Silhouette>& inTheWay) const {
+    engine::Availability available;
+    const Rasters& projectors = measured.venue.transport.projectors();
+    for (std::size_t j = 0; j < projectors.devices(); ++j) {
+      const Size size = projectors.size(j);
+      engine::Availability::Grid& grid = available.projectors.emplace_back(engine::completeGrid(size, 1));
+      for (std::size_t i = 0; i < size.count(); ++i)
+        if (std::any_of(inTheWay.begin(), inTheWay.end(), [&](const venue::Silhouette& one) {
+              return one.projector == j && one.holds(size, pixelAt(size, i));
+            }))
+          grid.share[i] = 0.0f;
+    }
+    return available;
   }
 
   /// Whether any cell is filled in and around which nobody stands in the projector's light.
@@ -199,7 +218,8 @@ void ShadowRehearsal::setSeed(std::uint64_t seed) {
 ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
   Parts& parts = *parts_;
   const double frameSeconds = 1.0 / RehearsedContent::framesPerSecond;
-  Parts::Show show(*parts.prepared), reference(*parts.prepared);
+  Parts::Show show(*parts.prepared), reference(*parts.prepared), possible(*parts.prepared);
+  engine::Availability possibleNow;
   monitoring::ShadowTracker tracker(parts.watched, parts.settings.shadows);
   const auto venueAt = [&](double seconds) {
     venue::PlayedVenue now{parts.truth, {}, 0.0f, {}};
@@ -258,8 +278,18 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
     if (run.judges) {
       const std::int64_t wasKey = parts.shown.keyOf(run.content, atBegin);
       if (reference.key != wasKey) parts.render(reference, run.content, wasKey);
+      const venue::PlayedVenue who = venueAt(begins);
+      if (const engine::Availability known = parts.availableOf(who.inTheWay);
+          possible.key != wasKey || !(known == possibleNow)) {
+        possibleNow = known;
+        possible.follower.aim(known, possible.content);
+        possible.follower.advance(std::chrono::duration<double>(10.0), possible.content);
+        possible.backend.availabilityFollowed();
+        parts.render(possible, run.content, wasKey);
+      }
       const auto then = std::find_if(lit.begin(), lit.end(), [&](const Lit& one) { return one.frame == atBegin; });
-      picture = parts.judge(*then->drives, *reference.drives, parts.contentOf(run.content, wasKey).linear, venueAt(begins));
+      picture = parts.judge(*then->drives, *reference.drives, *possible.drives,
+                            parts.contentOf(run.content, wasKey).linear, who);
     }
     picture.seconds = begins;
     if (run.fills) {
@@ -278,7 +308,10 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
       result.seconds += watch.seconds();
       if (picture.isOther) asked.push_back({begins + exposure + parts.settings.latency, tracker.available()});
       for (const monitoring::FilledShadow& shadow : tracker.filled()) picture.cells += shadow.cells;
-      result.falseFills += parts.isFalse(tracker, venueAt(begins).inTheWay);
+      std::vector<venue::Silhouette> lately;
+      for (int back = 0; back < 8; ++back)
+        for (const venue::Silhouette& one : venueAt(begins - 0.1 * back).inTheWay) lately.push_back(one);
+      result.falseFills += parts.isFalse(tracker, lately);
     }
     result.pictures.push_back(picture);
   }

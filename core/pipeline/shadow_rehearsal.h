@@ -30,8 +30,9 @@ using InTheWay = std::function<std::vector<venue::Silhouette>(double seconds)>;
 struct ShadowedPicture {
   double seconds = 0.0;
   std::size_t shadowed = 0;  // pixels of the picture that a shadow takes a tenth of their light or more
-  // CIEDE2000 to what is wanted, the mean over these: as it is, without filling, and if nobody were there.
-  double filled = 0.0, unfilled = 0.0, unshadowed = 0.0;
+  // CIEDE2000 to what is wanted, the mean over these: as it is, without filling, as well as it could be filled by who
+  // knows every pixel in whose light somebody stands, and if nobody were there.
+  double filled = 0.0, unfilled = 0.0, possible = 0.0, unshadowed = 0.0;
   // The mean over all other pixels of the picture, likewise.
   double beside = 0.0, besideUnshadowed = 0.0;
   std::size_t cells = 0;  // that are filled as of this photograph
@@ -43,7 +44,7 @@ struct ShadowRehearsalResult {
   double seconds = 0.0;                   // of work, all photographs
   double followSeconds = 0.0;             // of the engine's following, all frames that did
   int followed = 0;                       // frames
-  int falseFills = 0;  // photographs after which light is held back of cells that nobody stands in or near
+  int falseFills = 0;  // photographs after which cells are filled that nobody has stood in or near for a while
   std::vector<std::vector<std::uint32_t>> words;  // of the frames, where they are kept
 };
 

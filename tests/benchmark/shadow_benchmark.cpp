@@ -38,8 +38,8 @@ ShownContent contentOf(const std::string& name) {
 
 void tell(const ShadowRehearsalResult& result) {
   for (const ShadowedPicture& one : result.pictures)
-    fmt::print("  {:5.2f} s  {:4} pixels  filled {:6.2f}  unfilled {:6.2f}  alone {:6.2f}  beside {:5.2f} {:5.2f}  cells {}{}\n",
-               one.seconds, one.shadowed, one.filled, one.unfilled, one.unshadowed, one.beside, one.besideUnshadowed,
+    fmt::print("  {:5.2f} s  {:4} pixels  filled {:6.2f}  unfilled {:6.2f}  possible {:6.2f}  alone {:6.2f}  beside {:5.2f} {:5.2f}  cells {}{}\n",
+               one.seconds, one.shadowed, one.filled, one.unfilled, one.possible, one.unshadowed, one.beside, one.besideUnshadowed,
                one.cells, one.isOther ? " *" : "");
 }
 
@@ -55,17 +55,21 @@ void standing(ShadowRehearsal& rehearsal, const Options& options, std::size_t pr
   const ShadowRehearsalResult result = rehearsal.run(run, quiet);
   if (options.isVerbose) tell(result);
   // Photographs from the first that shows the shadow until one that shows it filled; and until nothing is.
-  int until = -1, back = -1, n = 0, away = 0;
-  double before = 0.0, after = 0.0, alone = 0.0, count = 0.0;
+  int until = -1, back = -1, n = 0, away = 0, changes = 0;
+  double before = 0.0, after = 0.0, possible = 0.0, alone = 0.0, beside = 0.0, besideAlone = 0.0, count = 0.0;
   for (const ShadowedPicture& one : result.pictures) {
     if (one.seconds >= comes && one.seconds < goes) {
       ++n;
-      const double left = (one.filled - one.unshadowed) / std::max(1e-9, one.unfilled - one.unshadowed);
+      const double left = (one.filled - one.possible) / std::max(1e-9, one.unfilled - one.possible);
       if (until < 0 && left < 0.5) until = n;
       if (one.seconds > comes + 0.5) {
         before += one.unfilled;
         after += one.filled;
         alone += one.unshadowed;
+        possible += one.possible;
+        beside += one.beside;
+        besideAlone += one.besideUnshadowed;
+        changes += one.isOther;
         count += 1.0;
       }
     }
@@ -74,9 +78,10 @@ void standing(ShadowRehearsal& rehearsal, const Options& options, std::size_t pr
       if (back < 0 && one.cells == 0) back = away;
     }
   }
-  fmt::print("projector {} at {:.2f}: photographs until filled {}, until taken back {}; dE {:.2f} -> {:.2f}, alone {:.2f}; "
+  fmt::print("projector {} at {:.2f}: photographs until filled {}, until taken back {}; dE {:.2f} -> {:.2f}, possible {:.2f}, alone {:.2f}; beside {:.2f}, alone {:.2f}; changes {}; "
              "false fills {}; {:.1f} ms a photograph, {:.1f} ms a frame's following\n",
-             projector + 1, x, until, back, before / count, after / count, alone / count, result.falseFills,
+             projector + 1, x, until, back, before / count, after / count, possible / count, alone / count,
+             beside / count, besideAlone / count, changes, result.falseFills,
              1e3 * result.seconds / static_cast<double>(result.pictures.size()),
              1e3 * result.followSeconds / std::max(1, result.followed));
   std::fflush(stdout);

@@ -3,7 +3,9 @@
 #include "output/show_watch.h"
 
 #include <QSignalSpy>
+#include <QJsonArray>
 #include <QtTest>
+#include <array>
 #include <atomic>
 
 #include "relucent/base/error.h"
@@ -22,16 +24,17 @@ constexpr float perDrive = 10.0f, black = 0.1f;  // camera signal per second
 struct Scene {
   std::atomic<float> lamp{1.0f};
   std::atomic<bool> unplugged{false};
+  std::atomic<bool> inTheWay{false};  // somebody, in the light of the second projector
   std::atomic<int> photographs{0}, opened{0}, read{0}, held{0};
-  QImage picture;
+  std::vector<QImage> pictures;  // one a projector
 };
 
-QImage blobs() {
+QImage blobs(double slower = 1.0) {
   QImage picture(raster.width, raster.height, QImage::Format_RGBX8888);
   for (int y = 0; y < raster.height; ++y)
     for (int x = 0; x < raster.width; ++x) {
       const auto level = [&](double f) {
-        return static_cast<int>(120 + 80 * std::sin(f * x) * std::cos(0.3 * y));
+        return static_cast<int>(120 + 80 * std::sin(slower * f * x) * std::cos(0.3 * y));
       };
       picture.setPixel(x, y, qRgb(level(0.4), level(0.5), level(0.3)));
     }
@@ -53,8 +56,12 @@ class ScriptedCamera : public rig::Camera {
     Random random({static_cast<std::uint64_t>(request.shot.number)});
     for (std::size_t i = 0; i < raster.count(); ++i) {
       const Pixel at = pixelAt(raster, i);
-      const QRgb code = scene_->picture.pixel(at.x, at.y);
-      const int codes[3] = {qRed(code), qGreen(code), qBlue(code)};
+      std::array<int, 3> codes{};
+      for (std::size_t j = 0; j < scene_->pictures.size(); ++j) {
+        if (j == 1 && scene_->inTheWay && at.x >= 8 && at.x < 20 && at.y >= 6 && at.y < 18) continue;
+        const QRgb code = scene_->pictures[j].pixel(at.x, at.y);
+        codes = {codes[0] + qRed(code), codes[1] + qGreen(code), codes[2] + qBlue(code)};
+      }
       for (std::size_t c = 0; c < 3; ++c) {
         const float light = black + perDrive * scene_->lamp * static_cast<float>(codes[c]) / 255.0f;
         const float signal =
@@ -78,22 +85,25 @@ class ScriptedSource : public WatchSource {
     if (broken_)
       throw Error(ErrorKind::input, Message::plain("the calibration is gone"),
                   Message::plain("bring it back"));
-    const Rasters projector(raster);
+    const std::size_t projectors = scene_->pictures.size();
+    const Rasters projector(std::vector<Size>(projectors, raster));
     transport::BlockSparseBuilder builder(transport::NodeLayout(projector).count(),
                                           std::vector<float>(raster.count(), perDrive));
     for (std::size_t i = 0; i < raster.count(); ++i)
-      builder.add(i, i, perDrive * transport::ColourBlock::Identity());
+      for (std::size_t j = 0; j < projectors; ++j)
+        builder.add(i, j * raster.count() + i, perDrive * transport::ColourBlock::Identity());
     const transport::TransportMatrix transport(Rasters(raster), projector, builder.build());
     pipeline::WatchingCamera watching;
     watching.venue.sampling = monitoring::sampledPixels(raster, std::vector<std::uint8_t>(raster.count(), 1));
     watching.venue.transport = monitoring::SampledTransport(transport, watching.venue.sampling.pixels);
     watching.venue.black.assign(3 * raster.count(), black);
-    watching.venue.flood.assign(3 * raster.count(), perDrive);
+    watching.venue.flood.assign(3 * raster.count(), perDrive * static_cast<float>(projectors));
     watching.venue.camera.readNoise = 1e-3;
     watching.exposures = {0.05, 0.02};
-    auto& lights = watching.lights.emplace_back();
-    for (auto& channel : lights)
-      for (std::size_t code = 0; code < 256; ++code) channel[code] = static_cast<float>(code) / 255.0f;
+    watching.lights.resize(projectors);
+    for (auto& lights : watching.lights)
+      for (auto& channel : lights)
+        for (std::size_t code = 0; code < 256; ++code) channel[code] = static_cast<float>(code) / 255.0f;
     return watching;
   }
   void open(pipeline::WatchingCamera& watching) override {
@@ -121,16 +131,24 @@ class TestShowWatch : public QObject {
     return {milliseconds(1), milliseconds(0), milliseconds(1),
             [now = std::make_shared<double>(0.0)] { return *now += 2.0; }};
   }
-  std::unique_ptr<ShowWatch> watched(bool broken = false) {
-    return std::make_unique<ShowWatch>(std::make_unique<ScriptedSource>(scene_, broken), tap_, quick());
+  std::unique_ptr<ShowWatch> watched(bool broken = false, bool fillsShadows = false) {
+    WatchPace pace = quick();
+    pace.fillsShadows = fillsShadows;
+    pace.betweenShadows = pace.between;
+    return std::make_unique<ShowWatch>(std::make_unique<ScriptedSource>(scene_, broken), tap_, pace);
+  }
+  void play() {
+    std::vector<DrivePicture> drives;
+    for (const QImage& picture : scene_->pictures) drives.emplace_back(picture);
+    tap_->put(drives);
   }
 
  private slots:
   void init() {
     scene_ = std::make_shared<Scene>();
-    scene_->picture = blobs();
+    scene_->pictures = {blobs()};
     tap_ = std::make_shared<PlayedTap>();
-    tap_->put({DrivePicture(scene_->picture)});
+    play();
   }
 
   void whatLastsIsToldAndThatItIsOver() {
@@ -232,6 +250,44 @@ class TestShowWatch : public QObject {
     watch->readAgain();
     QTRY_COMPARE(scene_->read.load(), 3);
     QCOMPARE(scene_->held.load(), 0);
+  }
+
+  /// Whose light it is, told at once, with what is to be projected; and that it is over. What lasts is watched too.
+  void aShadowIsToldAtOnce() {
+    scene_->pictures = {blobs(), blobs(0.6)};
+    play();
+    auto watch = watched(false, true);
+    QSignalSpy shadows(watch.get(), &ShowWatch::shadowsChanged), cannot(watch.get(), &ShowWatch::cannotFill);
+    watch->setPlaying(true);
+    QTRY_VERIFY(watch->status().used > 3);
+    QVERIFY(shadows.isEmpty() && watch->status().available == nullptr);
+    QCOMPARE(toJson(watch->status())["filled"].toArray().size(), 0);
+    scene_->inTheWay = true;
+    QTRY_VERIFY(!shadows.isEmpty());
+    QVERIFY(watch->status().available != nullptr);
+    QCOMPARE(watch->status().filled.front().projector, 1u);
+    const QJsonObject told = toJson(watch->status())["filled"][0].toObject();
+    QCOMPARE(told["projector"].toInt(), 2);
+    QVERIFY(told["what"].toString().contains("projector 2"));
+    QVERIFY(std::abs(told["x"].toDouble() - 14.0 / 32) < 0.1);
+    scene_->inTheWay = false;
+    QTRY_VERIFY(watch->status().available == nullptr);
+    scene_->inTheWay = true;
+    QTRY_VERIFY(watch->status().available != nullptr);
+    watch->setPlaying(false);
+    QTRY_VERIFY2(watch->status().available == nullptr, "nobody looks any more");
+    QVERIFY(cannot.isEmpty());
+  }
+
+  void whereNoProjectorsOverlapNothingIsFilled() {
+    auto watch = watched(false, true);
+    QSignalSpy cannot(watch.get(), &ShowWatch::cannotFill);
+    watch->setPlaying(true);
+    QTRY_COMPARE(cannot.size(), 1);
+    QVERIFY(english(cannot.front().front().value<Message>()).find("no place that two projectors light") !=
+            std::string::npos);
+    QTRY_VERIFY(watch->status().used > 3);
+    QVERIFY(!toJson(watch->status()).contains("filled"));
   }
 
   void theTapKeepsTheNewestFramesWhileSomebodyAsks() {

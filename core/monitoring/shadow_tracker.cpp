@@ -12,10 +12,12 @@ constexpr double tells = 12.0;        // chi^2 of a cell's light, below which a 
 constexpr double perCell = 4.0;       // misfit that a blocked cell costs
 constexpr double perBorder = 1.5;     // likewise of each two neighbours that differ
 constexpr double staysUnless = 6.0;   // a border's cell, if it does not become better by this
+constexpr double stillExplained = 0.5;
 constexpr double halfThere = 0.5;     // share of light that is neither blocked nor free
 constexpr double leastRecognised = 0.4;
 constexpr int mostUnrecognised = 10;  // photographs
 constexpr int rounds = 12, sweeps = 3;
+constexpr std::ptrdiff_t mostlyWithin = 6;  // neighbours, of eight
 constexpr double soon = 1.0, leastFirm = 0.5;  // seconds
 
 }  // namespace
@@ -102,6 +104,36 @@ bool ShadowTracker::isLarge(const Hypothesis& hypothesis, const ShadowEvidence& 
   return cells >= settings_.least;
 }
 
+std::vector<std::size_t> ShadowTracker::within(const std::vector<std::size_t>& cells,
+                                               const ShadowEvidence& evidence) const {
+  std::vector<std::size_t> inner;
+  for (std::size_t cell : cells) {
+    const auto blocked = std::count_if(around_[cell].begin(), around_[cell].end(),
+                                       [&](std::size_t beside) { return evidence.blocked()[beside] != 0; });
+    if (blocked >= mostlyWithin) inner.push_back(cell);
+  }
+  return inner.empty() ? cells : inner;
+}
+
+std::vector<std::size_t> ShadowTracker::around(const std::vector<std::size_t>& cells) const {
+  BlockedCells distance(map_.cells(), 0);
+  std::vector<std::size_t> reached = cells, ring;
+  for (std::size_t cell : cells) distance[cell] = 1;
+  for (std::uint8_t step = 2; step <= 3; ++step) {
+    ring.clear();
+    for (std::size_t cell : reached)
+      for (std::size_t beside : around_[cell])
+        if (std::exchange(distance[beside], distance[beside] == 0 ? step : distance[beside]) == 0) ring.push_back(beside);
+    reached = ring;
+  }
+  return ring;
+}
+
+bool ShadowTracker::isAsSeen(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const {
+  return !hypothesis.blocked || (evidence.explainedOf(within(hypothesis.cells, evidence)) > settings_.explained &&
+                                 evidence.explainedOf(around(hypothesis.cells)) > settings_.explainedAround);
+}
+
 std::vector<std::size_t> ShadowTracker::take(const Hypothesis& hypothesis, ShadowEvidence& evidence) const {
   std::vector<std::size_t> changed;
   const auto turn = [&](std::size_t cell, bool blocked) {
@@ -132,9 +164,9 @@ void ShadowTracker::search(ShadowEvidence& evidence, double seconds) const {
         const std::vector<std::size_t> changed = take(one, evidence);
         const double cost = perCell * static_cast<double>(one.cells.size()) * (one.blocked ? 1.0 : -1.0);
         const double change = evidence.misfit() - before + cost;
-        const bool isExplained = !one.blocked || evidence.explainedOf(one.cells) > settings_.explained;
+        const bool isSeen = isAsSeen(one, evidence);
         for (std::size_t cell : changed) evidence.set(cell, evidence.blocked()[cell] == 0);
-        if (change < best && isExplained) {
+        if (change < best && isSeen) {
           best = change;
           chosen = one;
         }
@@ -161,7 +193,7 @@ void ShadowTracker::followBorders(ShadowEvidence& evidence, double seconds) cons
 
 void ShadowTracker::giveUp(const ShadowEvidence& evidence, double seconds) {
   for (const std::vector<std::size_t>& part : connected(filled_)) {
-    const bool isExplained = evidence.explainedOf(part) > settings_.explained;
+    const bool isExplained = evidence.explainedOf(within(part, evidence)) > stillExplained;
     int longest = 0;
     for (std::size_t cell : part) {
       unexplained_[cell] = isExplained ? 0 : unexplained_[cell] + 1;

@@ -14,9 +14,10 @@ struct ShadowSettings {
   double within = 0.15;    // share of a blocked projector's light that its shadow's border has, so that it tells
   double beside = 0.5;     // likewise beside it
   double others = 0.15;    // share of all light that other projectors must have where they are to take over
-  std::size_t least = 4;   // cells of a shadow
+  std::size_t least = 8;   // cells of a shadow
   double certain = 40.0;   // by which the misfit must become less for a shadow to begin, or to be gone
-  double explained = 0.5;  // share of a shadow in which light must be as it says
+  double explained = 0.7;  // share of a shadow in which light must be as it says
+  double explainedAround = 0.75;  // likewise of its surroundings
   int patience = 3;        // photographs in which a filled shadow may not be as it says
   double given = 5.0;      // seconds after which what was given up is looked for again
   double unknown = 1.0;    // seconds after which light is tried again of which nothing was seen
@@ -61,6 +62,12 @@ class ShadowTracker {
   std::vector<Hypothesis> hypothesesOf(std::size_t projector, const ShadowEvidence& evidence, double seconds) const;
   std::vector<std::vector<std::size_t>> connected(const BlockedCells& chosen) const;
   bool isLarge(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const;
+  /// Those that are not at the border of what is blocked, where camera pixels see both sides; if there are none, all.
+  std::vector<std::size_t> within(const std::vector<std::size_t>& cells, const ShadowEvidence& evidence) const;
+  /// Those two cells away: whoever stands before the camera is unlike what is predicted beside, too.
+  std::vector<std::size_t> around(const std::vector<std::size_t>& cells) const;
+  /// Whether light is as the hypothesis says, which the evidence assumes.
+  bool isAsSeen(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const;
   /// Takes it, and frees what is unknown in the same place. Returns the cells that changed.
   std::vector<std::size_t> take(const Hypothesis& hypothesis, ShadowEvidence& evidence) const;
   void search(ShadowEvidence& evidence, double seconds) const;

@@ -127,6 +127,8 @@ struct ShadowRehearsal::Parts {
     std::size_t beside = 0;
     for (std::size_t i = 0; i < filled.data().size(); ++i) {
       if (std::isnan(filled.data()[i])) continue;
+      picture.all += static_cast<double>(filled.data()[i]);
+      picture.allUnfilled += static_cast<double>(unfilled.data()[i]);
       double with = 0.0, without = 0.0;
       for (std::size_t c = 0; c < 3; ++c) {
         with += static_cast<double>(dark[3 * i + c]);
@@ -144,6 +146,9 @@ struct ShadowRehearsal::Parts {
       picture.unshadowed += static_cast<double>(unshadowed.data()[i]);
       picture.possible += static_cast<double>(best.data()[i]);
     }
+    const auto every = static_cast<double>(std::max<std::size_t>(1, picture.shadowed + beside));
+    picture.all /= every;
+    picture.allUnfilled /= every;
     const auto shadowed = static_cast<double>(std::max<std::size_t>(1, picture.shadowed));
     picture.filled /= shadowed;
     picture.unfilled /= shadowed;

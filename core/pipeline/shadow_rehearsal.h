@@ -33,8 +33,9 @@ struct ShadowedPicture {
   // CIEDE2000 to what is wanted, the mean over these: as it is, without filling, as well as it could be filled by who
   // knows every pixel in whose light somebody stands, and if nobody were there.
   double filled = 0.0, unfilled = 0.0, possible = 0.0, unshadowed = 0.0;
-  // The mean over all other pixels of the picture, likewise.
+  // The mean over all other pixels of the picture, likewise; and over all, with and without filling.
   double beside = 0.0, besideUnshadowed = 0.0;
+  double all = 0.0, allUnfilled = 0.0;
   std::size_t cells = 0;  // that are filled as of this photograph
   bool isOther = false;   // other cells than before it
 };

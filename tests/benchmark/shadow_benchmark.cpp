@@ -18,7 +18,7 @@ namespace {
 struct Options {
   std::string venue = "relief", projector = "48x36", camera = "40x30", content = "still", cache;
   std::vector<std::uint64_t> seeds{1};
-  double minutes = 0.0, photographs = 10.0;
+  double minutes = 0.0, photographs = 10.0, every = 20.0;
   int paths = 64, steps = 2;
   bool isVerbose = false;
 };
@@ -89,26 +89,31 @@ void standing(ShadowRehearsal& rehearsal, const Options& options, std::size_t pr
 
 /// Minutes of visitors, or of nobody.
 void walking(ShadowRehearsal& rehearsal, const Options& options, std::uint64_t seed, bool areThere, std::size_t projectors) {
-  const venue::Visitors visitors({seed, 8.0, projectors, 15.0});
+  const venue::Visitors visitors({seed, options.every, projectors, 15.0});
   ShadowRehearsal::Run run{contentOf(options.content), 60.0 * options.minutes};
   if (areThere) run.inTheWay = [&](double seconds) { return visitors.at(seconds); };
   Progress quiet;
   const ShadowRehearsalResult result = rehearsal.run(run, quiet);
   if (options.isVerbose) tell(result);
-  double filled = 0.0, unfilled = 0.0, alone = 0.0, pixels = 0.0, beside = 0.0, besideAlone = 0.0;
+  double filled = 0.0, unfilled = 0.0, alone = 0.0, pixels = 0.0, beside = 0.0, besideAlone = 0.0, possible = 0.0, all = 0.0,
+         allUnfilled = 0.0;
   for (const ShadowedPicture& one : result.pictures) {
     const auto count = static_cast<double>(one.shadowed);
     filled += count * one.filled;
     unfilled += count * one.unfilled;
     alone += count * one.unshadowed;
+    possible += count * one.possible;
+    all += one.all / static_cast<double>(result.pictures.size());
+    allUnfilled += one.allUnfilled / static_cast<double>(result.pictures.size());
     pixels += count;
     beside += one.beside / static_cast<double>(result.pictures.size());
     besideAlone += one.besideUnshadowed / static_cast<double>(result.pictures.size());
   }
   pixels = std::max(1.0, pixels);
-  fmt::print("{}: {} photographs, false fills {}; shadowed dE {:.2f} -> {:.2f}, alone {:.2f}; beside {:.2f}, alone {:.2f}\n",
+  fmt::print("{}: {} photographs, false fills {}; shadowed dE {:.2f} -> {:.2f}, possible {:.2f}, alone {:.2f}; beside {:.2f}, alone "
+             "{:.2f}; all {:.2f} -> {:.2f}\n",
              areThere ? "visitors" : "nobody", result.pictures.size(), result.falseFills, unfilled / pixels,
-             filled / pixels, alone / pixels, beside, besideAlone);
+             filled / pixels, possible / pixels, alone / pixels, beside, besideAlone, allUnfilled, all);
   std::fflush(stdout);
 }
 
@@ -148,6 +153,7 @@ int main(int argc, char** argv) {
   app.add_option("--content", options.content, "still, film, dark or slides");
   app.add_option("--seed", options.seeds);
   app.add_option("--minutes", options.minutes, "of visitors and of nobody, instead of shadows that stand");
+  app.add_option("--every", options.every, "seconds between visitors");
   app.add_option("--photographs", options.photographs, "a second");
   app.add_option("--paths", options.paths);
   app.add_option("--steps", options.steps);

@@ -314,7 +314,7 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
       if (picture.isOther) asked.push_back({begins + exposure + parts.settings.latency, tracker.available()});
       for (const monitoring::FilledShadow& shadow : tracker.filled()) picture.cells += shadow.cells;
       std::vector<venue::Silhouette> lately;
-      for (int back = 0; back < 8; ++back)
+      for (int back = 0; back <= 15; ++back)
         for (const venue::Silhouette& one : venueAt(begins - 0.1 * back).inTheWay) lately.push_back(one);
       result.falseFills += parts.isFalse(tracker, lately);
     }

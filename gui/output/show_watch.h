@@ -86,10 +86,10 @@ struct WatchPace {
   std::chrono::milliseconds between{2000};  // photographs
   std::chrono::milliseconds before{250};    // frames that may be what a photograph shows
   std::chrono::milliseconds again{5000};    // after a failure of the camera, doubled up to a minute
+  std::function<double()> clock{};          // seconds, on the watching thread; empty: the steady clock
   /// Photographs as quickly as the camera gives them, for shadows; of these some for what lasts.
   bool fillsShadows = false;
   std::chrono::milliseconds betweenShadows{10};
-  std::function<double()> clock{};          // seconds, on the watching thread; empty: the steady clock
 };
 
 /// Watches a show by a camera that stays (core/monitoring), on a thread of its own. Whatever becomes of the

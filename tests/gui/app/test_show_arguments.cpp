@@ -78,6 +78,7 @@ class TestShowArguments : public QObject {
     QVERIFY(!settings.adaptiveRange && !settings.brightness && !settings.hours &&
             settings.displays.isEmpty());
     QVERIFY(!settings.osc && !settings.oscFeedback && settings.cameras.empty() && !settings.watch);
+    QVERIFY(!settings.fillsShadows);
     QCOMPARE(settings.content.items.front().path, QString("chart:grid"));
     QCOMPARE(settings.canvas.size, QSize(1920, 1080));
   }
@@ -154,7 +155,8 @@ class TestShowArguments : public QObject {
                            "10",
                            "--close-shutter",
                            "--watch",
-                           "2"};
+                           "2",
+                           "--fill-shadows"};
     const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
     for (const ShowSettings& settings :
          {parsed<PlayShow>(said).settings, parsed<PlayShow>(wanted.arguments).settings}) {
@@ -162,7 +164,7 @@ class TestShowArguments : public QObject {
       QVERIFY((settings.status == NetworkPlace{QHostAddress(QHostAddress::LocalHost), 8080}));
       QVERIFY(settings.switchesPower && settings.closesShutter);
       QVERIFY(settings.powerOffAfter == std::chrono::minutes(10));
-      QVERIFY((settings.watch == pipeline::WatchSettings{1, {}}));
+      QVERIFY((settings.watch == pipeline::WatchSettings{1, {}}) && settings.fillsShadows);
     }
     const ShowSettings usual = parsed<PlayShow>({"show", "v", "--content", "chart:grid"}).settings;
     QVERIFY(!usual.status && !usual.switchesPower && !usual.closesShutter && !usual.powerOffAfter);
@@ -176,6 +178,7 @@ class TestShowArguments : public QObject {
                                << "must be a number";
     QTest::newRow("address alone") << QStringList{"--status-address", "0.0.0.0"} << "needs --status PORT";
     QTest::newRow("off after what") << QStringList{"--power-off-after", "10"} << "needs --switch-projectors";
+    QTest::newRow("shadows that nobody sees") << QStringList{"--fill-shadows"} << "say which, as --watch 1";
     QTest::newRow("no camera") << QStringList{"--watch", "0"} << "is no camera";
     QTest::newRow("camera without a kind") << QStringList{"--watch", "webcam"} << "is no camera";
     QTest::newRow("off at once") << QStringList{"--switch-projectors", "--power-off-after", "0"}

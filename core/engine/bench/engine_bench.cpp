@@ -13,6 +13,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/base/random.h"
+#include "relucent/engine/availability.h"
 #include "relucent/engine/bench/bench_transport.h"
 #include "relucent/engine/bench/noise_content.h"
 #include "relucent/engine/bench/reference_products.h"
@@ -122,6 +123,39 @@ void timeViewer(Bench& bench, EngineBackend& backend, const EngineVenue& engine,
   bench.time(fmt::format("{}: viewer walks on, K = 1", backend.name()), transportBytes, walk);
 }
 
+/// Somebody walks into a projector's light: a frame while a shadow fades, and what every other shadow costs besides.
+void timeShadow(Bench& bench, EngineBackend& backend, const EngineVenue& engine, EngineContent& content, Size size,
+                double transportBytes) {
+  const Rasters& projectors = engine.venue.transport.projectors();
+  if (projectors.devices() < 2) return;
+  const NoiseContent noise(size);
+  std::vector<std::uint32_t> words(engine.brightest.size());
+  AvailabilityFollower follower(engine);
+  FrameReport report;
+  int walked = 0;
+  const auto another = [&] {
+    Availability available;
+    for (const Size& projector : projectors.sizes())
+      available.projectors.push_back(completeGrid(projector, std::max(2, projector.width / 32)));
+    Availability::Grid& grid = available.projectors.front();
+    const int left = walked++ % 20;
+    for (int y = grid.cells.height / 3; y < grid.cells.height; ++y)
+      for (int x = left; x < std::min(left + 5, grid.cells.width); ++x) grid.share[indexOf(grid.cells, {x, y})] = 0.0f;
+    follower.aim(available, content);
+  };
+  const auto fade = [&] {
+    if (follower.settled()) another();
+    follower.advance(std::chrono::duration<double>(0.004), content);
+    backend.availabilityFollowed();
+    if (!backend.render(noise.frame(), {true, 1, 1.0f, 0.0f}, words, report)) throwLost();
+  };
+  bench.time(fmt::format("{}: shadow fades, K = 1", backend.name()), transportBytes, fade);
+  bench.time(fmt::format("{}: another shadow", backend.name()), transportBytes, another);
+  content.available.clear();
+  content.missing = {};
+  backend.availabilityFollowed();
+}
+
 void timeCpu(Bench& bench, const EngineVenue& engine, EngineContent& content, Size size) {
   bench.result.copyBytesPerSecond = copied(bench.clock());
   const auto transport = static_cast<double>(engine.transport.bytes());
@@ -138,6 +172,7 @@ void timeCpu(Bench& bench, const EngineVenue& engine, EngineContent& content, Si
     bench.time(name + ": step", transport, [&] { backend.takeStep(1.2f); });
     timeFrames(bench, backend, engine, size, transport);
     timeViewer(bench, backend, engine, content, size, transport);
+    timeShadow(bench, backend, engine, content, size, transport);
   }
 }
 
@@ -158,6 +193,7 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, EngineContent& content,
   bench.timeReported(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
   timeFrames(bench, backend, engine, size, transport);
   timeViewer(bench, backend, engine, content, size, transport);
+  timeShadow(bench, backend, engine, content, size, transport);
 }
 
 Stack randomStack(std::size_t pixels, std::uint64_t seed) {

@@ -49,7 +49,8 @@ struct EngineBenchResult {
 };
 
 /// Times the engine: M, one step, whole frames with K = 0, 1 and 2; of several cameras also a frame for a
-/// viewer who walks on: ViewFollower, and one step from the frame before. Takes minutes of preparation at
+/// viewer who walks on: ViewFollower, and one step from the frame before; of several projectors one while a
+/// shadow fades, AvailabilityFollower. Takes minutes of preparation at
 /// large sizes. Throws: Error{device} if OpenGL was asked for and there is none; as loadTransport();
 /// Cancelled.
 EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& progress);

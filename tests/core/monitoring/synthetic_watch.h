@@ -12,8 +12,8 @@ namespace relucent::monitoring {
 inline constexpr Size syntheticSize{40, 30};  // of the camera and of each projector
 
 /// Two projectors, one bright on the left and one on the right half, both somewhat on the other; camera pixel
-/// by projector pixel, a wider leaf of near surroundings and one of the whole raster.
-inline transport::TransportMatrix syntheticTransport() {
+/// by projector pixel, a wider leaf of near surroundings and one of the whole raster. `other`: of the brighter one's light.
+inline transport::TransportMatrix syntheticTransport(float other = 0.3f) {
   const Rasters camera(syntheticSize), projectors(std::vector<Size>{syntheticSize, syntheticSize});
   const transport::NodeLayout layout(projectors);
   transport::BlockSparseBuilder builder(layout.count(), std::vector<float>(camera.count(), 60.0f));
@@ -26,7 +26,7 @@ inline transport::TransportMatrix syntheticTransport() {
       const bool isNear = (at.x < syntheticSize.width / 2) == (j == 0);
       transport::ColourBlock block = transport::ColourBlock::Constant(0.5f);
       block.diagonal() = Eigen::Vector3f(9.0f, 10.0f, 8.0f);
-      block *= paint * (isNear ? 1.0f : 0.3f);
+      block *= paint * (isNear ? 1.0f : other);
       builder.add(i, projectors.offset(j) + i, block);
       for (int level : {3, layout.levels(j) - 1})
         builder.add(i, layout.index(layout.nodeOver(projectors.offset(j) + i, level)), 0.1f * block);

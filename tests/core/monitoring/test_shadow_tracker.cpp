@@ -169,6 +169,21 @@ class TestShadowTracker : public QObject {
     QVERIFY(darkened(tracker, both[1])[0] > 0.6 && darkened(tracker, both[0])[0] < 0.05);
   }
 
+  /// What others hardly reach stays in shadow, and the projector goes on: somebody may be mistaken.
+  void whereNoOtherReachesNothingIsFilled() {
+    const transport::TransportMatrix alone = syntheticTransport(0.05f);
+    const WatchedVenue venue = syntheticVenue(alone);
+    ShadowTracker tracker(venue);
+    QVERIFY(!tracker.canFill());
+    const transport::TransportMatrix both = std::exchange(transport_, alone);
+    const WatchedVenue before = std::exchange(venue_, venue);
+    for (int n = 0; n < 4; ++n) QVERIFY(!photograph(tracker, syntheticPicture(2.0, 2), {{0, 12}}));
+    QVERIFY(tracker.available().isComplete());
+    QVERIFY(std::count(tracker.blocked().begin(), tracker.blocked().end(), 1) > 8);
+    transport_ = both;
+    venue_ = before;
+  }
+
   /// Both projectors give the same share of one even colour: only trying tells whose light is missing.
   void whatLooksAlikeIsTried_data() {
     QTest::addColumn<int>("projector");

@@ -94,8 +94,9 @@ bool AvailabilityFollower::advance(std::chrono::duration<double> elapsed, Engine
     return most;
   };
   std::array<float, fixedParts> apart{};
-  parallelChunks(0, pixels, fixedParts,
-                 [&](std::size_t part, std::size_t begin, std::size_t end) { apart[part] = farthest(begin, end); });
+  parallelChunks(0, pixels, fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    apart[part] = farthest(begin, end);
+  });
   settled_ = left * std::ranges::max(apart) < asGoodAsThere;
   if (settled_) {
     content.available = wanted_;

@@ -29,21 +29,22 @@ Availability::Grid completeGrid(Size projector, int side);
 /// Per pixel of a projector, bilinear between the cells' middles, constant beyond the outer ones.
 std::vector<float> sharesOfPixels(const Availability::Grid& grid, Size projector);
 
-/// Prepared content for light that somebody stands in. What is projected is a p, a of every projector pixel, as
-/// if a filter were in front of it: T diag(a) instead of T. It becomes so smoothly:
+/// Prepared content for light that somebody stands in. What is projected is a p, a of every projector pixel,
+/// as if a filter were in front of it: T diag(a) instead of T. It becomes so smoothly:
 ///   a(t + dt) = a* + (a(t) - a*) exp(-dt / 0.05 s)
-/// and with it what no longer arrives, T (1 - a) of what is free, which is linear in a: a product with T for every
-/// a* that is asked for, and then a mean of two pictures a frame.
+/// and with it what no longer arrives, T (1 - a) of what is free, which is linear in a: a product with T for
+/// every a* that is asked for, and then a mean of two pictures a frame.
 class AvailabilityFollower {
  public:
   /// `engine` must outlive it.
   explicit AvailabilityFollower(const EngineVenue& engine) : engine_(engine) {}
 
-  /// Where `content` is to go from now on. Contract: a grid for each projector, covering it; shares of 0 to 1.
+  /// Where `content` is to go from now on. Contract: a grid for each projector, covering it; shares of 0
+  /// to 1.
   void aim(const Availability& wanted, const EngineContent& content);
-  /// Goes there for so long. Whether content.available and content.missing have changed: then whatever back end
-  /// has the content must be told, EngineBackend::availabilityFollowed().
-  /// After another ViewFollower::follow() it must be called, too.
+  /// Goes there for so long. Whether content.available and content.missing have changed: then whatever back
+  /// end has the content must be told, EngineBackend::availabilityFollowed(). After another
+  /// ViewFollower::follow() it must be called, too.
   bool advance(std::chrono::duration<double> elapsed, EngineContent& content);
   /// Whether it is there.
   bool settled() const { return settled_; }

@@ -30,8 +30,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
       name_(fmt::format("CPU, {}", kernels_.instructions)),
       windows_(engine.inverse.view()),
       patchSums_(engine.transport, engine.venue.transport.layout().count()),
-      scratch_(std::thread::hardware_concurrency() + 1,
-               columnFloats * (engine.transport.mostColumns() + 1)),
+      scratch_(std::thread::hardware_concurrency() + 1, columnFloats * (engine.transport.mostColumns() + 1)),
       contentScratch_(std::thread::hardware_concurrency() + 1, 0) {
   for (std::size_t code = 0; code < linearOfSrgb_.size(); ++code)
     linearOfSrgb_[code] = static_cast<float>(image::srgbDecode(static_cast<double>(code) / 255.0));
@@ -101,8 +100,9 @@ void CpuBackend::takeAvailable() {
   for (std::size_t device = 0; device < projectors.devices() && !all; ++device)
     parallelFor(0, static_cast<std::size_t>(projectors.size(device).height), 16, [&](std::size_t y) {
       const Size size = projectors.size(device);
-      const auto line = content.available.begin() +
-                        static_cast<std::ptrdiff_t>(projectors.offset(device) + indexOf(size, {0, static_cast<int>(y)}));
+      const auto line =
+          content.available.begin() +
+          static_cast<std::ptrdiff_t>(projectors.offset(device) + indexOf(size, {0, static_cast<int>(y)}));
       dimmed_[lineOf(device, static_cast<int>(y))] =
           std::any_of(line, line + size.width, [](float share) { return share < 1.0f; });
     });
@@ -114,7 +114,8 @@ void CpuBackend::availabilityFollowed() {
   takeAvailable();
   if (content_->available.empty()) return;
   parallelFor(0, content_->available.size(), 16384, [&](std::size_t j) {
-    for (std::size_t c = 0; c < 3; ++c) nodes_[3 * j + c] = std::min(nodes_[3 * j + c], content_->available[j]);
+    for (std::size_t c = 0; c < 3; ++c)
+      nodes_[3 * j + c] = std::min(nodes_[3 * j + c], content_->available[j]);
   });
 }
 
@@ -128,8 +129,7 @@ void CpuBackend::contentFollowed() {
 void CpuBackend::startFrom(std::span<const float> projector) {
   require(content_ != nullptr && projector.size() == 3 * engine_.brightest.size(),
           "{} values of {} projector pixels", projector.size(), engine_.brightest.size());
-  for (std::size_t i = 0; i < projector.size(); ++i)
-    nodes_[i] = shareOf(i / 3) * clamp01(projector[i]);
+  for (std::size_t i = 0; i < projector.size(); ++i) nodes_[i] = shareOf(i / 3) * clamp01(projector[i]);
   hasLast_ = true;
 }
 
@@ -244,8 +244,7 @@ void CpuBackend::putTiles(std::size_t device, std::size_t tileRow, bool clamped,
       float* line = values + 3 * static_cast<std::size_t>(y) * side;
       if (freeOfTile_[tile] == Free::some)
         for (std::size_t x = 0; x < width; ++x)
-          for (std::size_t c = 0; c < 3; ++c)
-            line[3 * x + c] *= shareOf(first + x);
+          for (std::size_t c = 0; c < 3; ++c) line[3 * x + c] *= shareOf(first + x);
       float* p = &nodes_[3 * first];
       // A length that the compiler knows.
       if (width == 4)
@@ -312,7 +311,8 @@ void CpuBackend::preconditionLine(std::size_t device, int y) noexcept {
                         static_cast<std::size_t>(projectors.size(device).width));
   if (!isDimmed(device, y)) return;
   const auto width = static_cast<std::size_t>(projectors.size(device).width);
-  for (std::size_t i = 0; i < 3 * width; ++i) preconditioner_[3 * first + i] *= content_->available[first + i / 3];
+  for (std::size_t i = 0; i < 3 * width; ++i)
+    preconditioner_[3 * first + i] *= content_->available[first + i / 3];
 }
 
 void CpuBackend::fillMeans() noexcept {

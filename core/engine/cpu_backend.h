@@ -108,9 +108,10 @@ class CpuBackend : public EngineBackend {
   ScratchPool scratch_, contentScratch_;
   WarpTiles warp_;
   enum class Free : std::uint8_t { none, some, all };
-  std::vector<Free> freeOfTile_;  // of the windows' tiles
+  std::vector<Free> freeOfTile_;        // of the windows' tiles
   std::vector<std::size_t> firstLine_;  // of each projector, and the number of all lines
-  std::vector<std::uint8_t> dimmed_;  // per line of all projectors: less than all of some pixel's light arrives
+  std::vector<std::uint8_t>
+      dimmed_;  // per line of all projectors: less than all of some pixel's light arrives
   std::atomic<std::size_t> clipped_{0};
   std::size_t freeValues_ = 0;
   bool hasLast_ = false;  // nodes_ hold what was projected last

@@ -35,7 +35,7 @@ struct EngineVenue {
   std::vector<std::int32_t> brightest;  // i*(j) of all views, see brightestCorrespondence()
   transport::ColourBlock mixing;        // K, see meanColourMixing()
   compensation::StepPreconditioner preconditioner;
-  std::vector<DriveEncoder> encoders;   // one a projector
+  std::vector<DriveEncoder> encoders;  // one a projector
 };
 
 /// Prepares a venue. `responses`: one for each projector. `venue` and `inverse` must outlive the result.

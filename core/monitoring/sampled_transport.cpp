@@ -104,7 +104,8 @@ std::vector<SampledTransport::Arrival> SampledTransport::arrivalsOf(std::uint32_
     const std::size_t node = leaves_.column(entry);
     float sum = 0.0f;
     for (std::int16_t value : leaves_.code(entry)) sum += value;
-    arrivals.push_back({projectorOf_[node], layout_.block(layout_.node(nodes_[node])), leaves_.scale(sample) * sum});
+    arrivals.push_back(
+        {projectorOf_[node], layout_.block(layout_.node(nodes_[node])), leaves_.scale(sample) * sum});
   }
   return arrivals;
 }

@@ -9,7 +9,7 @@
 namespace relucent::monitoring {
 namespace {
 
-constexpr double soft = 8.0;        // chi^2 of three channels from which on more counts for little
+constexpr double soft = 8.0;         // chi^2 of three channels from which on more counts for little
 constexpr double asExpected = 20.0;  // chi^2 of three channels that T's errors may have
 constexpr float ofMoment = 0.5f;     // what the moment may be off, of the step to the next one
 
@@ -40,7 +40,8 @@ ShadowEvidence::ShadowEvidence(const Observed& seen, const Moment& moment, const
         light_[s * projectors + j][c] = sum;
         all += sum;
       }
-      const auto wrong = static_cast<float>(venue.wrong) * all + static_cast<float>(venue.wrongOfFlood) * venue.flood[i];
+      const auto wrong =
+          static_cast<float>(venue.wrong) * all + static_cast<float>(venue.wrongOfFlood) * venue.flood[i];
       const float variance = seen.variance[i] + wrong * wrong + ofMoment * ofMoment * later * later;
       samples_[s].left[c] = seen.radiance[i] - venue.black[i] * (1.0f + static_cast<float>(known.room[c])) -
                             venue.flood[i] * static_cast<float>(known.room[3 + c]);
@@ -65,7 +66,8 @@ void ShadowEvidence::assume(const BlockedCells& blocked) {
   total_ = 0.0;
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     for (const ShadowMap::Link& link : map_.cellsOf(s))
-      if (blocked[link.other] != 0) missing_[s * map_.projectors() + map_.projectorOf(link.other)] += link.share;
+      if (blocked[link.other] != 0)
+        missing_[s * map_.projectors() + map_.projectorOf(link.other)] += link.share;
     findMisfit(s);
   }
 }

@@ -16,7 +16,7 @@ using BlockedCells = std::vector<std::uint8_t>;
 
 /// What else is known of a photograph's light, as fitLight() finds it.
 struct KnownLight {
-  std::vector<double> gains;          // of the projectors' channels, three a projector
+  std::vector<double> gains;                   // of the projectors' channels, three a projector
   std::vector<double> room{0, 0, 0, 0, 0, 0};  // of e; then of the flood image
 };
 
@@ -34,7 +34,8 @@ class ShadowEvidence {
   void set(std::size_t cell, bool blocked);
   /// Change of all samples' misfit by turning one cell over.
   double changeBy(std::size_t cell) const;
-  /// chi^2 that would be between a cell that is blocked and one that is not: how much the photograph tells of it.
+  /// chi^2 that would be between a cell that is blocked and one that is not: how much the photograph tells of
+  /// it.
   double informationOf(std::size_t cell) const { return information_[cell]; }
   /// The share of a cell's light that arrives, by least squares, if all others are as assumed.
   double shareOf(std::size_t cell) const;

@@ -12,7 +12,8 @@ namespace relucent::monitoring {
 /// A cell is a square of projector pixels; cells of all projectors are numbered in turn, row by row.
 class ShadowMap {
  public:
-  /// A cell and a sample that it lights, with the share of all that the cell's projector sends there at full drive.
+  /// A cell and a sample that it lights, with the share of all that the cell's projector sends there at full
+  /// drive.
   struct Link {
     std::uint32_t other = 0;  // a cell, of a sample; or a sample, of a cell
     float share = 0.0f;
@@ -33,13 +34,17 @@ class ShadowMap {
   const std::vector<Grid>& grids() const { return grids_; }
   std::size_t cells() const { return grids_.empty() ? 0 : grids_.back().first + grids_.back().cells.count(); }
   std::size_t projectorOf(std::size_t cell) const { return projectorOf_[cell]; }
-  /// Of light that arrives from no wider than about a cell; the rest is indirect, and taken for what it always is.
+  /// Of light that arrives from no wider than about a cell; the rest is indirect, and taken for what it
+  /// always is.
   const std::vector<Link>& cellsOf(std::size_t sample) const { return cellsOf_[sample]; }
   const std::vector<Link>& samplesOf(std::size_t cell) const { return samplesOf_[cell]; }
   /// At full drive, the sum of all channels.
-  float floodOf(std::size_t sample, std::size_t projector) const { return flood_[sample * projectors() + projector]; }
+  float floodOf(std::size_t sample, std::size_t projector) const {
+    return flood_[sample * projectors() + projector];
+  }
   /// The cells beside a cell, diagonally too, of the same projector.
   std::vector<std::size_t> around(std::size_t cell) const;
+
  private:
   std::vector<std::uint32_t> samples_;
   std::vector<Grid> grids_;

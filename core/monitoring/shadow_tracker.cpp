@@ -8,16 +8,16 @@
 namespace relucent::monitoring {
 namespace {
 
-constexpr double tells = 12.0;        // chi^2 of a cell's light, below which a photograph says nothing of it
-constexpr double perCell = 4.0;       // misfit that a blocked cell costs
-constexpr double perBorder = 1.5;     // likewise of each two neighbours that differ
-constexpr double staysUnless = 6.0;   // a border's cell, if it does not become better by this
+constexpr double tells = 12.0;       // chi^2 of a cell's light, below which a photograph says nothing of it
+constexpr double perCell = 4.0;      // misfit that a blocked cell costs
+constexpr double perBorder = 1.5;    // likewise of each two neighbours that differ
+constexpr double staysUnless = 6.0;  // a border's cell, if it does not become better by this
 constexpr double stillExplained = 0.5;
-constexpr double halfThere = 0.5;     // share of light that is neither blocked nor free
+constexpr double halfThere = 0.5;  // share of light that is neither blocked nor free
 constexpr double leastRecognised = 0.4;
 constexpr int mostUnrecognised = 10;  // photographs
 constexpr int rounds = 12, sweeps = 3;
-constexpr std::ptrdiff_t mostlyWithin = 6;  // neighbours, of eight
+constexpr std::ptrdiff_t mostlyWithin = 6;     // neighbours, of eight
 constexpr double soon = 1.0, leastFirm = 0.5;  // seconds
 
 }  // namespace
@@ -123,15 +123,17 @@ std::vector<std::size_t> ShadowTracker::around(const std::vector<std::size_t>& c
     ring.clear();
     for (std::size_t cell : reached)
       for (std::size_t beside : around_[cell])
-        if (std::exchange(distance[beside], distance[beside] == 0 ? step : distance[beside]) == 0) ring.push_back(beside);
+        if (std::exchange(distance[beside], distance[beside] == 0 ? step : distance[beside]) == 0)
+          ring.push_back(beside);
     reached = ring;
   }
   return ring;
 }
 
 bool ShadowTracker::isAsSeen(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const {
-  return !hypothesis.blocked || (evidence.explainedOf(within(hypothesis.cells, evidence)) > settings_.explained &&
-                                 evidence.explainedOf(around(hypothesis.cells)) > settings_.explainedAround);
+  return !hypothesis.blocked ||
+         (evidence.explainedOf(within(hypothesis.cells, evidence)) > settings_.explained &&
+          evidence.explainedOf(around(hypothesis.cells)) > settings_.explainedAround);
 }
 
 std::vector<std::size_t> ShadowTracker::take(const Hypothesis& hypothesis, ShadowEvidence& evidence) const {
@@ -186,7 +188,8 @@ void ShadowTracker::followBorders(ShadowEvidence& evidence, double seconds) cons
       for (std::size_t beside : around_[cell]) unlike += (evidence.blocked()[beside] != 0) != isBlocked;
       if (unlike == 0) continue;
       const int alike = static_cast<int>(around_[cell].size()) - unlike;
-      const double change = evidence.changeBy(cell) + perBorder * (alike - unlike) + (isBlocked ? -perCell : perCell);
+      const double change =
+          evidence.changeBy(cell) + perBorder * (alike - unlike) + (isBlocked ? -perCell : perCell);
       if (change < -staysUnless) evidence.set(cell, !isBlocked);
     }
 }
@@ -211,8 +214,8 @@ void ShadowTracker::giveUp(const ShadowEvidence& evidence, double seconds) {
 
 void ShadowTracker::freeUnknown(const ShadowEvidence& evidence, double seconds) {
   for (std::size_t cell = 0; cell < map_.cells(); ++cell) {
-    const bool isWithin =
-        std::all_of(around_[cell].begin(), around_[cell].end(), [&](std::size_t beside) { return filled_[beside] != 0; });
+    const bool isWithin = std::all_of(around_[cell].begin(), around_[cell].end(),
+                                      [&](std::size_t beside) { return filled_[beside] != 0; });
     if (evidence.informationOf(cell) >= tells || blocked_[cell] == 0 || isWithin) known_[cell] = seconds;
     if (seconds - known_[cell] > settings_.unknown && seconds >= firmUntil_[cell]) blocked_[cell] = 0;
     if (seconds < lockedUntil_[cell]) blocked_[cell] = 0;
@@ -240,8 +243,8 @@ bool ShadowTracker::choose() {
       const std::vector<std::size_t>& around = around_[grid.first + local];
       const auto isFilled = [&](std::size_t cell) { return filled_[cell] != 0; };
       if (isFilled(grid.first + local))
-        shares.share[local] = std::all_of(around.begin(), around.end(), isFilled) ? 0.0f
-                                                                                   : static_cast<float>(settings_.within);
+        shares.share[local] =
+            std::all_of(around.begin(), around.end(), isFilled) ? 0.0f : static_cast<float>(settings_.within);
       else if (std::any_of(around.begin(), around.end(), isFilled))
         shares.share[local] = static_cast<float>(settings_.beside);
     }
@@ -252,7 +255,8 @@ bool ShadowTracker::choose() {
   return isOther;
 }
 
-bool ShadowTracker::look(const Observed& seen, const Moment& moment, const KnownLight& known, double seconds) {
+bool ShadowTracker::look(const Observed& seen, const Moment& moment, const KnownLight& known,
+                         double seconds) {
   ShadowEvidence evidence(seen, moment, venue_, map_, known);
   evidence.assume(blocked_);
   search(evidence, seconds);

@@ -11,29 +11,34 @@
 namespace relucent::monitoring {
 
 struct ShadowSettings {
-  double within = 0.15;    // share of a blocked projector's light that its shadow's border has, so that it tells
-  double beside = 0.5;     // likewise beside it
+  double within =
+      0.15;             // share of a blocked projector's light that its shadow's border has, so that it tells
+  double beside = 0.5;  // likewise beside it
   double others = 0.15;    // share of all light that other projectors must have where they are to take over
   std::size_t least = 8;   // cells of a shadow
   double certain = 40.0;   // by which the misfit must become less for a shadow to begin, or to be gone
   double explained = 0.7;  // share of a shadow in which light must be as it says
   double explainedAround = 0.75;  // likewise of its surroundings
-  int patience = 3;        // photographs in which a filled shadow may not be as it says
-  double given = 5.0;      // seconds after which what was given up is looked for again
-  double unknown = 1.0;    // seconds after which light is tried again of which nothing was seen
-  double firm = 8.0;       // seconds at most for which a cell stays blocked that was freed too early
+  int patience = 3;               // photographs in which a filled shadow may not be as it says
+  double given = 5.0;             // seconds after which what was given up is looked for again
+  double unknown = 1.0;           // seconds after which light is tried again of which nothing was seen
+  double firm = 8.0;              // seconds at most for which a cell stays blocked that was freed too early
 };
 
-/// Whose light does not arrive where, by photographs of what plays, one after the other: visitors who stand in a
-/// projector's light, of which T knows nothing. Every photograph is judged at once, from what was believed before:
-///  1. of every projector by itself, the cells whose share of light would have to be another one; connected ones
+/// Whose light does not arrive where, by photographs of what plays, one after the other: visitors who stand
+/// in a projector's light, of which T knows nothing. Every photograph is judged at once, from what was
+/// believed before:
+///  1. of every projector by itself, the cells whose share of light would have to be another one; connected
+///  ones
 ///     are a hypothesis: blocked, or no longer;
-///  2. the one by which the photograph fits best is taken, the others are looked at again, until none is left that
-///     makes it fit better by far; with it, what nothing is known of and what would be blocked besides is free;
+///  2. the one by which the photograph fits best is taken, the others are looked at again, until none is left
+///  that
+///     makes it fit better by far; with it, what nothing is known of and what would be blocked besides is
+///     free;
 ///  3. cells along the borders follow, one by one.
 /// A blocked cell whose light others can give goes dark; along the border of a shadow a little light is left,
-/// whose arrival tells that it has become smaller. Where the photographs that follow are not as expected, as of
-/// somebody who stands before the camera and in no light, all goes back.
+/// whose arrival tells that it has become smaller. Where the photographs that follow are not as expected, as
+/// of somebody who stands before the camera and in no light, all goes back.
 class ShadowTracker {
  public:
   /// `venue` must outlive it.
@@ -59,11 +64,14 @@ class ShadowTracker {
     std::vector<std::size_t> cells;
     bool blocked = false;
   };
-  std::vector<Hypothesis> hypothesesOf(std::size_t projector, const ShadowEvidence& evidence, double seconds) const;
+  std::vector<Hypothesis> hypothesesOf(std::size_t projector, const ShadowEvidence& evidence,
+                                       double seconds) const;
   std::vector<std::vector<std::size_t>> connected(const BlockedCells& chosen) const;
   bool isLarge(const Hypothesis& hypothesis, const ShadowEvidence& evidence) const;
-  /// Those that are not at the border of what is blocked, where camera pixels see both sides; if there are none, all.
-  std::vector<std::size_t> within(const std::vector<std::size_t>& cells, const ShadowEvidence& evidence) const;
+  /// Those that are not at the border of what is blocked, where camera pixels see both sides; if there are
+  /// none, all.
+  std::vector<std::size_t> within(const std::vector<std::size_t>& cells,
+                                  const ShadowEvidence& evidence) const;
   /// Those two cells away: whoever stands before the camera is unlike what is predicted beside, too.
   std::vector<std::size_t> around(const std::vector<std::size_t>& cells) const;
   /// Whether light is as the hypothesis says, which the evidence assumes.
@@ -84,7 +92,7 @@ class ShadowTracker {
   ShadowMap map_;
   std::vector<std::vector<std::size_t>> around_;
   BlockedCells blocked_, filled_;
-  std::vector<int> unexplained_;            // photographs in turn, per cell
+  std::vector<int> unexplained_;             // photographs in turn, per cell
   std::vector<double> lockedUntil_, known_;  // seconds, per cell
   std::vector<double> freed_, firmUntil_, firmness_;
   engine::Availability available_;

@@ -60,8 +60,8 @@ image::Image RehearsedContent::at(ShownContent content, std::int64_t key) const 
       // Every other scene ends by fading to black.
       const double left = static_cast<double>(sceneFrames - 1 - within) / fadeFrames;
       const double brightness = scene % 2 == 1 ? std::min(1.0, left) : 1.0;
-      return panned(picture(static_cast<std::int64_t>(seed_) + scene),
-                    scene % 2 == 0 ? share : 1.0 - share, static_cast<float>(brightness));
+      return panned(picture(static_cast<std::int64_t>(seed_) + scene), scene % 2 == 0 ? share : 1.0 - share,
+                    static_cast<float>(brightness));
     }
     case ShownContent::dark:
       return panned(scene % 2 == 0 ? images_.back().linear : images_[4].linear, share, 0.4f);

@@ -21,10 +21,10 @@
 namespace relucent::pipeline {
 namespace {
 
-constexpr double lookedBack = 0.3;         // seconds of frames that a photograph is looked for in
-constexpr double mostExposure = 0.05;      // seconds
-constexpr double shadowedFrom = 0.9;       // of the light that would be there
-constexpr double nobody = 0.98;            // of a cell's light that arrives, so that nobody stands in it
+constexpr double lookedBack = 0.3;     // seconds of frames that a photograph is looked for in
+constexpr double mostExposure = 0.05;  // seconds
+constexpr double shadowedFrom = 0.9;   // of the light that would be there
+constexpr double nobody = 0.98;        // of a cell's light that arrives, so that nobody stands in it
 
 }  // namespace
 
@@ -63,8 +63,8 @@ struct ShadowRehearsal::Parts {
         calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read), loading);
     watched = watchedVenueOf(measured, 0);
     compensator.emplace(measured.venue, measured.inverse);
-    prepared.emplace(
-        prepareVenue(measured.venue, measured.inverse, measured.linearization.projectors, engine::EngineSettings()));
+    prepared.emplace(prepareVenue(measured.venue, measured.inverse, measured.linearization.projectors,
+                                  engine::EngineSettings()));
     truth = std::make_shared<const venue::SimulatedVenue>(settings.venue, cache, progress);
   }
 
@@ -176,7 +176,8 @@ struct ShadowRehearsal::Parts {
   }
 
   /// Whether any cell is filled in and around which nobody stands in the projector's light.
-  bool isFalse(const monitoring::ShadowTracker& tracker, const std::vector<venue::Silhouette>& inTheWay) const {
+  bool isFalse(const monitoring::ShadowTracker& tracker,
+               const std::vector<venue::Silhouette>& inTheWay) const {
     const monitoring::ShadowMap& map = tracker.map();
     for (std::size_t j = 0; j < map.projectors(); ++j) {
       const monitoring::ShadowMap::Grid& grid = map.grids()[j];
@@ -191,7 +192,8 @@ struct ShadowRehearsal::Parts {
         const Pixel at = pixelAt(grid.cells, local);
         bool isNear = false;
         for (int y = (at.y - 2) * grid.side; y < (at.y + 3) * grid.side && !isNear; ++y)
-          for (int x = (at.x - 2) * grid.side; x < (at.x + 3) * grid.side && !isNear; ++x) isNear = isBlocked(x, y);
+          for (int x = (at.x - 2) * grid.side; x < (at.x + 3) * grid.side && !isNear; ++x)
+            isNear = isBlocked(x, y);
         if (!isNear) return true;
       }
     }
@@ -241,7 +243,8 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
   const auto camera = venue::cameraBeforeShow(
       {RehearsedContent::framesPerSecond,
        [&](std::int64_t frame) {
-         return std::find_if(lit.begin(), lit.end(), [&](const Lit& one) { return one.frame == frame; })->drives;
+         return std::find_if(lit.begin(), lit.end(), [&](const Lit& one) { return one.frame == frame; })
+             ->drives;
        }},
       venueAt, [&] { return photographed; });
 
@@ -275,8 +278,8 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
     if (now < begins + mostExposure) continue;
     ++taken;
     photographed = begins;
-    const double exposure =
-        monitoring::suitableExposure(*show.means, parts.measured.linearization.exposures, mostExposure, parts.watched);
+    const double exposure = monitoring::suitableExposure(*show.means, parts.measured.linearization.exposures,
+                                                         mostExposure, parts.watched);
     const rig::RawFrame photograph = camera->capture({{"shadows", taken}, 0, exposure});
     const auto atBegin = static_cast<std::int64_t>(std::floor(begins / frameSeconds));
     ShadowedPicture picture;
@@ -292,7 +295,8 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
         possible.backend.availabilityFollowed();
         parts.render(possible, run.content, wasKey);
       }
-      const auto then = std::find_if(lit.begin(), lit.end(), [&](const Lit& one) { return one.frame == atBegin; });
+      const auto then =
+          std::find_if(lit.begin(), lit.end(), [&](const Lit& one) { return one.frame == atBegin; });
       picture = parts.judge(*then->drives, *reference.drives, *possible.drives,
                             parts.contentOf(run.content, wasKey).linear, who);
     }
@@ -308,7 +312,8 @@ ShadowRehearsalResult ShadowRehearsal::run(const Run& run, Progress& progress) {
       monitoring::KnownLight known;
       known.gains.assign(3 * parts.watched.transport.projectors(), 1.0);
       const monitoring::Moment moment =
-          momentOf(seen, frames, hdr::trueSeconds(parts.watched.camera, photograph.seconds), parts.watched, known.gains);
+          momentOf(seen, frames, hdr::trueSeconds(parts.watched.camera, photograph.seconds), parts.watched,
+                   known.gains);
       picture.isOther = tracker.look(seen, moment, known, begins);
       result.seconds += watch.seconds();
       if (picture.isOther) asked.push_back({begins + exposure + parts.settings.latency, tracker.available()});

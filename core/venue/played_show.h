@@ -42,8 +42,9 @@ using VenueAt = std::function<PlayedVenue(double seconds)>;
 std::unique_ptr<rig::Camera> cameraBeforeShow(PlayedShow show, VenueAt venueAt, std::function<double()> clock,
                                               std::size_t camera = 0);
 
-/// What that camera would measure of pictures without noise, past whoever stands in the projectors' light; nobody
-/// stands before it. Camera signal per second. For evaluation and tests only.
-CameraStack trueLight(const std::vector<image::Image>& pictures, const PlayedVenue& now, std::size_t camera = 0);
+/// What that camera would measure of pictures without noise, past whoever stands in the projectors' light;
+/// nobody stands before it. Camera signal per second. For evaluation and tests only.
+CameraStack trueLight(const std::vector<image::Image>& pictures, const PlayedVenue& now,
+                      std::size_t camera = 0);
 
 }  // namespace relucent::venue

@@ -19,7 +19,8 @@ namespace {
 constexpr double shareOfBudget = 0.7;
 /// After a pause, a shadow does not come or go at once.
 constexpr std::chrono::duration<double> mostOfAFade{0.05};
-/// Of a still whose shadows are filled: what is missing is given by the first of them, and evened out by the next.
+/// Of a still whose shadows are filled: what is missing is given by the first of them, and evened out by the
+/// next.
 constexpr int leastSteps = 2;
 
 /// Empty if not all are known, or there are no two.
@@ -115,7 +116,8 @@ RenderedFrame EngineRenderer::render(const ContentPicture& content, const Render
     return framed(content, request);
   }
   // Brightness is the engine's. After a shadow a still is at once what it was before.
-  if (!still_ || !(request.thorough || isSolved(content, request)) || !request.compensated || request.brightness != 1.0)
+  if (!still_ || !(request.thorough || isSolved(content, request)) || !request.compensated ||
+      request.brightness != 1.0)
     return framed(content, request);
   if (std::optional<RenderedFrame> rendered = thorough(content, request, outdated))
     return *std::move(rendered);
@@ -157,8 +159,9 @@ EngineRenderer::Solved EngineRenderer::solve(const ContentPicture& content, cons
 }
 
 bool EngineRenderer::isSolved(const ContentPicture& content, const RenderRequest& request) const {
-  return shadows_ && !solved_.empty() && solvedNumber_ == content.number && solvedFor_.edition == request.edition &&
-         solvedFor_.viewer == request.viewer && request.brightness == 1.0;
+  return shadows_ && !solved_.empty() && solvedNumber_ == content.number &&
+         solvedFor_.edition == request.edition && solvedFor_.viewer == request.viewer &&
+         request.brightness == 1.0;
 }
 
 bool EngineRenderer::followShadows(const RenderRequest& request) {

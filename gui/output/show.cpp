@@ -194,9 +194,8 @@ void Show::beginWatch(std::unique_ptr<WatchSource> source) {
     if (now.filled.empty() && isFilling_) log_.tell("no shadow is filled any more");
     if (std::exchange(isFilling_, !now.filled.empty()) != isFilling_) writeHealth(state_);
   });
-  connect(watch_.get(), &ShowWatch::cannotFill, this, [this](const Message& sentence) {
-    log_.warn(QString::fromStdString(englishSentence(sentence)));
-  });
+  connect(watch_.get(), &ShowWatch::cannotFill, this,
+          [this](const Message& sentence) { log_.warn(QString::fromStdString(englishSentence(sentence))); });
   connect(watch_.get(), &ShowWatch::failed, this, [this](const Message& sentence) {
     log_.warn("nobody watches the show: " + QString::fromStdString(englishSentence(sentence)));
     writeHealth(state_);

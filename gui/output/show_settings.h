@@ -51,7 +51,7 @@ struct ShowSettings {
   std::optional<QTime> night{};  // when the venue is tended, outside the hours; none: never
   std::string alarmCommand{};  // tells of a night's alarm, see pipeline::closeNight(); empty: nobody is told
   std::optional<pipeline::WatchSettings> watch{};  // by which camera the show is watched; none: by none
-  bool fillsShadows = false;  // of whoever it sees in a projector's light, by the others
+  bool fillsShadows = false;                       // of whoever it sees in a projector's light, by the others
 };
 
 /// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),

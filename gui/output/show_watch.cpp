@@ -255,12 +255,14 @@ class ShowWatch::Watcher {
   }
 
   /// A photograph; false: none that could be evidence.
-  bool photograph(pipeline::WatchingCamera& watching, const monitoring::WatchedVenue& venue, Photograph& taken) {
+  bool photograph(pipeline::WatchingCamera& watching, const monitoring::WatchedVenue& venue,
+                  Photograph& taken) {
     if (exposure_ == 0.0) exposure_ = watching.exposures.back();
     taken.begun = pace_.clock ? pace_.clock() : steadySeconds();
     taken.frame = watching.camera().capture({{"watch", status_.photographs}, 0, exposure_});
     taken.sent = tracker_ ? tap_->sentSoFar() : tap_->end();
-    if (taken.sent.empty() || !isPlaying()) return false;  // a picture that went black meanwhile is no evidence
+    if (taken.sent.empty() || !isPlaying())
+      return false;  // a picture that went black meanwhile is no evidence
     rig::checkFrame(taken.frame, venue.sampling.camera, watching.camera().name());
     return true;
   }
@@ -271,9 +273,9 @@ class ShowWatch::Watcher {
                                                 const monitoring::WatchedVenue& venue) {
     std::vector<monitoring::PlayedFrame> frames;
     for (const PlayedTap::Sent& one : sent) {
-      const auto known = std::find_if(means_.begin(), means_.end(), [&](const monitoring::PlayedFrame& frame) {
-        return frame.since == one.seconds;
-      });
+      const auto known =
+          std::find_if(means_.begin(), means_.end(),
+                       [&](const monitoring::PlayedFrame& frame) { return frame.since == one.seconds; });
       monitoring::FrameMeans means =
           known != means_.end() ? std::move(known->means) : meansOf(one.drives, lights, venue.transport);
       if (!means.empty()) frames.push_back({one.seconds, std::move(means)});
@@ -317,8 +319,9 @@ class ShowWatch::Watcher {
         seen, frames, hdr::trueSeconds(venue.camera, taken.frame.seconds), venue, known_.gains);
     if (!tracker_->look(seen, moment, known_, taken.begun)) return;
     status_.filled = tracker_->filled();
-    status_.available =
-        status_.filled.empty() ? nullptr : std::make_shared<const engine::Availability>(tracker_->available());
+    status_.available = status_.filled.empty()
+                            ? nullptr
+                            : std::make_shared<const engine::Availability>(tracker_->available());
   }
 
   std::unique_ptr<WatchSource> source_;
@@ -328,7 +331,7 @@ class ShowWatch::Watcher {
   Take take_;
   std::function<void()> cannotFill_;
   WatchStatus status_;
-  double exposure_ = 0.0;  // seconds, of the next photograph; 0: none yet
+  double exposure_ = 0.0;                             // seconds, of the next photograph; 0: none yet
   std::optional<monitoring::ShadowTracker> tracker_;  // none: no shadows are filled
   monitoring::KnownLight known_;                      // of the last look at what lasts
   std::vector<monitoring::PlayedFrame> means_;        // of the last photograph
@@ -355,7 +358,8 @@ ShowWatch::ShowWatch(std::unique_ptr<WatchSource> source, std::shared_ptr<Played
         const Message sentence = RELUCENT_ENGLISH_MESSAGE(
             "monitoring.nothing-to-fill",
             "Shadows cannot be filled: the camera sees no place that two projectors light.");
-        QMetaObject::invokeMethod(this, [this, sentence] { Q_EMIT cannotFill(sentence); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [this, sentence] { Q_EMIT cannotFill(sentence); }, Qt::QueuedConnection);
       });
 }
 

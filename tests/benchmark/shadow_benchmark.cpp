@@ -33,14 +33,17 @@ Size sizeOf(const std::string& text) {
 ShownContent contentOf(const std::string& name) {
   for (const auto& one : shownContentNames)
     if (name == one.name) return one.value;
-  throw Error(ErrorKind::usage, Message::plain("no such content"), Message::plain("still, film, dark or slides"));
+  throw Error(ErrorKind::usage, Message::plain("no such content"),
+              Message::plain("still, film, dark or slides"));
 }
 
 void tell(const ShadowRehearsalResult& result) {
   for (const ShadowedPicture& one : result.pictures)
-    fmt::print("  {:5.2f} s  {:4} pixels  filled {:6.2f}  unfilled {:6.2f}  possible {:6.2f}  alone {:6.2f}  beside {:5.2f} {:5.2f}  cells {}{}\n",
-               one.seconds, one.shadowed, one.filled, one.unfilled, one.possible, one.unshadowed, one.beside, one.besideUnshadowed,
-               one.cells, one.isOther ? " *" : "");
+    fmt::print(
+        "  {:5.2f} s  {:4} pixels  filled {:6.2f}  unfilled {:6.2f}  possible {:6.2f}  alone {:6.2f}  beside "
+        "{:5.2f} {:5.2f}  cells {}{}\n",
+        one.seconds, one.shadowed, one.filled, one.unfilled, one.possible, one.unshadowed, one.beside,
+        one.besideUnshadowed, one.cells, one.isOther ? " *" : "");
 }
 
 /// One shadow that comes and goes, for each projector and place.
@@ -78,25 +81,28 @@ void standing(ShadowRehearsal& rehearsal, const Options& options, std::size_t pr
       if (back < 0 && one.cells == 0) back = away;
     }
   }
-  fmt::print("projector {} at {:.2f}: photographs until filled {}, until taken back {}; dE {:.2f} -> {:.2f}, possible {:.2f}, alone {:.2f}; beside {:.2f}, alone {:.2f}; changes {}; "
-             "false fills {}; {:.1f} ms a photograph, {:.1f} ms a frame's following\n",
-             projector + 1, x, until, back, before / count, after / count, possible / count, alone / count,
-             beside / count, besideAlone / count, changes, result.falseFills,
-             1e3 * result.seconds / static_cast<double>(result.pictures.size()),
-             1e3 * result.followSeconds / std::max(1, result.followed));
+  fmt::print(
+      "projector {} at {:.2f}: photographs until filled {}, until taken back {}; dE {:.2f} -> {:.2f}, "
+      "possible {:.2f}, alone {:.2f}; beside {:.2f}, alone {:.2f}; changes {}; "
+      "false fills {}; {:.1f} ms a photograph, {:.1f} ms a frame's following\n",
+      projector + 1, x, until, back, before / count, after / count, possible / count, alone / count,
+      beside / count, besideAlone / count, changes, result.falseFills,
+      1e3 * result.seconds / static_cast<double>(result.pictures.size()),
+      1e3 * result.followSeconds / std::max(1, result.followed));
   std::fflush(stdout);
 }
 
 /// Minutes of visitors, or of nobody.
-void walking(ShadowRehearsal& rehearsal, const Options& options, std::uint64_t seed, bool areThere, std::size_t projectors) {
+void walking(ShadowRehearsal& rehearsal, const Options& options, std::uint64_t seed, bool areThere,
+             std::size_t projectors) {
   const venue::Visitors visitors({seed, options.every, projectors, 15.0});
   ShadowRehearsal::Run run{contentOf(options.content), 60.0 * options.minutes};
   if (areThere) run.inTheWay = [&](double seconds) { return visitors.at(seconds); };
   Progress quiet;
   const ShadowRehearsalResult result = rehearsal.run(run, quiet);
   if (options.isVerbose) tell(result);
-  double filled = 0.0, unfilled = 0.0, alone = 0.0, pixels = 0.0, beside = 0.0, besideAlone = 0.0, possible = 0.0, all = 0.0,
-         allUnfilled = 0.0;
+  double filled = 0.0, unfilled = 0.0, alone = 0.0, pixels = 0.0, beside = 0.0, besideAlone = 0.0,
+         possible = 0.0, all = 0.0, allUnfilled = 0.0;
   for (const ShadowedPicture& one : result.pictures) {
     const auto count = static_cast<double>(one.shadowed);
     filled += count * one.filled;
@@ -110,10 +116,12 @@ void walking(ShadowRehearsal& rehearsal, const Options& options, std::uint64_t s
     besideAlone += one.besideUnshadowed / static_cast<double>(result.pictures.size());
   }
   pixels = std::max(1.0, pixels);
-  fmt::print("{}: {} photographs, false fills {}; shadowed dE {:.2f} -> {:.2f}, possible {:.2f}, alone {:.2f}; beside {:.2f}, alone "
-             "{:.2f}; all {:.2f} -> {:.2f}\n",
-             areThere ? "visitors" : "nobody", result.pictures.size(), result.falseFills, unfilled / pixels,
-             filled / pixels, possible / pixels, alone / pixels, beside, besideAlone, allUnfilled, all);
+  fmt::print(
+      "{}: {} photographs, false fills {}; shadowed dE {:.2f} -> {:.2f}, possible {:.2f}, alone {:.2f}; "
+      "beside {:.2f}, alone "
+      "{:.2f}; all {:.2f} -> {:.2f}\n",
+      areThere ? "visitors" : "nobody", result.pictures.size(), result.falseFills, unfilled / pixels,
+      filled / pixels, possible / pixels, alone / pixels, beside, besideAlone, allUnfilled, all);
   std::fflush(stdout);
 }
 

@@ -123,9 +123,10 @@ void timeViewer(Bench& bench, EngineBackend& backend, const EngineVenue& engine,
   bench.time(fmt::format("{}: viewer walks on, K = 1", backend.name()), transportBytes, walk);
 }
 
-/// Somebody walks into a projector's light: a frame while a shadow fades, and what every other shadow costs besides.
-void timeShadow(Bench& bench, EngineBackend& backend, const EngineVenue& engine, EngineContent& content, Size size,
-                double transportBytes) {
+/// Somebody walks into a projector's light: a frame while a shadow fades, and what every other shadow costs
+/// besides.
+void timeShadow(Bench& bench, EngineBackend& backend, const EngineVenue& engine, EngineContent& content,
+                Size size, double transportBytes) {
   const Rasters& projectors = engine.venue.transport.projectors();
   if (projectors.devices() < 2) return;
   const NoiseContent noise(size);
@@ -140,7 +141,8 @@ void timeShadow(Bench& bench, EngineBackend& backend, const EngineVenue& engine,
     Availability::Grid& grid = available.projectors.front();
     const int left = walked++ % 20;
     for (int y = grid.cells.height / 3; y < grid.cells.height; ++y)
-      for (int x = left; x < std::min(left + 5, grid.cells.width); ++x) grid.share[indexOf(grid.cells, {x, y})] = 0.0f;
+      for (int x = left; x < std::min(left + 5, grid.cells.width); ++x)
+        grid.share[indexOf(grid.cells, {x, y})] = 0.0f;
     follower.aim(available, content);
   };
   const auto fade = [&] {

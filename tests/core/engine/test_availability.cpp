@@ -45,7 +45,8 @@ Availability shadowed(const EngineVenue& engine, std::uint64_t seed) {
   return some;
 }
 
-/// What frames ask for where not all light arrives: asked and weights as fitTarget() has them for such a flood.
+/// What frames ask for where not all light arrives: asked and weights as fitTarget() has them for such a
+/// flood.
 struct Asked {
   CameraStack light;  // less e
   std::vector<float> weight;
@@ -54,7 +55,8 @@ Asked askedOf(const EngineScene& made, const Target& target, const CameraStack& 
   Asked asked{CameraStack(target.wanted), target.weight};
   const Rasters& cameras = made.venue.transport.cameras();
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera)
-    for (std::size_t i = cameras.offset(camera); i < cameras.offset(camera) + cameras.size(camera).count(); ++i) {
+    for (std::size_t i = cameras.offset(camera); i < cameras.offset(camera) + cameras.size(camera).count();
+         ++i) {
       bool reachable = true;
       double luminance = 0.0;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -140,7 +142,8 @@ class TestAvailability : public QObject {
       }
       request.steps = 2;
       device->startFrom(start);
-      const double apart = mostCodesApart(frameWords(*device, frameOf(picture), request, values / 3), expected);
+      const double apart =
+          mostCodesApart(frameWords(*device, frameOf(picture), request, values / 3), expected);
       QVERIFY2(apart <= tolerance, qPrintable(QString("%1 codes").arg(apart)));
     }
   }
@@ -160,7 +163,9 @@ class TestAvailability : public QObject {
     device->setContent(content);
     AvailabilityFollower follower(engine);
     const FrameRequest request{true, 2, 0.9f, 0.02f};
-    const auto frame = [&] { return frameWords(*device, frameOf(picture), request, engine.brightest.size()); };
+    const auto frame = [&] {
+      return frameWords(*device, frameOf(picture), request, engine.brightest.size());
+    };
     const auto before = frame();
     follower.aim(complete(engine), content);
     if (follower.advance(20ms, content)) device->availabilityFollowed();

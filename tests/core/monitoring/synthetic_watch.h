@@ -12,7 +12,8 @@ namespace relucent::monitoring {
 inline constexpr Size syntheticSize{40, 30};  // of the camera and of each projector
 
 /// Two projectors, one bright on the left and one on the right half, both somewhat on the other; camera pixel
-/// by projector pixel, a wider leaf of near surroundings and one of the whole raster. `other`: of the brighter one's light.
+/// by projector pixel, a wider leaf of near surroundings and one of the whole raster. `other`: of the
+/// brighter one's light.
 inline transport::TransportMatrix syntheticTransport(float other = 0.3f) {
   const Rasters camera(syntheticSize), projectors(std::vector<Size>{syntheticSize, syntheticSize});
   const transport::NodeLayout layout(projectors);

@@ -25,7 +25,8 @@ ShadowRehearsalSettings settingsOf(const char* name) {
 }
 
 InTheWay between(const std::vector<Silhouette>& who) {
-  return [who](double seconds) { return seconds >= comes && seconds < goes ? who : std::vector<Silhouette>(); };
+  return
+      [who](double seconds) { return seconds >= comes && seconds < goes ? who : std::vector<Silhouette>(); };
 }
 
 struct Means {
@@ -126,7 +127,8 @@ class TestShadows : public QObject {
   void whoOnlyHidesThePictureChangesNothing() {
     venue("relief").setSeed(1);
     const Silhouette body{{}, 0.45, 0.6, 0.08, 0.35};
-    const ShadowRehearsalResult result = venue("relief").run({ShownContent::still, 2.0, between({body})}, quiet);
+    const ShadowRehearsalResult result =
+        venue("relief").run({ShownContent::still, 2.0, between({body})}, quiet);
     const ShadowedPicture& last = result.pictures.back();
     QVERIFY(last.cells == 0);
     for (const ShadowedPicture& one : result.pictures)

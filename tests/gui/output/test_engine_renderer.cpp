@@ -300,7 +300,8 @@ class TestEngineRenderer : public QObject {
     }
   }
 
-  /// Where somebody stands it goes dark within frames, elsewhere it stays; and when he has gone, it is what it was.
+  /// Where somebody stands it goes dark within frames, elsewhere it stays; and when he has gone, it is what
+  /// it was.
   void aStillIsWhatItWasAfterAShadow() {
     Progress silent;
     RendererSettings settings = settingsOf("corner");
@@ -313,7 +314,8 @@ class TestEngineRenderer : public QObject {
     const QImage before = renderer.render(content, request, needed).drives[0].image();
     engine::Availability available{{engine::completeGrid({40, 30}, 5)}};
     for (int y = 2; y < 5; ++y)
-      for (int x = 3; x < 6; ++x) available.projectors[0].share[indexOf(available.projectors[0].cells, {x, y})] = 0.0f;
+      for (int x = 3; x < 6; ++x)
+        available.projectors[0].share[indexOf(available.projectors[0].cells, {x, y})] = 0.0f;
     RenderRequest shadowed;
     shadowed.available = std::make_shared<const engine::Availability>(available);
     RenderedFrame frame;
@@ -329,8 +331,10 @@ class TestEngineRenderer : public QObject {
     for (int y = 0; y < 30; ++y)
       for (int x = 0; x < 8; ++x)
         for (int c = 0; c < 3; ++c)
-          apart += std::abs(dark.constScanLine(y)[4 * x + c] - before.constScanLine(y)[4 * x + c]) / (3.0 * 30 * 8);
-    // Each other wall of the corner gives some of what is missing; and the engine's one mixing a pixel, and dither.
+          apart += std::abs(dark.constScanLine(y)[4 * x + c] - before.constScanLine(y)[4 * x + c]) /
+                   (3.0 * 30 * 8);
+    // Each other wall of the corner gives some of what is missing; and the engine's one mixing a pixel, and
+    // dither.
     QVERIFY2(apart < 5.0, qPrintable(QString::number(apart)));
     // Without, as well as possible at once: solved it is.
     frames = 0;

@@ -2,8 +2,8 @@
 // A camera that watches a show: what it tells, and that its troubles are nobody else's.
 #include "output/show_watch.h"
 
-#include <QSignalSpy>
 #include <QJsonArray>
+#include <QSignalSpy>
 #include <QtTest>
 #include <array>
 #include <atomic>
@@ -252,7 +252,8 @@ class TestShowWatch : public QObject {
     QCOMPARE(scene_->held.load(), 0);
   }
 
-  /// Whose light it is, told at once, with what is to be projected; and that it is over. What lasts is watched too.
+  /// Whose light it is, told at once, with what is to be projected; and that it is over. What lasts is
+  /// watched too.
   void aShadowIsToldAtOnce() {
     scene_->pictures = {blobs(), blobs(0.6)};
     play();

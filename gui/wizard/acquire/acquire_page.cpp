@@ -449,8 +449,9 @@ void AcquirePage::ended() {
   second_.stop();
   asking_.reset();
   trace_.end();
+  std::optional<Failure> unread;
   if (session_.isOpen()) {
-    session_.reload();
+    unread = session_.readAgain();
     countKept();
   }
   traced_ = traced();
@@ -463,6 +464,8 @@ void AcquirePage::ended() {
         {job_.failure(),
          tr("All %n photograph(s) are on the disk. The one being taken is not counted.", nullptr, kept_),
          retry_});
+  } else if (unread) {
+    Q_EMIT failed({*unread, tr("What is measured is safe."), nullptr});
   }
   tellProgress();
   tellResult();

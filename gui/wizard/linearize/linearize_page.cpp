@@ -232,12 +232,14 @@ void LinearizePage::finish() {
 }
 
 void LinearizePage::ended() {
-  if (session_.isOpen()) session_.reload();
+  const std::optional<Failure> unread = session_.isOpen() ? session_.readAgain() : std::nullopt;
   lease_.release();
   if (job_.state() == Job::State::failed) {
     Q_EMIT failed({job_.failure(),
                    tr("Every photograph that was taken is on the disk. Trying again goes on from there."),
                    retry_});
+  } else if (unread) {
+    Q_EMIT failed({*unread, tr("What is measured is safe."), nullptr});
   }
   tellResult();
 }

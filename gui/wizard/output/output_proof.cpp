@@ -228,9 +228,10 @@ void OutputProof::finished() {
   bool done = job_.state() == Job::State::done && found;
   if (done && found->proof) proof_ = found->proof;
   if (done && found->drift) drift_ = std::move(found->drift);
+  std::optional<Failure> unread;
   if (done && found->repair) {
     // What was found before of the former measurement goes with it.
-    if (found->repair->end == pipeline::RepairEnd::repaired) session_.reload();
+    if (found->repair->end == pipeline::RepairEnd::repaired) unread = session_.readAgain();
     repair_ = std::move(found->repair);
     repairOf_ = measurementOf(session_);
   }
@@ -238,6 +239,7 @@ void OutputProof::finished() {
   Q_EMIT changed();
   Q_EMIT ended(work_);
   if (done && !found->report.isEmpty()) Q_EMIT reported(found->report);
+  if (unread) Q_EMIT failed(*unread);
   if (job_.state() == Job::State::failed) Q_EMIT failed(job_.failure());
 }
 

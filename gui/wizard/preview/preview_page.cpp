@@ -173,7 +173,8 @@ void PreviewPage::prepared() {
   if (!isShining()) lease_.release();
   if (job_.state() == Job::State::done) {
     engine_ = std::exchange(made_, nullptr);
-    if (isLeased) session_.reload();
+    const std::optional<Failure> unread = isLeased ? session_.readAgain() : std::nullopt;
+    if (unread) Q_EMIT failed({*unread, tr("What is measured is safe.")});
     compute();
   } else {
     if (job_.state() == Job::State::cancelled) preparedFor_.clear();

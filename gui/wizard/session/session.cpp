@@ -140,16 +140,14 @@ void Session::tellSteps() {
 
 void Session::changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write) {
   devices_ = nullptr;  // nobody else is let to a camera that is held
-  {
+  try {
     calibration::CalibrationFolder folder =
         calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::write);
-    try {
-      write(folder);
-    } catch (...) {
-      makeDevices();
-      throw;
-    }
+    write(folder);
     look(folder);
+  } catch (...) {
+    makeDevices();
+    throw;
   }
   makeDevices();
   tellSteps();
@@ -200,6 +198,15 @@ void Session::look(const calibration::CalibrationFolder& folder) {
 void Session::reload() {
   look(calibration::CalibrationFolder::open(path_, calibration::CalibrationFolder::Access::read));
   tellSteps();
+}
+
+std::optional<Failure> Session::readAgain() {
+  try {
+    reload();
+  } catch (const Error&) {
+    return failureOf(std::current_exception());
+  }
+  return std::nullopt;
 }
 
 bool Session::isSimulated() const {
@@ -270,9 +277,8 @@ QString Session::cameraName(std::size_t camera) const {
 std::optional<std::size_t> Session::projectorWithoutScreen() const {
   if (screenRig() == nullptr) return std::nullopt;
   const auto screens = pipeline::screensOf(*screenRig());
-  const auto missing = std::ranges::find_if(screens, [this](const auto& screen) {
-    return missingScreens_.contains(screen.display.connector);
-  });
+  const auto missing = std::ranges::find_if(
+      screens, [this](const auto& screen) { return missingScreens_.contains(screen.display.connector); });
   if (missing == screens.end()) return std::nullopt;
   return static_cast<std::size_t>(missing - screens.begin());
 }

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "jobs/failure.h"
 #include "jobs/latest.h"
 #include "jobs/live_rig.h"
 #include "jobs/patient_camera.h"
@@ -227,6 +228,9 @@ class Session : public QObject {
   void returnToEarlier(calibration::Stage stage);
   /// Looks at the folder again, after some work wrote into it.
   void reload();
+  /// The same for whoever cannot fail any more, as his work has ended: what cannot be read now, since another
+  /// program is writing or the disk is gone, stays as it was. Returns why.
+  std::optional<Failure> readAgain();
 
   std::shared_ptr<SessionDevices> devices() const { return devices_; }
   LiveRig& live() const { return *live_; }

@@ -72,6 +72,30 @@ class TestAcquirePage : public QObject {
     QVERIFY(!page.isCountingDown() && session_->areDevicesFree());
   }
 
+  /// Law: while another program works on the calibration, measuring says so and nothing else happens: what is
+  /// shown stays, and it goes once that has ended.
+  void anotherProgramIsWaitedFor() {
+    own_->begin();
+    AcquirePage page(*session_);
+    std::vector<FailureReport> told;
+    connect(&page, &AcquirePage::failed, &page, [&](const FailureReport& report) { told.push_back(report); });
+    {
+      const CalibrationFolder theirs =
+          CalibrationFolder::open(session_->path(), CalibrationFolder::Access::write);
+      page.primary()->trigger();
+      QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && !told.empty(), patience);
+      QCOMPARE(told.size(), std::size_t{1});
+      QVERIFY2(told.front().failure.what.contains("Another program"), qPrintable(told.front().failure.what));
+      QVERIFY(session_->isOpen() && session_->areDevicesFree() && !page.isDone());
+      QVERIFY_EXCEPTION_THROWN(session_->keepPhotographs(pipeline::KeptPhotographs::results), Error);
+      QVERIFY(session_->readAgain().has_value());
+    }
+    QVERIFY(!session_->readAgain());
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(page.isDone());
+  }
+
   /// Law: each level has four times the blocks of the one before; patterns are planned, then known, then
   /// through; a rehearsal waits for nobody.
   void thePlanBecomesWhatWasMeasured() {

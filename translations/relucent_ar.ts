@@ -5849,6 +5849,34 @@ projector %2</source>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>صورة حية من الشبكة، كما ترسلها الكاميرات وأجهزة الترميز.</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>لم يتحرك شيء: لا يبقى عند «العتبة» سوى %1 من الضوء، فتنقص الانعكاسات، في التوقع أيضًا. احتفظ بالمزيد منه.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>لم يتحرك شيء: جزء من الصورة خارج متناول جهاز العرض. تفيد صورة أعتم أو مكان آخر لها.</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>لن يبدأ عرض موقع آخر عند تسجيل الدخول بعد الآن.</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>لن يبدأ عرض هذا الموقع عند تسجيل الدخول بعد الآن.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>يبقى الموقع وقائمة التشغيل. يمكن تثبيته من جديد من «الخرج» في موقعه.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>إزالة</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>إبقاء</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -5709,6 +5709,34 @@ Projektor %2</translation>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>Ein Live-Bild aus dem Netz, wie Kameras und Encoder es senden.</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>Nichts hat sich bewegt: Bei „Schwelle“ bleiben nur %1 des Lichts, so dass Reflexe fehlen, auch in der Vorhersage. Behalten Sie mehr davon.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>Nichts hat sich bewegt: Ein Teil des Bildes ist außer Reichweite des Projektors. Ein dunkleres Bild oder ein anderer Ort dafür hilft.</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>Die Show eines anderen Spielorts startet dann nicht mehr bei der Anmeldung.</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>Die Show dieses Spielorts startet dann nicht mehr bei der Anmeldung.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>Spielort und Playlist bleiben. Sie kann in der Ausgabe ihres Spielorts wieder installiert werden.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -5709,6 +5709,34 @@ proyector %2</translation>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>Una imagen en vivo de la red, como la envían cámaras y codificadores.</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>Nada se ha movido: en «Umbral» solo se conserva el %1 de la luz, de modo que faltan rebotes, también en la previsión. Conserve más.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>Nada se ha movido: parte de la imagen está fuera del alcance del proyector. Ayuda una imagen más oscura u otro lugar para ella.</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>El show de otro lugar ya no empezará al iniciar sesión.</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>El show de este lugar ya no empezará al iniciar sesión.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>El lugar y la lista se conservan. Puede instalarse de nuevo desde la Salida de su lugar.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Conservar</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

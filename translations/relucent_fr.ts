@@ -5709,6 +5709,34 @@ projecteur %2</translation>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>Une image en direct du réseau, comme l’envoient caméras et encodeurs.</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>Rien n’a bougé : au seuil, seuls %1 de la lumière sont gardés, si bien qu’il manque des réflexions, dans la prévision aussi. Gardez-en davantage.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>Rien n’a bougé : une partie de l’image est hors de portée du projecteur. Une image plus sombre, ou une autre place pour elle, aide.</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>La diffusion d’un autre lieu ne démarrera plus à l’ouverture de session.</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>La diffusion de ce lieu ne démarrera plus à l’ouverture de session.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>Le lieu et la liste restent. Elle peut être réinstallée depuis la Sortie de son lieu.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Garder</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -5709,6 +5709,34 @@ proiettore %2</translation>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>Un’immagine dal vivo dalla rete, come la inviano telecamere e codificatori.</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>Nulla si è mosso: alla soglia resta solo il %1 della luce, così che mancano riflessi, anche nella previsione. Conservarne di più.</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>Nulla si è mosso: parte dell’immagine è fuori dalla portata del proiettore. Aiuta un’immagine più scura o un altro posto per essa.</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>Lo show di un altro luogo non partirà più all’accesso.</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>Lo show di questo luogo non partirà più all’accesso.</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>Luogo ed elenco restano. Può essere installato di nuovo dall’Uscita del suo luogo.</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Rimuovi</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Mantieni</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -5674,6 +5674,34 @@ projector %2</source>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>カメラやエンコーダーが送るネットワーク上のライブ映像です。</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>何も動いていません。「しきい値」で光の%1しか残していないため、予測でも反射光が欠けています。もっと残してください。</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>何も動いていません。画像の一部がプロジェクターの届く範囲を超えています。暗めの画像にするか、別の場所に置いてください。</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>別の会場のショーは、ログイン時に始まらなくなります。</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>この会場のショーは、ログイン時に始まらなくなります。</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>会場と再生リストは残ります。その会場の「出力」から再び登録できます。</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>残す</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -5674,6 +5674,34 @@ projector %2</source>
         <source>A live picture from the network, as cameras and encoders send it.</source>
         <translation>来自网络的实时画面，由摄像机或编码器发送。</translation>
     </message>
+    <message>
+        <source>Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are missing, in the prediction too. Keep more of it.</source>
+        <translation>没有任何移动：“阈值”只保留了 %1 的光，因此缺少反射光，预测中也一样。请保留更多。</translation>
+    </message>
+    <message>
+        <source>Nothing has moved: part of the picture is out of the projector&apos;s reach. A darker picture, or another place for it, helps.</source>
+        <translation>没有任何移动：画面的一部分超出投影机的能力。换用较暗的画面或另一位置会有帮助。</translation>
+    </message>
+    <message>
+        <source>The show of another venue will no longer start at log-in.</source>
+        <translation>登录时将不再启动另一个场地的节目。</translation>
+    </message>
+    <message>
+        <source>The show of this venue will no longer start at log-in.</source>
+        <translation>登录时将不再启动此场地的节目。</translation>
+    </message>
+    <message>
+        <source>Venue and playlist stay. It can be installed again from its venue&apos;s Output.</source>
+        <translation>场地和播放列表会保留。可在该场地的“输出”中重新安装。</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>保留</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

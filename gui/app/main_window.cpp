@@ -196,9 +196,11 @@ void MainWindow::bindKeys() {
   key(QKeySequence("Ctrl+Z"), [this] {
     if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().undo();
   });
-  key(QKeySequence("Ctrl+Shift+Z"), [this] {
+  const auto redo = [this] {
     if (PageModel& page = wizard_.currentPage(); page.whyLocked().isEmpty()) page.undoStack().redo();
-  });
+  };
+  key(QKeySequence("Ctrl+Shift+Z"), redo);
+  key(QKeySequence("Ctrl+Y"), redo);
   key(QKeySequence("F1"), [this] { showHelp(); });
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
@@ -206,6 +208,16 @@ void MainWindow::bindKeys() {
 }
 
 void MainWindow::followFocus(QWidget* before, QWidget* now) {
+  // Not by the user: of what he cannot press any more, the focus goes to whatever is next.
+  if (before != nullptr && now != nullptr && inspectors_->isAncestorOf(before) && isAncestorOf(now) &&
+      now != inspectors_ && !(before->isVisible() && before->isEnabled())) {
+    if (focusKept_ == nullptr) {
+      focusKept_ = before;
+      before->installEventFilter(this);
+    }
+    return keepFocus(*now);
+  }
+  if (now != inspectors_) forgetKeptFocus();  // somebody went elsewhere
   // What is clicked is in sight and must not move under the pointer.
   if (now != nullptr && isAncestorOf(now) && QGuiApplication::mouseButtons() == Qt::NoButton)
     bringIntoSight(now);
@@ -225,6 +237,39 @@ void MainWindow::followFocus(QWidget* before, QWidget* now) {
         returnFocus();
       },
       Qt::QueuedConnection);
+}
+
+/// A button of the inspector that started something, and cannot be pressed meanwhile, leaves its focus to the
+/// next one, which its key was never meant for. The inspector itself has it until the button can be pressed
+/// again.
+void MainWindow::keepFocus(const QWidget& now) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, taken = QPointer<const QWidget>(&now)] {
+        if (focusWidget() != taken) return;
+        inspectors_->setFocus();
+        returnKeptFocus();
+      },
+      Qt::QueuedConnection);
+}
+
+void MainWindow::returnKeptFocus() {
+  if (focusKept_ == nullptr) return;
+  if (focusWidget() != inspectors_ || !focusKept_->isVisible() || !focusKept_->isEnabled()) return;
+  QWidget* kept = focusKept_;
+  forgetKeptFocus();
+  kept->setFocus();
+}
+
+void MainWindow::forgetKeptFocus() {
+  if (focusKept_ != nullptr) focusKept_->removeEventFilter(this);
+  focusKept_ = nullptr;
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == focusKept_ && (event->type() == QEvent::EnabledChange || event->type() == QEvent::Show))
+    QMetaObject::invokeMethod(this, &MainWindow::returnKeptFocus, Qt::QueuedConnection);
+  return QMainWindow::eventFilter(watched, event);
 }
 
 /// After a job what leads on has the focus again once it is possible, as long as nobody has gone elsewhere

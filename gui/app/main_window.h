@@ -38,6 +38,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -56,7 +57,10 @@ class MainWindow : public QMainWindow {
   void refresh();
   void moveToNextRegion();
   void returnFocus();
+  void returnKeptFocus();
+  void forgetKeptFocus();
   void followFocus(QWidget* before, QWidget* now);
+  void keepFocus(const QWidget& now);
   void tell(const PageModel& page, const FailureReport& report);
   void closeOnceDevicesAreFree();
 
@@ -68,6 +72,7 @@ class MainWindow : public QMainWindow {
   StepRail* rail_;
   BannerBar* banner_;
   bool hasWorked_ = false;       // the page that is looked at
+  QPointer<QWidget> focusKept_;  // of a button in the inspector that cannot be pressed now
   QPointer<QWidget> focusLent_;  // until the command that had it can be given again
   ActionBar* actions_;
   QWidget* header_;

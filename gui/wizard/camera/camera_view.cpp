@@ -166,6 +166,7 @@ class CameraTile : public QFrame {
     connect(&view_->link(), &ViewLink::picked, this, [this] {
       if (auto pick = view_->link().pick(); pick && focusWanted) focusWanted(*pick);
     });
+    connect(&model_.session(), &Session::opened, this, [this] { view_->link().setPick(std::nullopt); });
   }
 
   void show(bool hasPeaks, bool isOverlap, bool isAlone) {

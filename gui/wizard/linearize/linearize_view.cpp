@@ -141,13 +141,18 @@ QWidget* liveCards(LinearizePage& model) {
     photograph->setPicture(pictureOf(live.frame.signal, 1.0f));
     const QString exposure = exposureText(live.frame.seconds);
     const int number = model.photographs();
-    seen->setSubtitle(number == 0
-                          ? exposure
-                          : LinearizePage::tr("%1, photograph %2")
-                                .arg(exposure, countText(static_cast<std::uint64_t>(number))));
+    seen->setSubtitle(number == 0 ? exposure
+                                  : LinearizePage::tr("%1, photograph %2")
+                                        .arg(exposure, countText(static_cast<std::uint64_t>(number))));
   };
   refreshOn(model, row, refresh, &LinearizePage::settingsChanged, &LinearizePage::resultChanged,
             &LinearizePage::progressChanged);
+  // What another venue's camera saw last stays with that venue.
+  QObject::connect(&model.session(), &Session::opened, row, [pattern, photograph, seen] {
+    pattern->setPicture({});
+    photograph->setPicture({});
+    seen->setSubtitle({});
+  });
   return row;
 }
 

@@ -3,6 +3,8 @@
 
 #include <QComboBox>
 #include <QDir>
+#include <QMessageBox>
+#include <QPushButton>
 #include <cmath>
 
 #include "theme/controls.h"
@@ -75,6 +77,22 @@ QString viewsLine(const Proof& proof) {
   return views.join('\n');
 }
 
+/// Why errors are plain to see though all is as predicted, and what helps.
+QString reasonOf(const OutputPage& page, double reachable) {
+  constexpr double enoughLight = 0.95, enoughReach = 0.9;
+  if (const double kept = page.lightKept(); kept < enoughLight)
+    return OutputPage::tr(
+               "Nothing has moved: of the light only %1 is kept at Threshold, so that bounces are "
+               "missing, in the prediction too. Keep more of it.")
+        .arg(percentText(kept));
+  if (reachable < enoughReach)
+    return OutputPage::tr(
+        "Nothing has moved: part of the picture is out of the projector's reach. A darker picture, or "
+        "another place for it, helps.");
+  return OutputPage::tr(
+      "Nothing has moved: the prediction itself is coarse. Measuring finer or darker content helps.");
+}
+
 void showProof(Remark& remark, const OutputPage& page) {
   const Proof* proof = page.proof().proof().get();
   if (page.playsEarlier())
@@ -97,9 +115,7 @@ void showProof(Remark& remark, const OutputPage& page) {
   const std::optional<std::size_t> differs = pipeline::viewThatDiffers(proof->figures);
   if (proof->isAsPredicted() && pipeline::isPlainToSee(proof->figures))
     remark.show(Remark::Kind::watch, OutputPage::tr("As predicted, but errors are plain to see"),
-                meaning + '\n' +
-                    OutputPage::tr("Nothing has moved: the prediction itself is coarse. Measuring finer or "
-                                   "darker content helps."));
+                meaning + '\n' + reasonOf(page, figures.reachable));
   else if (proof->isAsPredicted())
     remark.show(Remark::Kind::good, OutputPage::tr("The surface looks as predicted"), meaning);
   else if (const sentinels::Movement moved = proof->figuresOf(*differs).moved; moved.explains)
@@ -207,6 +223,24 @@ QString installedText(const OutputPage& page) {
                    "a real venue starts at every log-in.");
 }
 
+/// It may be another venue's, and one of tonight: not by one click.
+void askToRemoveShow(OutputPage& page, QWidget* asking) {
+  auto* box =
+      new QMessageBox(QMessageBox::Question, OutputPage::tr("Remove installed show"),
+                      page.installedShow() == OutputPage::InstalledShow::anotherVenues
+                          ? OutputPage::tr("The show of another venue will no longer start at log-in.")
+                          : OutputPage::tr("The show of this venue will no longer start at log-in."),
+                      QMessageBox::NoButton, asking);
+  box->setObjectName("remove-question");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setInformativeText(
+      OutputPage::tr("Venue and playlist stay. It can be installed again from its venue's Output."));
+  QPushButton* remove = box->addButton(OutputPage::tr("Remove"), QMessageBox::DestructiveRole);
+  box->setDefaultButton(box->addButton(OutputPage::tr("Keep"), QMessageBox::RejectRole));
+  QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::removeInstalled);
+  box->open();
+}
+
 QWidget* handOverPart(OutputPage& page) {
   auto* part = new QWidget;
   auto* column = new QVBoxLayout(part);
@@ -226,7 +260,7 @@ QWidget* handOverPart(OutputPage& page) {
   remove->setToolTip(OutputPage::tr("It does not start at log-in any more. Venue and playlist stay."));
   column->addWidget(remove);
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
-  QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::removeInstalled);
+  QObject::connect(remove, &QPushButton::clicked, &page, [&page, remove] { askToRemoveShow(page, remove); });
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));

@@ -441,6 +441,11 @@ void OutputPage::setConfigFolder(const QString& folder) {
   detectInstalledShow();
 }
 
+double OutputPage::lightKept() const {
+  const auto& threshold = session_.figures<calibration::Stage::threshold>();
+  return threshold ? threshold->energyKept : 1.0;
+}
+
 void OutputPage::detectInstalledShow() {
   const QString venue = QString::fromStdString(session_.path().string());
   installed_ = InstalledShow::none;

@@ -116,6 +116,8 @@ class OutputPage : public DevicePage {
   /// The show that starts at log-in: of a user there is one.
   enum class InstalledShow { none, thisVenues, anotherVenues };
   InstalledShow installedShow() const { return installed_; }
+  /// Share of the measured light that Threshold left.
+  double lightKept() const;
   bool isInstalled() const { return installed_ == InstalledShow::thisVenues; }
   /// Devices that are simulated play for nobody: a rehearsal's show is not installed.
   bool isInstallable() const { return !session_.isSimulated(); }

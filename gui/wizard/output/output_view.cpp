@@ -165,8 +165,8 @@ bool acceptsText(const QWidget* widget) {
          qobject_cast<const QComboBox*>(widget) != nullptr;
 }
 
-/// Pictures beside each other. A held shows the original wherever on the page the focus is; while it has the
-/// focus itself: space freezes, B blackens, T shows test charts, O figures.
+/// Pictures beside each other. Wherever on the page the focus is, but where something is typed: A held shows
+/// the original, B blackens, T shows test charts, O figures. While it has the focus itself, space freezes.
 class OutputStage : public QWidget {
  public:
   explicit OutputStage(OutputPage& page) : page_(page) {
@@ -187,32 +187,23 @@ class OutputStage : public QWidget {
   }
 
  protected:
-  /// Comparing is told of in the action bar: it must not depend on what was clicked last.
+  /// Keys are told of in the action bar and the guide: they must not depend on what was clicked last.
   bool eventFilter(QObject* watched, QEvent* event) override {
     if ((event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) || !isVisible())
       return false;
     auto* key = static_cast<QKeyEvent*>(event);
     auto* widget = qobject_cast<QWidget*>(watched);
-    if (key->key() != Qt::Key_A || key->modifiers() != Qt::NoModifier || widget == nullptr ||
-        widget->window() != window() || acceptsText(QApplication::focusWidget()))
+    if (key->modifiers() != Qt::NoModifier || widget == nullptr || widget->window() != window() ||
+        acceptsText(QApplication::focusWidget()))
       return false;
-    if (!key->isAutoRepeat()) page_.setCompensated(event->type() == QEvent::KeyRelease);
+    const bool isPressed = event->type() == QEvent::KeyPress, isRepeated = key->isAutoRepeat();
+    if (key->key() != Qt::Key_A) return isPressed && (isRepeated ? isSwitch(key->key()) : act(key->key()));
+    if (!isRepeated) page_.setCompensated(!isPressed);
     return true;
   }
   void keyPressEvent(QKeyEvent* event) override {
-    if (event->isAutoRepeat()) return;
-    switch (event->key()) {
-      case Qt::Key_Space:
-        return page_.setFrozen(!page_.isFrozen());
-      case Qt::Key_B:
-        return page_.setBlack(!page_.isBlack());
-      case Qt::Key_T:
-        return page_.projection().nextChart();
-      case Qt::Key_O:
-        return page_.projection().setOverlay(!page_.projection().hasOverlay());
-      default:
-        QWidget::keyPressEvent(event);
-    }
+    if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) return page_.setFrozen(!page_.isFrozen());
+    QWidget::keyPressEvent(event);
   }
   void dragEnterEvent(QDragEnterEvent* event) override {
     if (!draggedFiles(*event->mimeData()).isEmpty()) event->acceptProposedAction();
@@ -220,6 +211,14 @@ class OutputStage : public QWidget {
   void dropEvent(QDropEvent* event) override { page_.addFiles(draggedFiles(*event->mimeData())); }
 
  private:
+  static bool isSwitch(int key) { return key == Qt::Key_B || key == Qt::Key_T || key == Qt::Key_O; }
+  /// False: the key does nothing here.
+  bool act(int key) {
+    if (key == Qt::Key_B) page_.setBlack(!page_.isBlack());
+    if (key == Qt::Key_T) page_.projection().nextChart();
+    if (key == Qt::Key_O) page_.projection().setOverlay(!page_.projection().hasOverlay());
+    return isSwitch(key);
+  }
   Card* projectorCard() {
     projector_ = new Card(OutputPage::tr("On the projector now"));
     compare_ = new Segmented({OutputPage::tr("Corrected"), OutputPage::tr("Original")});

@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QDesktopServices>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -462,10 +463,16 @@ class TestWizardWindow : public QObject {
       QVERIFY(!wizard_->page<OutputPage>().isCompensated());
       QTest::keyRelease(where, Qt::Key_A);
       QVERIFY(wizard_->page<OutputPage>().isCompensated());
+      QTest::keyClick(where, Qt::Key_B);
+      QVERIFY(wizard_->page<OutputPage>().isBlack());
+      QTest::keyClick(where, Qt::Key_B);
+      QVERIFY(!wizard_->page<OutputPage>().isBlack());
     }
     find<QWidget>("playlist")->setFocus();
     QTest::keyPress(find<QWidget>("playlist"), Qt::Key_A);
     QVERIFY(wizard_->page<OutputPage>().isCompensated());
+    QTest::keyClick(find<QWidget>("playlist"), Qt::Key_B);
+    QVERIFY(!wizard_->page<OutputPage>().isBlack());
     view->setFocus();
     QTest::keyClick(view, Qt::Key_Space);
     QVERIFY(wizard_->page<OutputPage>().isFrozen());
@@ -562,8 +569,16 @@ class TestWizardWindow : public QObject {
     QCOMPARE(output.primary()->text(), OutputPage::tr("Install show"));
     QVERIFY(!output.primary()->isEnabled() && output.hint().contains("not installed"));
     QCOMPARE(output.secondary().size(), std::size_t{3});
-    click("check-drift");
+    // What cannot be pressed while it works leaves its key to no other button, and has it again.
+    wizard_->window().activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
+    auto* check = find<QWidget>("check-drift");
+    check->setFocus();
+    QTest::keyClick(check, Qt::Key_Space);
+    QTRY_VERIFY(!check->isEnabled());
+    QTRY_VERIFY(qobject_cast<QAbstractButton*>(wizard_->window().focusWidget()) == nullptr);
     QTRY_VERIFY_WITH_TIMEOUT(output.proof().drift().has_value(), patience);
+    QTRY_COMPARE(wizard_->window().focusWidget(), check);
     QVERIFY(output.proof().drift()->verdict == Verdict::stillGood);
   }
 
@@ -595,7 +610,17 @@ class TestWizardWindow : public QObject {
     QVERIFY(!find<QWidget>("remove-installed")->isVisible());
     install(Start::autostart, folder_.filePath("config"), "relucent", {"show", "/venues/another"});
     output.setConfigFolder(folder_.filePath("config"));
-    click("remove-installed");
+    // Asked first, and not removed by whoever presses Enter.
+    for (const char* answer : {"Keep", "Remove"}) {
+      QVERIFY(gui::isInstalled(Start::autostart, folder_.filePath("config")));
+      click("remove-installed");
+      auto* question = wizard_->window().findChild<QMessageBox*>("remove-question");
+      QVERIFY(question != nullptr && question->text().contains("another venue"));
+      QCOMPARE(question->defaultButton()->text(), QString("Keep"));
+      for (QAbstractButton* button : question->buttons())
+        if (button->text() == answer) button->click();
+      QTRY_VERIFY(wizard_->window().findChild<QMessageBox*>("remove-question") == nullptr);
+    }
     QVERIFY(!gui::isInstalled(Start::autostart, folder_.filePath("config")));
     QVERIFY(!find<QWidget>("remove-installed")->isVisible());
     wizard_->window().activateWindow();

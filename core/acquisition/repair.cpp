@@ -14,6 +14,9 @@ namespace relucent::acquisition {
 namespace {
 
 constexpr int mostRepairs = 2;
+// Where more of the camera pixels in use than this are wrong it is not they that were disturbed: the camera
+// was moved, or T is wrong as a whole. Measuring them all again by a tree takes thousands of photographs.
+constexpr double mostFlagged = 0.2;
 
 std::size_t countOf(const std::vector<std::uint8_t>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
@@ -34,11 +37,11 @@ class Repair {
       : verified_(verified), rows_(std::move(rows)), context_(context), settings_(settings) {}
 
   std::optional<sentinels::Interruption> run(Progress& progress) {
-    const double least =
-        context_.scheme.repairedFrom * static_cast<double>(countOf(context_.references().usable));
+    const auto used = static_cast<double>(countOf(context_.references().usable));
+    const double least = context_.scheme.repairedFrom * used, most = mostFlagged * used;
     for (int round = 1; round <= mostRepairs; ++round) {
       std::size_t ill = countOf(verified_.flagged);
-      if (ill == 0 || static_cast<double>(ill) < least) break;
+      if (ill == 0 || static_cast<double>(ill) < least || static_cast<double>(ill) > most) break;
       verified_.remeasured += round == 1 ? static_cast<int>(ill) : 0;
       Progress part = progress.part(0.25, RELUCENT_PLURAL_MESSAGE("stage.remeasuring-flagged-pixels",
                                                                   "measuring {} flagged pixels again",

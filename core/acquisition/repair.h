@@ -29,7 +29,7 @@ struct VerifiedTransport {
                                                                 Progress& progress);
 
 /// The same; then flagged camera pixels, if the scheme says that they are many enough, are measured again, at
-/// most twice. Only the blocks that they need are
+/// most twice; not if they are more than a fifth of those in use. Only the blocks that they need are
 /// lit: as they are few, so are the conflicts, and many blocks share a frame. A row measured again replaces
 /// the old one if it predicts other test patterns better than that did its own; what stays flagged is left as
 /// a mask. A second time only if the first healed half of them. After an interruption T is as the last repair

@@ -287,14 +287,26 @@ class TestMultiplexed : public QObject {
   void manyFlaggedRowsAreMeasuredAgain() {
     QCOMPARE(undisturbed().remeasured, 0);
     Venue venue = denseVenue();
-    venue.settings.flagRelative = 0.01;
+    venue.settings.flagRelative = 0.02;
     venue.settings.flagSigmas = 0.1;
     Run run(venue);
     const Acquisition a = run();
     QVERIFY2(a.remeasured > 0 && a.patterns > undisturbed().patterns, qPrintable(shown(a, run.truth)));
     QVERIFY2(
-        a.verificationError < 0.9 * undisturbed().verificationError,
+        a.verificationError < 0.99 * undisturbed().verificationError,
         qPrintable(QString("%1, %2 before").arg(a.verificationError).arg(undisturbed().verificationError)));
+  }
+
+  /// Where nearly everything is wrong, as after a bump that somebody put up with, it is not measured again
+  /// pixel by pixel: that took twenty times the photographs that had been expected.
+  void whatIsWrongAsAWholeIsLeft() {
+    Venue venue = denseVenue();
+    venue.settings.flagRelative = 1e-6;
+    venue.settings.flagSigmas = 1e-6;
+    const Acquisition a = Run(venue)();
+    QVERIFY(flaggedIn(a) > a.flagged.size() / 5);
+    QCOMPARE(a.remeasured, 0);
+    QCOMPARE(a.patterns, undisturbed().patterns);
   }
 
   void finenessDecidesPhotographs() {

@@ -27,7 +27,7 @@ QString read(const QString& resource) {
 std::vector<pipeline::LibraryVersion> allLibraries() {
   std::vector<pipeline::LibraryVersion> libraries = pipeline::coreLibraries();
   libraries.push_back({"Qt", qVersion()});
-  libraries.push_back({"FFmpeg's libavformat", streamLibraryVersion().toStdString()});
+  libraries.push_back({"FFmpeg", "libavformat " + streamLibraryVersion().toStdString()});
   libraries.push_back({"liblo", oscLibraryVersion().toStdString()});
   libraries.push_back({"VTK", vtkVersion::GetVTKVersion()});
   libraries.push_back({"spdlog", std::to_string(SPDLOG_VER_MAJOR) + '.' + std::to_string(SPDLOG_VER_MINOR) +

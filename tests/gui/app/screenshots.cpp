@@ -45,6 +45,20 @@ using namespace relucent::venue;
 
 namespace {
 
+/// Two to be played after the demonstration picture.
+QStringList morePictures(const std::filesystem::path& folder) {
+  QStringList files;
+  for (const auto& [name, hue] : {std::pair("Opening.png", 30), std::pair("Stones speak.png", 200)}) {
+    QImage picture(160, 120, QImage::Format_RGB32);
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x)
+        picture.setPixelColor(x, y, QColor::fromHsv(hue, 40 + x, 60 + y));
+    files << QString::fromStdString((folder / name).string());
+    picture.save(files.back());
+  }
+  return files;
+}
+
 /// Waits for what a page computes, a minute at most.
 template <typename Condition>
 void until(const Condition& condition) {
@@ -343,7 +357,7 @@ int main(int argc, char** argv) {
   wizard.page<OutputPage>().perfect();
   until(
       [&] { return wizard.page<OutputPage>().perfecting().outcome() && wizard.page<OutputPage>().isOpen(); });
-  wizard.page<OutputPage>().addFiles({"/venues/Opening.mp4", "/venues/Stones speak.mp4"});
+  wizard.page<OutputPage>().addFiles(morePictures(wizard.session().path().parent_path()));
   wizard.page<OutputPage>().checkDrift();
   until([&] { return wizard.page<OutputPage>().proof().drift().has_value(); });
   wizard.page<OutputPage>().pushBack();

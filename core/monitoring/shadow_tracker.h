@@ -11,9 +11,8 @@
 namespace relucent::monitoring {
 
 struct ShadowSettings {
-  double within =
-      0.15;             // share of a blocked projector's light that its shadow's border has, so that it tells
-  double beside = 0.5;  // likewise beside it
+  double within = 0.15;    // share of its light that the border of a projector's shadow has, so that it tells
+  double beside = 0.5;     // likewise beside it
   double others = 0.15;    // share of all light that other projectors must have where they are to take over
   std::size_t least = 8;   // cells of a shadow
   double certain = 40.0;   // by which the misfit must become less for a shadow to begin, or to be gone
@@ -29,12 +28,10 @@ struct ShadowSettings {
 /// in a projector's light, of which T knows nothing. Every photograph is judged at once, from what was
 /// believed before:
 ///  1. of every projector by itself, the cells whose share of light would have to be another one; connected
-///  ones
-///     are a hypothesis: blocked, or no longer;
+///     ones are a hypothesis: blocked, or no longer;
 ///  2. the one by which the photograph fits best is taken, the others are looked at again, until none is left
-///  that
-///     makes it fit better by far; with it, what nothing is known of and what would be blocked besides is
-///     free;
+///     that makes it fit better by far; with it, what nothing is known of and what would be blocked besides
+///     is free;
 ///  3. cells along the borders follow, one by one.
 /// A blocked cell whose light others can give goes dark; along the border of a shadow a little light is left,
 /// whose arrival tells that it has become smaller. Where the photographs that follow are not as expected, as

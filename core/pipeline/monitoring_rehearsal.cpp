@@ -10,10 +10,8 @@
 #include "relucent/base/random.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/compensation/methods.h"
-#include "relucent/devices/temporary_folder.h"
-#include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/projection.h"
-#include "relucent/pipeline/watched_calibration.h"
+#include "relucent/pipeline/rehearsed_venue.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -32,7 +30,7 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-struct MonitoringRehearsal::Parts {
+struct MonitoringRehearsal::Parts : RehearsedVenue {
   /// A picture as the projectors get it, and as the monitor reads it.
   struct Prepared {
     venue::PlayedPictures drives;
@@ -40,20 +38,10 @@ struct MonitoringRehearsal::Parts {
   };
 
   Parts(const RehearsalSettings& asked, const std::filesystem::path& cacheFolder, Progress& progress)
-      : settings(asked), cache(cacheFolder), shown(asked.seed) {
-    CalibrateSettings calibrating;
-    calibrating.rig = settings.venue;
-    devices::TemporaryFolder temporary;
-    const std::filesystem::path folder = temporary.path() / "venue";
-    Progress measuringPart = progress.part(0.8, progress.stage());
-    calibrate(folder, calibrating, cache, measuringPart);
-    Progress loading = progress.part(0.2, progress.stage());
-    measured = loadCalibration(
-        calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read), loading);
-    watched = watchedVenueOf(measured, 0);
-    compensator.emplace(measured.venue, measured.inverse);
-    truth = std::make_shared<const venue::SimulatedVenue>(settings.venue, cache, progress);
-  }
+      : RehearsedVenue(asked.venue, cacheFolder, progress),
+        settings(asked),
+        cache(cacheFolder),
+        shown(asked.seed) {}
 
   const Prepared& prepared(ShownContent content, std::int64_t frame) {
     const std::int64_t key = shown.keyOf(content, frame);
@@ -74,10 +62,6 @@ struct MonitoringRehearsal::Parts {
   RehearsalSettings settings;
   std::filesystem::path cache;
   RehearsedContent shown;
-  MeasuredCalibration measured;
-  monitoring::WatchedVenue watched;
-  std::optional<compensation::Compensator> compensator;
-  std::shared_ptr<const venue::SimulatedVenue> truth;
   std::map<std::pair<ShownContent, std::int64_t>, Prepared> kept;
 };
 

@@ -11,12 +11,9 @@
 #include "relucent/base/stopwatch.h"
 #include "relucent/compensation/methods.h"
 #include "relucent/compensation/prediction.h"
-#include "relucent/devices/temporary_folder.h"
 #include "relucent/engine/cpu_backend.h"
-#include "relucent/pipeline/calibrate.h"
-#include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection.h"
-#include "relucent/pipeline/watched_calibration.h"
+#include "relucent/pipeline/rehearsed_venue.h"
 
 namespace relucent::pipeline {
 namespace {
@@ -28,7 +25,7 @@ constexpr double nobody = 0.98;        // of a cell's light that arrives, so tha
 
 }  // namespace
 
-struct ShadowRehearsal::Parts {
+struct ShadowRehearsal::Parts : RehearsedVenue {
   /// Of a picture that nobody stands in.
   struct Content {
     image::Image linear;
@@ -51,21 +48,9 @@ struct ShadowRehearsal::Parts {
   };
 
   Parts(const ShadowRehearsalSettings& asked, const std::filesystem::path& cache, Progress& progress)
-      : settings(asked), shown(asked.seed) {
-    CalibrateSettings calibrating;
-    calibrating.rig = settings.venue;
-    devices::TemporaryFolder temporary;
-    const std::filesystem::path folder = temporary.path() / "venue";
-    Progress measuringPart = progress.part(0.8, progress.stage());
-    calibrate(folder, calibrating, cache, measuringPart);
-    Progress loading = progress.part(0.2, progress.stage());
-    measured = loadCalibration(
-        calibration::CalibrationFolder::open(folder, calibration::CalibrationFolder::Access::read), loading);
-    watched = watchedVenueOf(measured, 0);
-    compensator.emplace(measured.venue, measured.inverse);
+      : RehearsedVenue(asked.venue, cache, progress), settings(asked), shown(asked.seed) {
     prepared.emplace(prepareVenue(measured.venue, measured.inverse, measured.linearization.projectors,
                                   engine::EngineSettings()));
-    truth = std::make_shared<const venue::SimulatedVenue>(settings.venue, cache, progress);
   }
 
   const Content& contentOf(ShownContent content, std::int64_t key) {
@@ -202,11 +187,7 @@ struct ShadowRehearsal::Parts {
 
   ShadowRehearsalSettings settings;
   RehearsedContent shown;
-  MeasuredCalibration measured;
-  monitoring::WatchedVenue watched;
-  std::optional<compensation::Compensator> compensator;
   std::optional<engine::EngineVenue> prepared;
-  std::shared_ptr<const venue::SimulatedVenue> truth;
   std::map<std::pair<ShownContent, std::int64_t>, Content> contents;
 };
 

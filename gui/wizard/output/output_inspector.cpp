@@ -3,8 +3,6 @@
 
 #include <QComboBox>
 #include <QDir>
-#include <QMessageBox>
-#include <QPushButton>
 #include <cmath>
 
 #include "theme/controls.h"
@@ -223,24 +221,6 @@ QString installedText(const OutputPage& page) {
                    "a real venue starts at every log-in.");
 }
 
-/// It may be another venue's, and one of tonight: not by one click.
-void askToRemoveShow(OutputPage& page, QWidget* asking) {
-  auto* box =
-      new QMessageBox(QMessageBox::Question, OutputPage::tr("Remove installed show"),
-                      page.installedShow() == OutputPage::InstalledShow::anotherVenues
-                          ? OutputPage::tr("The show of another venue will no longer start at log-in.")
-                          : OutputPage::tr("The show of this venue will no longer start at log-in."),
-                      QMessageBox::NoButton, asking);
-  box->setObjectName("remove-question");
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->setInformativeText(
-      OutputPage::tr("Venue and playlist stay. It can be installed again from its venue's Output."));
-  QPushButton* remove = box->addButton(OutputPage::tr("Remove"), QMessageBox::DestructiveRole);
-  box->setDefaultButton(box->addButton(OutputPage::tr("Keep"), QMessageBox::RejectRole));
-  QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::removeInstalled);
-  box->open();
-}
-
 QWidget* handOverPart(OutputPage& page) {
   auto* part = new QWidget;
   auto* column = new QVBoxLayout(part);
@@ -260,7 +240,7 @@ QWidget* handOverPart(OutputPage& page) {
   remove->setToolTip(OutputPage::tr("It does not start at log-in any more. Venue and playlist stay."));
   column->addWidget(remove);
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
-  QObject::connect(remove, &QPushButton::clicked, &page, [&page, remove] { askToRemoveShow(page, remove); });
+  QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::askToRemoveInstalled);
   auto refresh = [=, &page] {
     report->setEnabled(page.proof().isPossible());
     report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));

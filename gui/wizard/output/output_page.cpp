@@ -42,6 +42,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   repair_ = addCommand(Icon::retry, [this] { repair(); });
   pushBack_ = addCommand(Icon::camera, [this] { pushBack(); });
   measureAgain_ = addCommand(Icon::retry, [this] { Q_EMIT stepWanted("acquire"); });
+  removeShow_ = addCommand(Icon::remove, [this] { removeInstalled(); });
+  keepShow_ = addCommand(Icon::power, [] {});
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   renew_ = addCommand(Icon::play, [this] { renew(); });
@@ -486,6 +488,21 @@ void OutputPage::install() {
     tell(failureOf(std::current_exception()));
   }
   detectInstalledShow();
+}
+
+void OutputPage::askToRemoveInstalled() {
+  removeShow_->show(tr("Remove"));
+  keepShow_->show(tr("Keep"));
+  FailureReport question;
+  question.failure.heading = tr("Remove installed show");
+  question.failure.what = installed_ == InstalledShow::anotherVenues
+                              ? tr("The show of another venue will no longer start at log-in.")
+                              : tr("The show of this venue will no longer start at log-in.");
+  question.safe = tr("Venue and playlist stay. It can be installed again from its venue's Output.");
+  question.resume = keepShow_;
+  question.goOn = removeShow_;
+  question.isQuestion = true;
+  Q_EMIT failed(question);
 }
 
 void OutputPage::removeInstalled() {

@@ -124,6 +124,8 @@ class OutputPage : public DevicePage {
   /// Keeps the playlist and makes the show start at log-in, in place of one that did.
   void install();
   /// Whichever starts at log-in does so no more.
+  /// Asks first: it may be another venue's, and that of tonight.
+  void askToRemoveInstalled();
   void removeInstalled();
   /// Of the user; tests have their own.
   void setConfigFolder(const QString& folder);
@@ -162,7 +164,7 @@ class OutputPage : public DevicePage {
   void tell(const Failure& failure);
 
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
-  PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_,
+  PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_, *removeShow_, *keepShow_,
       *aimAgain_;  // what comes before installing
   PageCommand* renew_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner

@@ -4,7 +4,6 @@
 #include <QCheckBox>
 #include <QDesktopServices>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -614,12 +613,16 @@ class TestWizardWindow : public QObject {
     for (const char* answer : {"Keep", "Remove"}) {
       QVERIFY(gui::isInstalled(Start::autostart, folder_.filePath("config")));
       click("remove-installed");
-      auto* question = wizard_->window().findChild<QMessageBox*>("remove-question");
-      QVERIFY(question != nullptr && question->text().contains("another venue"));
-      QCOMPARE(question->defaultButton()->text(), QString("Keep"));
-      for (QAbstractButton* button : question->buttons())
+      auto* question = wizard_->window().findChild<FailureDialog*>();
+      QVERIFY(question != nullptr && question->windowTitle() == "Remove installed show");
+      const QList<QLabel*> labels = question->findChildren<QLabel*>();
+      QVERIFY(std::ranges::any_of(
+          labels, [](const QLabel* label) { return label->text().contains("another venue"); }));
+      for (QPushButton* button : question->findChildren<QPushButton*>()) {
+        if (button->isDefault()) QCOMPARE(button->text(), QString("Keep"));
         if (button->text() == answer) button->click();
-      QTRY_VERIFY(wizard_->window().findChild<QMessageBox*>("remove-question") == nullptr);
+      }
+      QTRY_VERIFY(wizard_->window().findChild<FailureDialog*>() == nullptr);
     }
     QVERIFY(!gui::isInstalled(Start::autostart, folder_.filePath("config")));
     QVERIFY(!find<QWidget>("remove-installed")->isVisible());

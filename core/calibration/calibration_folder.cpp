@@ -27,7 +27,7 @@ bool isManifestLeftover(const std::string& name) {
   return name.starts_with(".calibration.part") && name.ends_with(".relucent");
 }
 bool isResultLeftover(const std::string& name) {
-  return name.starts_with(".") && name.ends_with(".part");
+  return name.starts_with(".") && name.find(".part") != std::string::npos;
 }
 
 void removeLeftovers(const fs::path& folder, bool (*isLeftover)(const std::string& name)) {

@@ -41,7 +41,7 @@ std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
     const std::string name = entry.path().filename().string();
     const auto isOfStage = [&](Stage stage) { return name.starts_with(std::string(nameOf(stage)) + "-"); };
     const std::vector<Stage> stages = allValues<Stage>();
-    const bool isPart = isHidden(entry.path()) && name.ends_with(".part");
+    const bool isPart = isHidden(entry.path()) && name.find(".part") != std::string::npos;
     if (isPart ||
         (std::ranges::any_of(stages, isOfStage) && entry.is_directory(code) && !named.contains(name)))
       found.push_back(entry.path());

@@ -74,7 +74,7 @@ struct ThresholdResult {
   std::uint64_t leaves = 0;
 };
 
-/// How the windows' ridge was found. The operator itself is made again, which is quicker than reading it.
+/// How the windows' ridge was found.
 struct InverseResult {
   struct Trial {
     double ridge = 0.0;

@@ -12,7 +12,7 @@ namespace relucent::compensation {
 /// Result of the windows with one ridge.
 struct RidgeTrial {
   double ridge = 0.0;
-  double psnr = 0.0;  // dB, `windows` through T, mean over the pictures
+  double psnr = 0.0;  // dB, `windows` through T, mean over the pictures, where it was tried
   bool operator==(const RidgeTrial&) const = default;
 };
 
@@ -29,9 +29,12 @@ struct RidgeChoice {
 ///     reachable pixels grows; within 1/16 and 16 times settings.ridge.
 ///  2. Of those within 0.1 dB of the best the largest: T's own errors, which the trial cannot show, call for
 ///     more ridge, never for less.
+/// Of many tiles some are tried, about `triedTiles` of them in squares all over the projectors, the others
+/// having settings.ridge; the PSNR is then that of the camera pixels whose windows are all among them, in one
+/// picture.
 /// A venue without a lit part that content would fit into keeps settings.ridge.
 /// Throws: as computeWindows().
 RidgeChoice chooseRidge(const MeasuredVenue& venue, const inverse::WindowSettings& settings,
-                        Progress& progress);
+                        Progress& progress, std::size_t triedTiles = 8192);
 
 }  // namespace relucent::compensation

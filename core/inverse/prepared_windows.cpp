@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
@@ -14,13 +15,6 @@
 namespace relucent::inverse {
 namespace {
 
-Rasters tilesOf(const Rasters& projectors, int side) {
-  std::vector<Size> tiles;
-  for (Size size : projectors.sizes())
-    tiles.push_back({(size.width + side - 1) / side, (size.height + side - 1) / side});
-  return Rasters(tiles);
-}
-
 /// Vectors and matrices of one window, kept between windows so that nothing is allocated for each.
 struct Scratch {
   WindowSystem system;
@@ -30,12 +24,12 @@ struct Scratch {
 
 }  // namespace
 
-/// Fills in the weights of a WindowInverse that has none yet.
+/// Fills in the weights of a WindowInverse.
 class WindowBuilder {
  public:
   WindowBuilder(const NearField& near, const transport::NodeLayout& layout, double ridge,
-                WindowInverse without)
-      : near_(near), layout_(layout), ridge_(static_cast<float>(ridge)), result_(std::move(without)) {}
+                WindowInverse& result)
+      : near_(near), layout_(layout), ridge_(static_cast<float>(ridge)), result_(result) {}
 
   /// All but the weights, see PreparedWindows.
   static WindowInverse without(const transport::TransportMatrix& transport, const NearField& near,
@@ -44,7 +38,7 @@ class WindowBuilder {
     result.cameras_ = transport.cameras();
     result.projectors_ = transport.projectors();
     result.tile_ = settings.tile;
-    result.tiles_ = tilesOf(transport.projectors(), settings.tile);
+    result.tiles_ = WindowInverse::gridOf(transport.projectors(), settings.tile);
     for (const transport::ColourBlock& unmix : near.unmix)
       result.unmix_.insert(result.unmix_.end(), unmix.data(), unmix.data() + 9);
     WindowRows rows = chooseWindowRows(near, transport.layout(), result.tiles_, settings);
@@ -53,24 +47,36 @@ class WindowBuilder {
     return result;
   }
 
-  WindowInverse build(Progress& progress) {
-    std::size_t tiles = result_.tiles_.count();
+  void makeRoom() {
     result_.weight_.assign(result_.row_.size() * 3 * pixelsOfTile(), 0);
-    result_.scale_.assign(3 * tiles, 0.0f);
+    result_.scale_.assign(3 * result_.tiles_.count(), 0.0f);
+  }
+
+  void build(std::span<const std::uint32_t> tiles, Progress& progress) {
     constexpr std::size_t batch = 2048;
-    for (std::size_t begin = 0; begin < tiles; begin += batch) {
-      std::size_t end = std::min(tiles, begin + batch);
+    for (std::size_t begin = 0; begin < tiles.size(); begin += batch) {
+      std::size_t end = std::min(tiles.size(), begin + batch);
       parallelChunks(begin, end, 32, [&](std::size_t, std::size_t first, std::size_t last) {
         Scratch scratch{WindowSystem(near_, layout_), {}, {}, {}};
-        for (std::size_t tile = first; tile < last; ++tile) solve(tile, scratch);
+        for (std::size_t i = first; i < last; ++i) {
+          clear(tiles[i]);
+          solve(tiles[i], scratch);
+        }
       });
-      progress.report(static_cast<double>(end) / static_cast<double>(tiles));
+      progress.report(static_cast<double>(end) / static_cast<double>(tiles.size()));
     }
-    return std::move(result_);
   }
 
  private:
   std::size_t pixelsOfTile() const { return static_cast<std::size_t>(result_.tile_ * result_.tile_); }
+
+  void clear(std::size_t tile) {
+    const std::size_t codes = 3 * pixelsOfTile();
+    std::fill_n(result_.scale_.begin() + static_cast<std::ptrdiff_t>(3 * tile), 3, 0.0f);
+    std::fill(result_.weight_.begin() + static_cast<std::ptrdiff_t>(result_.tileStart_[tile] * codes),
+              result_.weight_.begin() + static_cast<std::ptrdiff_t>(result_.tileStart_[tile + 1] * codes),
+              std::int16_t{0});
+  }
 
   std::span<const std::uint32_t> rowsOf(std::size_t tile) const {
     return {result_.row_.data() + result_.tileStart_[tile],
@@ -165,7 +171,7 @@ class WindowBuilder {
   const NearField& near_;
   const transport::NodeLayout& layout_;
   float ridge_;
-  WindowInverse result_;
+  WindowInverse& result_;
 };
 
 PreparedWindows::PreparedWindows(const transport::TransportMatrix& transport, const CameraMask& usable,
@@ -180,7 +186,24 @@ PreparedWindows::PreparedWindows(const transport::TransportMatrix& transport, co
 }
 
 WindowInverse PreparedWindows::inverse(double ridge, Progress& progress) const {
-  return WindowBuilder(near_, layout_, ridge, without_).build(progress);
+  WindowInverse windows = without_;
+  WindowBuilder builder(near_, layout_, ridge, windows);
+  builder.makeRoom();
+  builder.build(allTiles(), progress);
+  return windows;
+}
+
+void PreparedWindows::renew(WindowInverse& windows, double ridge, std::span<const std::uint32_t> tiles,
+                            Progress& progress) const {
+  require(windows.tiles_ == without_.tiles_ && windows.row_.size() == without_.row_.size(),
+          "windows of another light transport are renewed");
+  WindowBuilder(near_, layout_, ridge, windows).build(tiles, progress);
+}
+
+std::vector<std::uint32_t> PreparedWindows::allTiles() const {
+  std::vector<std::uint32_t> tiles(without_.tiles_.count());
+  std::iota(tiles.begin(), tiles.end(), 0u);
+  return tiles;
 }
 
 WindowInverse computeWindows(const transport::TransportMatrix& transport, const CameraMask& usable,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "relucent/base/progress.h"
@@ -21,6 +22,17 @@ class PreparedWindows {
   /// Steps 4 and 5. Same bits as computeWindows() with that ridge.
   /// Throws: Error{numerics} if a G is not positive definite; Cancelled.
   WindowInverse inverse(double ridge, Progress& progress) const;
+
+  /// Steps 4 and 5 again with another ridge for some tiles, counted as in WindowArrays::tiles, of windows
+  /// that these made. Throws: as inverse(), the tiles before the one that failed being done.
+  void renew(WindowInverse& windows, double ridge, std::span<const std::uint32_t> tiles,
+             Progress& progress) const;
+
+  /// All tiles, in order.
+  std::vector<std::uint32_t> allTiles() const;
+
+  /// Everything but the weights.
+  WindowArrays view() const { return without_.view(); }
 
  private:
   const transport::NodeLayout& layout_;

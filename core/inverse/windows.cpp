@@ -20,6 +20,13 @@ std::vector<Message> problems(const WindowSettings& settings) {
   return found;
 }
 
+Rasters WindowInverse::gridOf(const Rasters& projectors, int tile) {
+  std::vector<Size> tiles;
+  for (Size size : projectors.sizes())
+    tiles.push_back({(size.width + tile - 1) / tile, (size.height + tile - 1) / tile});
+  return Rasters(tiles);
+}
+
 std::size_t WindowInverse::bytes() const {
   return unmix_.size() * sizeof(float) + tileStart_.size() * sizeof(std::size_t) +
          row_.size() * sizeof(std::uint32_t) + weight_.size() * sizeof(std::int16_t) +

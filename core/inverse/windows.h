@@ -58,8 +58,12 @@ class WindowInverse {
   bool operator==(const WindowInverse&) const = default;
 
  private:
+  friend class PreparedWindows;
   friend class WindowBlocks;
   friend class WindowBuilder;
+  friend class WindowFile;
+
+  static Rasters gridOf(const Rasters& projectors, int tile);
 
   Rasters cameras_;
   Rasters projectors_;

@@ -2,13 +2,17 @@
 #include "relucent/pipeline/measured_venue.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/compensation/direct_light.h"
+#include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -88,14 +92,18 @@ namespace {
 
 /// Pairs of a camera pixel and a projector pixel that the leaves connect; nested leaves count once each.
 std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
-  std::uint64_t connections = 0;
+  std::array<std::uint64_t, fixedParts> connections{};
   const transport::NodeLayout& layout = transport.layout();
-  for (std::size_t row = 0; row < transport.cameras().count(); ++row) {
-    const transport::LeafRow leaves = transport.row(row);
-    for (std::uint32_t column : leaves.columns())
-      connections += static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
-  }
-  return connections;
+  parallelChunks(0, transport.cameras().count(), fixedParts,
+                 [&](std::size_t part, std::size_t first, std::size_t last) {
+                   for (std::size_t row = first; row < last; ++row) {
+                     const transport::LeafRow leaves = transport.row(row);
+                     for (std::uint32_t column : leaves.columns())
+                       connections[part] +=
+                           static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
+                   }
+                 });
+  return std::reduce(connections.begin(), connections.end());
 }
 
 /// What a stage cost when it was done last.
@@ -177,6 +185,13 @@ MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder
     for (const calibration::InverseResult::Trial& trial : done.curve)
       measured.ridgeCurve.push_back({trial.ridge, trial.psnr});
   }
+  if (!settings.chooseRidge)
+    if (std::optional<inverse::WindowInverse> kept = keptWindows(folder, measured.venue, settings.windows)) {
+      measured.ridge = settings.windows.ridge;
+      measured.inverse = std::move(*kept);
+      inverting.report(1.0);
+      return measured;
+    }
   compensation::RidgeChoice choice = invert(measured.venue, settings, inverting);
   measured.ridge = choice.ridge;
   measured.inverse = std::move(choice.inverse);

@@ -60,7 +60,7 @@ calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choi
 /// Reads a finished calibration, all but the inverse. Throws: as loadCalibration().
 MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress);
 
-/// Reads a finished calibration. The inverse operator is made again: quicker than reading it.
+/// Reads a finished calibration. The inverse operator is read where it is kept, else made again.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress);
 

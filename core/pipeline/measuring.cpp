@@ -12,6 +12,7 @@
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/kept_photographs.h"
+#include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/memory_needed.h"
 #include "relucent/pipeline/reductions.h"
@@ -225,10 +226,13 @@ void measureInverse(calibration::CalibrationFolder& folder, const compensation::
   if (calibration::progressOf(folder, calibration::Stage::inverse) == calibration::StageProgress::done)
     return;
   Stopwatch watch;
-  compensation::RidgeChoice choice = invert(venue, settingsOf(folder), progress);
-  // The operator itself is not stored: making it again is quicker than reading it. What is kept is how it is
-  // made: the ridge, and the trials that chose it.
+  const CalibrateSettings settings = settingsOf(folder);
+  const compensation::RidgeChoice choice = invert(venue, settings, progress);
+  // The result is how it was made: the ridge, and the trials that chose it.
   calibration::storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
+  inverse::WindowSettings chosen = settings.windows;
+  chosen.ridge = choice.ridge;
+  keepWindows(folder, venue, chosen, choice.inverse);
 }
 
 }  // namespace relucent::pipeline

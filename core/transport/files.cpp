@@ -12,6 +12,7 @@
 #include "relucent/base/parallel.h"
 #include "relucent/base/signed_codes.h"
 #include "relucent/transport/npz.h"
+#include "relucent/transport/npz_rasters.h"
 #include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
@@ -36,12 +37,6 @@ void addIndices(NpzWriter& writer, const std::string& name, std::uint64_t count,
   });
 }
 
-void addSizes(NpzWriter& writer, const std::string& name, const Rasters& rasters) {
-  std::vector<std::int32_t> sizes;
-  for (Size size : rasters.sizes()) sizes.insert(sizes.end(), {size.width, size.height});
-  writer.add(name, sizes, {rasters.devices(), 2});
-}
-
 void addFrame(NpzWriter& writer, std::size_t rows, std::size_t columns, const char* format = ownColours) {
   writer.addText("format", format);
   writer.add(
@@ -63,21 +58,6 @@ class RowCursor {
  private:
   std::size_t row_ = 0;
 };
-
-Rasters readSizes(const NpzReader& reader, const std::string& name) {
-  std::vector<std::int64_t> values = reader.integers(name);
-  std::vector<Size> sizes;
-  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
-    constexpr std::int64_t largest = 1 << 16;
-    if (values[i] < 1 || values[i + 1] < 1 || values[i] > largest || values[i + 1] > largest)
-      reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.device-size-impossible",
-                                           "names a device of an impossible size"));
-    sizes.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1])});
-  }
-  if (sizes.empty() || values.size() % 2 != 0)
-    reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.no-devices", "names no devices"));
-  return Rasters(std::move(sizes));
-}
 
 }  // namespace
 
@@ -186,6 +166,18 @@ class TransportFile {
     else
       readData(reader, blocks);
     return blocks;
+  }
+
+  static void addTo(Fingerprint& fingerprint, const BlockSparse& blocks) {
+    fingerprint.add(blocks.columns_).add(blocks.rowStart_).add(blocks.scale_).add(blocks.kinds_.count);
+    for (const ColumnKinds::Range& range : blocks.kinds_.ranges) fingerprint.add(range.end).add(range.kind);
+    const auto addAll = [&](const auto& values) {
+      fingerprint.addBytes(values.data(), values.size() * sizeof(values[0]));
+    };
+    addAll(blocks.column_);
+    addAll(blocks.code_);
+    addAll(blocks.factor_);
+    addAll(blocks.mixing_);
   }
 
  private:
@@ -451,8 +443,8 @@ BlockSparse loadBlocks(const std::filesystem::path& path) {
 
 void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport, StoredValues values) {
   NpzWriter writer;
-  addSizes(writer, "cameras", transport.cameras());
-  addSizes(writer, "projectors", transport.projectors());
+  addRasters(writer, "cameras", transport.cameras());
+  addRasters(writer, "projectors", transport.projectors());
   // Other programs know no groups.
   if (!transport.groups().empty() && values == StoredValues::floats) {
     const TransportMatrix flat = transport.flattened();
@@ -466,10 +458,18 @@ void saveTransport(const std::filesystem::path& path, const TransportMatrix& tra
   writer.save(path);
 }
 
+void addTo(Fingerprint& fingerprint, const TransportMatrix& transport) {
+  for (const Rasters* rasters : {&transport.cameras(), &transport.projectors()})
+    for (Size size : rasters->sizes()) fingerprint.add(size.width).add(size.height);
+  TransportFile::addTo(fingerprint, transport.ownLeaves());
+  TransportFile::addTo(fingerprint, transport.groups().leaves());
+  fingerprint.add(transport.groups().parents()).add(transport.groups().groupsOfPixels());
+}
+
 TransportMatrix loadTransport(const std::filesystem::path& path) {
   return withinMemory(path, [&] {
     NpzReader reader(path);
-    Rasters cameras = readSizes(reader, "cameras"), projectors = readSizes(reader, "projectors");
+    Rasters cameras = readRasters(reader, "cameras"), projectors = readRasters(reader, "projectors");
     BlockSparse leaves = TransportFile::read(reader);
     const NodeLayout layout(projectors);
     const bool grouped = TransportFile::hasGroups(reader);
@@ -489,8 +489,8 @@ void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expan
   const PixelExpansion* source = &expansion;
 
   NpzWriter writer;
-  addSizes(writer, "cameras", transport.cameras());
-  addSizes(writer, "projectors", transport.projectors());
+  addRasters(writer, "cameras", transport.cameras());
+  addRasters(writer, "projectors", transport.projectors());
   addFrame(writer, rows, columns);
   addIndices(writer, "indptr", rows + 1, wide,
              [source](std::uint64_t i) { return static_cast<std::int64_t>(source->rowBegin(i)); });

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "relucent/base/fingerprint.h"
 #include "relucent/transport/expansion.h"
 #include "relucent/transport/transport_matrix.h"
 
@@ -40,6 +41,9 @@ enum class StoredValues { floats, codes };
 void saveTransport(const std::filesystem::path& path, const TransportMatrix& transport,
                    StoredValues values = StoredValues::floats);
 TransportMatrix loadTransport(const std::filesystem::path& path);
+
+/// Adds all that saveTransport() would write. At the speed of memory.
+void addTo(Fingerprint& fingerprint, const TransportMatrix& transport);
 
 /// T with a column for every projector pixel, for other programs. Errors as above.
 void saveExpanded(const std::filesystem::path& path, const PixelExpansion& expansion);

@@ -60,6 +60,39 @@ class TestRidgeChoice : public QObject {
     QVERIFY2(above || below, qPrintable(QString::number(best->ridge)));
   }
 
+  /// Law: where the ridge is tried in places only, it is as good everywhere as what would have been found
+  /// there, within what is taken for equal, and the windows are those of that ridge.
+  void triedInPlaces_data() {
+    QTest::addColumn<double>("softest");
+    QTest::addColumn<quint64>("seed");
+    QTest::newRow("sharp") << 0.4 << quint64{1};
+    QTest::newRow("defocused") << 1.5 << quint64{2};
+  }
+  void triedInPlaces() {
+    QFETCH(double, softest);
+    QFETCH(quint64, seed);
+    SceneSettings s;
+    s.softest = softest;
+    s.seed = seed;
+    s.projector = {160, 120};
+    s.camera = {208, 156};
+    const Scene scene = makeScene(s);
+    const RidgeChoice everywhere = chooseRidge(venueOf(scene), {}, quiet),
+                      inPlaces = chooseRidge(venueOf(scene), {}, quiet, 300);
+    QVERIFY(!(inPlaces.curve == everywhere.curve));
+    const auto psnr = [&](double ridge) {
+      const auto trial = std::ranges::find(everywhere.curve, ridge, &RidgeTrial::ridge);
+      return trial == everywhere.curve.end() ? 0.0 : trial->psnr;
+    };
+    const double best = std::ranges::max(everywhere.curve, {}, &RidgeTrial::psnr).psnr;
+    // Twice of what counts as equal: once for each of the two curves.
+    QVERIFY2(psnr(inPlaces.ridge) > best - 0.2,
+             qPrintable(QString("%1 dB of %2").arg(psnr(inPlaces.ridge)).arg(best)));
+    WindowSettings settings;
+    settings.ridge = inPlaces.ridge;
+    QVERIFY(inPlaces.inverse == computeWindows(scene.transport, scene.usable, settings, quiet));
+  }
+
   void sameChoiceEveryTime() {
     Scene scene = makeScene({});
     RidgeChoice first = chooseRidge(venueOf(scene), {}, quiet);

@@ -180,6 +180,19 @@ Data methods(const pipeline::EvaluateResult& evaluation) {
   return section;
 }
 
+/// By how much the black level is brightened beside the floodlight image, a round number, so that both can be
+/// seen and told apart: as much as leaves its brightest places within the picture.
+double brightening(const image::Image& black, const std::array<float, 3>& white) {
+  const std::array<float, 3> brightest = percentileWhite(black, 0.99);
+  double share = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) share = std::max(share, static_cast<double>(brightest[c] / white[c]));
+  double times = 1.0;
+  for (double decade = 1.0; decade < 1e6; decade *= 10.0)
+    for (double digit : {1.0, 2.0, 5.0})
+      if (digit * decade * share <= 1.0) times = digit * decade;
+  return times;
+}
+
 /// Floodlight image, reachable light, black level and flagged pixels.
 Data measuredPictures(const ReportData& data) {
   std::array<float, 3> white =
@@ -187,18 +200,29 @@ Data measuredPictures(const ReportData& data) {
   image::Image reach = reachableLight(data.flood, data.black, white);
   for (float& value : reach.data()) value = value > 0.0f ? std::log2(value) : -100.0f;
 
+  const std::array<float, 3> full = percentileWhite(data.flood, 0.99);
   Data figures(Data::type::list);
-  figures << figure(image::viewed(data.flood, percentileWhite(data.flood, 0.99)), "Floodlight image",
+  figures << figure(image::viewed(data.flood, full), "Floodlight image",
                     "what the camera sees when every pixel of the projector is fully lit.")
           << figure(painted(reach, image::ColourMap::viridis, -4.0, 2.0), "Reachable light",
                     "the brightest that each place can get, in the colour that is hardest there; 1 is the "
                     "picture's white.",
                     charts::colourBarSvg(image::ColourMap::viridis, {"1/16", "1/4", "1", "4"},
                                          "Reachable light from 1/16 to 4 times white"));
-  if (!data.black.empty())
+  if (!data.black.empty()) {
+    const double times = brightening(data.black, full);
+    std::array<float, 3> dim = full;
+    for (float& value : dim) value /= static_cast<float>(times);
     figures << figure(
-        image::viewed(data.black, percentileWhite(data.black, 0.99)), "Black level",
-        "room light and the projector's black, brightened to be seen: nothing can be darker than this.");
+        image::viewed(data.black, dim), "Black level",
+        (times > 1.0
+             ? fmt::format(
+                   "room light and the projector's black, shown {} times as bright as in the floodlight "
+                   "image: ",
+                   grouped(static_cast<std::uint64_t>(times)))
+             : std::string("room light and the projector's black, as bright as in the floodlight image: ")) +
+            "nothing can be darker than this.");
+  }
   if (data.flagged.size() == data.flood.pixels()) {
     image::Image mask(data.flood.size(), 1);
     for (std::size_t i = 0; i < data.flagged.size(); ++i) mask.data()[i] = data.flagged[i] != 0 ? 1.0f : 0.0f;

@@ -40,8 +40,10 @@ QList<PiecePlace> placesOf(const QList<PieceSize>& pieces, double pageHeight) {
     filled += gap + height;
   };
   for (qsizetype i = 0; i < pieces.size(); ++i) {
-    const double group = heightOf(pieces, i, endOfGroup(pieces, i), pageHeight);
-    place(pieces[i], group <= pageHeight ? group : shown(pieces[i], pageHeight));
+    qsizetype end = endOfGroup(pieces, i);
+    // Of what no page holds as much stays together as one does.
+    while (end > i + 1 && heightOf(pieces, i, end, pageHeight) > pageHeight) --end;
+    place(pieces[i], heightOf(pieces, i, end, pageHeight));
   }
   return places;
 }

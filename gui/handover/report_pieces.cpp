@@ -48,6 +48,7 @@ class Parser {
     QString end;               // what closes it
     int columns = 0;           // a grid
     int cells = 0;             // of its row, so far
+    bool hasRow = false;       // before that
     double width = 0.0;        // of what stands in it, at 96 dots an inch
     bool isList = false;       // names and values
     bool rowsBreak = false;    // a long table: every row is a piece
@@ -88,7 +89,11 @@ class Parser {
   /// A child of a grid is one of its cells, a row of which is a piece.
   void openCell() {
     Open& grid = open_.last();
-    if (grid.cells == 0) out_ = "<table width=\"100%\" cellpadding=\"4\"><tr>";
+    if (grid.cells == 0) {
+      out_ = "<table width=\"100%\" cellpadding=\"4\"><tr>";
+      // Its rows are one figure: none stands alone on the next page, away from the heading.
+      if (grid.hasRow) found_.pieces.last().keepsNext = true;
+    }
     ++grid.cells;
     out_ += QString("<td width=\"%1%\" valign=\"top\">").arg(100 / grid.columns);
     const double inner = grid.width / grid.columns - cellMargin;
@@ -102,6 +107,7 @@ class Parser {
     piece_ = {{}, 4.0, false, false};
     keepPiece();
     grid.cells = 0;
+    grid.hasRow = true;
   }
 
   void place(const QImage& picture, double wanted) {

@@ -127,6 +127,34 @@ class TestReport : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Law: the black level is told from the floodlight image: it is as bright as it is said to be beside that.
+  void theBlackLevelIsShownOnATellingScale_data() {
+    QTest::addColumn<float>("share");
+    QTest::addColumn<QString>("told");
+    QTest::newRow("a third of a hundredth")
+        << 0.0033f << "shown 200 times as bright as in the floodlight image";
+    QTest::newRow("three hundredths") << 0.03f << "shown 20 times as bright as in the floodlight image";
+    QTest::newRow("half") << 0.5f << "shown 2 times as bright as in the floodlight image";
+    QTest::newRow("a bright room") << 0.9f << "as bright as in the floodlight image";
+  }
+  void theBlackLevelIsShownOnATellingScale() {
+    QFETCH(float, share);
+    QFETCH(QString, told);
+    ReportData data = fullData();
+    data.comparisons.clear();
+    data.black = data.flood;
+    for (float& value : data.black.data()) value *= share;
+    const QString html = QString::fromStdString(reportHtml(data));
+    QVERIFY2(html.contains(told), qPrintable(html.mid(html.indexOf("Black level"), 300)));
+    QCOMPARE(html.contains("times as bright"), told.contains("times"));
+    if (share != 0.5f) return;
+    // Twice as bright as half of the light is that light.
+    static const QRegularExpression picture(
+        "<img src=\"([^\"]*)\"[^>]*alt=\"(Floodlight image|Black level):");
+    auto found = picture.globalMatch(html);
+    QCOMPARE(found.next().captured(1), found.next().captured(1));
+  }
+
   void numbersAsTheyAreRead() {
     QCOMPARE(percent(-0.00001), std::string("0 %"));
     QCOMPARE(percent(0.0003), std::string("0.03 %"));

@@ -10,6 +10,7 @@
 #include "handover/report_pdf.h"
 #include "handover/report_pieces.h"
 #include "relucent/base/error.h"
+#include "relucent/report/pictures.h"
 #include "relucent/report/report.h"
 
 using namespace relucent;
@@ -94,6 +95,8 @@ class TestReportPdf : public QObject {
         << QList<PieceSize>{{80, 0, false}, {10, 5, true}, {20, 5, false}, {10, 5, false}};
     QTest::newRow("two headings and a chart")
         << QList<PieceSize>{{60, 0, false}, {10, 5, true}, {5, 2, true}, {40, 2, false}};
+    QTest::newRow("more than a page holds, together")
+        << QList<PieceSize>{{60, 0, false}, {10, 5, true}, {30, 5, true}, {80, 5, false}};
     QTest::newRow("higher than a page") << QList<PieceSize>{{30, 0, true}, {250, 5, false}, {10, 5, false}};
     QList<PieceSize> many;
     for (int i = 0; i < 200; ++i) many.append({7.0 + i * 13 % 41, double(i % 5), i % 4 == 0 && i < 199});
@@ -129,6 +132,19 @@ class TestReportPdf : public QObject {
     QVERIFY(!found.pieces.last().keepsNext);
     for (const ReportPiece& piece : found.pieces)
       if (piece.html.startsWith("<h")) QVERIFY(piece.keepsNext);
+  }
+
+  /// Law: rows of one figure stay together, as long as a page holds them.
+  void picturesStayWithTheirHeading() {
+    const QString picture = QString::fromStdString(pngDataUri(Image({4, 3}, 3)));
+    QString figures;
+    for (int i = 0; i < 5; ++i) figures += "<figure><img src=\"" + picture + "\"></figure>";
+    const QString section =
+        "<section><h2>Before and after</h2><p class=\"soft\">Of it.</p><div class=\"pictures\">" + figures +
+        "</div></section>";
+    const ReportPieces found = reportPieces("<html><body>" + section + section + "</body></html>", 640.0);
+    QCOMPARE(found.pieces.size(), 8);
+    for (qsizetype i = 0; i < found.pieces.size(); ++i) QCOMPARE(found.pieces[i].keepsNext, i % 4 != 3);
   }
 
   void anotherThreadWritesItToo() {

@@ -43,6 +43,8 @@ struct ClusteringSettings {
 
   SizeCap cap = SizeCap::whenPercolated;
   int mostUnknowns = 256;  // projector pixels of a capped cluster
+
+  bool operator==(const ClusteringSettings&) const = default;
 };
 std::vector<Message> problems(const ClusteringSettings& settings);
 

@@ -229,6 +229,11 @@ void ClusterPage::adopt(const clustering::ClusteringSettings& settings) {
   compute();
 }
 
+bool ClusterPage::isChanged() const {
+  return session_.progress(calibration::Stage::clustering) != calibration::StageProgress::open &&
+         settings_ != session_.settings().clustering;
+}
+
 StepStatus ClusterPage::status() const {
   int clusters = 0;
   switch (session_.progress(calibration::Stage::clustering)) {
@@ -236,6 +241,7 @@ StepStatus ClusterPage::status() const {
       clusters = static_cast<int>(session_.figures<calibration::Stage::clustering>()->clusters);
       return {doneOn(session_), groupedText(tr("%n cluster(s)", nullptr, clusters), clusters)};
     case calibration::StageProgress::stale:
+      if (areClustersFollowed(session_)) return {doneOn(session_), tr("Grouped anew")};
       return {StepState::outOfDate, tr("Out of date")};
     case calibration::StageProgress::open:
       break;
@@ -247,6 +253,7 @@ QString ClusterPage::hint() const {
   if (isComputing()) return result_ ? tr("Grouping again") : tr("Grouping");
   if (!result_) return tr("Reading the light transport");
   if (const QString why = whyLocked(); !why.isEmpty()) return why;
+  if (isChanged()) return tr("Changed: it is applied as soon as you go on.");
   return sizesText();
 }
 
@@ -263,7 +270,8 @@ void ClusterPage::updateCommands() {
 
 std::optional<Banner> ClusterPage::banner() const {
   using calibration::Stage;
-  if (session_.progress(Stage::clustering) != calibration::StageProgress::stale)
+  if (session_.progress(Stage::clustering) != calibration::StageProgress::stale ||
+      areClustersFollowed(session_))
     return onMeasurement(session_, goOnMeasuring_);
   const auto& measured = session_.result(Stage::acquisition);
   const bool isMeasuredSince = measured && measured->stored > session_.result(Stage::clustering)->stored;
@@ -274,15 +282,20 @@ std::optional<Banner> ClusterPage::banner() const {
 }
 
 void ClusterPage::accept() {
+  if (keepClusters()) Q_EMIT nextWanted();
+}
+
+bool ClusterPage::keepClusters() {
   try {
     pipeline::CalibrateSettings settings = session_.settings();
     settings.clustering = settings_;
     session_.changeSettings(settings);
     session_.decide(calibration::ClusteringResult{result_->sizes.size(), result_->statistics.largest,
                                                   result_->statistics.errorMedian});
-    Q_EMIT nextWanted();
+    return true;
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
+    return false;
   }
 }
 

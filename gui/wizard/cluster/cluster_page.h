@@ -45,6 +45,7 @@ class ClusterPage : public DevicePage {
   QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
+  bool isChanged() const override;
   void enter() override;
   void leave() override;
 
@@ -66,6 +67,7 @@ class ClusterPage : public DevicePage {
 
  protected:
   void updateCommands() override;
+  void keepChange() override { keepClusters(); }
 
  private:
   struct Prepared;
@@ -78,6 +80,7 @@ class ClusterPage : public DevicePage {
   void forgetFrames();
   void show(std::shared_ptr<const ClusterResult> result);
   void accept();
+  bool keepClusters();
 
   PageCommand *accept_, *goOnMeasuring_;
   clustering::ClusteringSettings settings_;

@@ -16,6 +16,12 @@ inline StepState doneOn(const Session& session) {
   return session.poorQuality() ? StepState::doubtful : StepState::done;
 }
 
+/// Content was accepted with groups by the settings that are kept, which Preview made anew: that nobody has
+/// looked at them at Cluster since stands against nothing.
+inline bool areClustersFollowed(const Session& session) {
+  return session.progress(calibration::Stage::content) == calibration::StageProgress::done;
+}
+
 /// What stands above the pages that use a measurement which was stopped early, or which fits nothing; none:
 /// neither. `toAcquire`: leads to where it can be gone on with, or begun again.
 inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {

@@ -94,6 +94,16 @@ class PageModel : public QObject {
   /// The page is looked at, or no longer.
   virtual void enter() {}
   virtual void leave() {}
+  /// What is decided here differs from what the steps after this one follow: it counts once it is kept, by
+  /// the primary command or by going on to another page.
+  virtual bool isChanged() const { return false; }
+  /// Somebody goes on to another page: what is changed counts there, at once, or as soon as it can be kept.
+  void keepChanges() {
+    keeps_ = isChanged();
+    keepWherePossible();
+  }
+  /// Somebody is here again, or another calibration is open: nothing is kept by the way any more.
+  void stopKeeping() { keeps_ = false; }
   /// Back within the page; false if there is nothing to go back to.
   virtual bool goBack() { return false; }
   virtual bool canGoBack() const { return false; }
@@ -137,7 +147,13 @@ class PageModel : public QObject {
     updateCommands();
     if (PageCommand* command = primary()) command->setToolTip(command->isEnabled() ? QString() : hint());
     Q_EMIT statusChanged();
+    // Not within what told: keeping changes the calibration, which others are about to look at.
+    if (keeps_) QMetaObject::invokeMethod(this, &PageModel::keepWherePossible, Qt::QueuedConnection);
   }
+  /// What is changed can be kept now.
+  virtual bool mayKeep() const { return primary() != nullptr && primary()->isEnabled(); }
+  /// Keeps it, as the primary command does, without going on. What fails is told by failed().
+  virtual void keepChange() {}
   /// These change what the frame shows as well.
   void tellSettings() {
     Q_EMIT settingsChanged();
@@ -164,8 +180,15 @@ class PageModel : public QObject {
   }
 
  private:
+  void keepWherePossible() {
+    if (!keeps_ || !isChanged() || !mayKeep()) return;
+    keeps_ = false;
+    keepChange();
+  }
+
   StepName step_;
   QUndoStack undo_;
+  bool keeps_ = false;  // what was changed when the page was left and could not be kept then
 };
 
 }  // namespace relucent::gui

@@ -8,8 +8,12 @@ namespace relucent::gui {
 Wizard::Wizard(Session& session, QObject* parent) : QObject(parent), session_(session) {
   connect(&session_, &Session::devicesChanged, this, &Wizard::statusChanged);
   connect(&session_, &Session::opened, this, [this] {
-    for (PageModel* page : pages_) page->undoStack().clear();
-    if (session_.isOpen()) go(standing());
+    for (PageModel* page : pages_) {
+      page->undoStack().clear();
+      page->stopKeeping();
+    }
+    // What was changed and not kept was of another calibration.
+    if (session_.isOpen()) show(standing());
   });
 }
 
@@ -26,6 +30,10 @@ void Wizard::add(PageModel& page) {
 
 StepStatus Wizard::statusOf(std::size_t index) const {
   StepStatus status = pages_[index]->status();
+  if (isUsable(status) && pages_[index]->isChanged()) {
+    status.state = StepState::outOfDate;
+    status.result = tr("Not applied yet");
+  }
   if (!session_.isDeviceLost() || session_.devicesUser() != pages_[index]->step()) return status;
   status.result = lostDeviceText(session_);
   status.isHeldUp = true;
@@ -48,14 +56,20 @@ bool Wizard::isLocked(std::size_t index) const {
 
 bool Wizard::go(std::size_t index) {
   if (index >= pages_.size() || isLocked(index)) return false;
+  if (index != current_) currentPage().keepChanges();
+  show(index);
+  return true;
+}
+
+void Wizard::show(std::size_t index) {
   if (index != current_) {
     currentPage().leave();
     current_ = index;
     Q_EMIT moved();
   }
+  currentPage().stopKeeping();
   currentPage().enter();
   currentPage().refresh();
-  return true;
 }
 
 void Wizard::next() {

@@ -29,7 +29,7 @@ class Wizard : public QObject {
 
   /// A page opens when all before it have a result, perhaps an old one.
   bool isLocked(std::size_t index) const;
-  /// False, with nothing changed, if it is locked.
+  /// What is changed on the page of before is kept. False, with nothing changed, if it is locked.
   bool go(std::size_t index);
   void next();
   void back();
@@ -47,6 +47,8 @@ class Wizard : public QObject {
   void progressChanged();
 
  private:
+  void show(std::size_t index);
+
   Session& session_;
   std::vector<PageModel*> pages_;
   std::size_t current_ = 0;

@@ -327,6 +327,11 @@ std::optional<Banner> PreviewPage::banner() const {
                 tr("What you see here is predicted anew. Going to the output keeps it.")};
 }
 
+bool PreviewPage::isChanged() const {
+  return session_.progress(calibration::Stage::content) != calibration::StageProgress::open &&
+         placedSettings() != session_.settings().content;
+}
+
 StepStatus PreviewPage::status() const {
   if (job_.isRunning())
     return {session_.progress(calibration::Stage::content) == calibration::StageProgress::open

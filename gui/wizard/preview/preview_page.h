@@ -36,6 +36,7 @@ class PreviewPage : public DevicePage {
   PageCommand* primary() const override { return accept_; }
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
+  bool isChanged() const override;
   void enter() override;
   void leave() override;
   void finish() override;
@@ -102,6 +103,8 @@ class PreviewPage : public DevicePage {
 
  protected:
   void updateCommands() override;
+  bool mayKeep() const override { return !isComputing() && problem_.isEmpty() && DevicePage::mayKeep(); }
+  void keepChange() override { keepPlacement(); }
 
  private:
   /// And for what.

@@ -15,6 +15,10 @@ namespace {
 constexpr double suggestedShare = 0.995;
 constexpr double leastKept = 0.95;
 
+bool isSame(const transport::ThresholdSettings& a, const transport::ThresholdSettings& b) {
+  return a.absolute == b.absolute && a.shareOfRowMax == b.shareOfRowMax && a.energyKept == b.energyKept;
+}
+
 bool keepsEverything(const transport::ThresholdSettings& cut) {
   return !(cut.absolute > 0.0f) && !(cut.shareOfRowMax > 0.0f) && !(cut.energyKept < 1.0f);
 }
@@ -97,6 +101,11 @@ void ThresholdPage::enter() {
   session_.wantAcquisition();
 }
 
+bool ThresholdPage::isChanged() const {
+  return session_.progress(calibration::Stage::threshold) != calibration::StageProgress::open &&
+         !isSame(cut_, session_.settings().threshold);
+}
+
 void ThresholdPage::adopt() {
   if (session_.acquisition() == adopted_) return;
   adopted_ = session_.acquisition();
@@ -156,6 +165,7 @@ QString ThresholdPage::hint() const {
   if (!whole_ || !kept_) return tr("Reading the light transport");
   if (const QString why = whyLocked(); !why.isEmpty()) return why;
   if (kept_->energyKept < leastKept) return tr("Below 95 % of the light, bounces are lost.");
+  if (isChanged()) return tr("Changed: it is applied as soon as you go on.");
   return tr("Next: groups of pixels that can be solved on their own");
 }
 
@@ -193,9 +203,7 @@ void ThresholdPage::setAbsolute(double cut) {
 }
 
 void ThresholdPage::change(const QString& what, const Choice& after) {
-  if (after.cut.absolute == cut_.absolute && after.cut.shareOfRowMax == cut_.shareOfRowMax &&
-      after.isShareOfPixel == shareOfPixel_)
-    return tellSettings();
+  if (isSame(after.cut, cut_) && after.isShareOfPixel == shareOfPixel_) return tellSettings();
   changeUndoably(what, Choice{cut_, shareOfPixel_}, after, [this](const Choice& choice) { take(choice); });
 }
 
@@ -321,14 +329,19 @@ void ThresholdPage::cameraChanged() {
 }
 
 void ThresholdPage::accept() {
+  if (keepCut()) Q_EMIT nextWanted();
+}
+
+bool ThresholdPage::keepCut() {
   try {
     pipeline::CalibrateSettings settings = session_.settings();
     settings.threshold = cut_;
     session_.changeSettings(settings);
     session_.decide(calibration::ThresholdResult{kept_->energyKept, kept_->leaves});
-    Q_EMIT nextWanted();
+    return true;
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("What is measured is safe.")});
+    return false;
   }
 }
 

@@ -28,6 +28,7 @@ class ThresholdPage : public DevicePage {
   QString whyLocked() const override { return session_.whyLocked(step()); }
   PageCommand* primary() const override { return accept_; }
   std::optional<Banner> banner() const override;
+  bool isChanged() const override;
   void enter() override;
   void leave() override { isLookedAt_ = false; }
 
@@ -83,6 +84,8 @@ class ThresholdPage : public DevicePage {
 
  protected:
   void updateCommands() override;
+  bool mayKeep() const override { return isExact() && DevicePage::mayKeep(); }
+  void keepChange() override { keepCut(); }
 
  private:
   void adopt();
@@ -95,6 +98,7 @@ class ThresholdPage : public DevicePage {
   void compute();
   void suggest(const transport::TransportStatistics& whole);
   void accept();
+  bool keepCut();
   /// What is decided here, as it is undone.
   struct Choice {
     transport::ThresholdSettings cut;

@@ -75,14 +75,19 @@ Rasters rastersFrom(const Json& json) {
   return Rasters(sizesFrom(json));
 }
 
-CameraStack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
+std::vector<image::Image> readImages(const StageResult& result, const std::string& map,
+                                     const Rasters& cameras) {
   std::vector<image::Image> images;
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     fs::path path = fileOf(result, image::stackFileName(map, camera));
     images.push_back(image::readRgbExr(path, cameras.size(camera)));
     image::checkFinite(images.back(), path);
   }
-  return CameraStack(image::stackFromImages(images, cameras));
+  return images;
+}
+
+CameraStack readMaps(const StageResult& result, const std::string& map, const Rasters& cameras) {
+  return CameraStack(image::stackFromImages(readImages(result, map, cameras), cameras));
 }
 
 /// Calibrations of earlier versions lack some.
@@ -260,6 +265,12 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     acquisition.expected = expectedFrom(values);
     acquisition.findings = values.at("findings").get<std::vector<Message>>();
     return acquisition;
+  });
+}
+
+std::vector<image::Image> loadFlood(const StageResult& result) {
+  return readingJson(result, [&](const Json& values) {
+    return readImages(result, "flood", rastersFrom(values.at("cameras")));
   });
 }
 

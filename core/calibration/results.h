@@ -23,6 +23,8 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
                              const transport::Acquisition& acquisition, const StageCost& cost,
                              const std::optional<RepairNote>& repair = {});
 transport::Acquisition loadAcquisition(const StageResult& result);
+/// Of that alone what each camera saw in full light, linear: in no time where T takes long.
+std::vector<image::Image> loadFlood(const StageResult& result);
 
 /// Keeps how the inverse is made, for the settings as they are.
 StageResult storeInverse(CalibrationFolder& folder, const InverseResult& result);

@@ -11,6 +11,7 @@
 #include "relucent/calibration/shot_journal.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/acquisition_record.h"
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -113,12 +114,16 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   StageShots stage(folder, calibration::Stage::acquisition, used, room, progress);
   rig::ShotTaker& shots = stage.taker();
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
-  if (const auto ended = folder.find(calibration::Stage::acquisition, inputs))
+  AcquisitionRecord recorded;
+  if (const auto ended = folder.find(calibration::Stage::acquisition, inputs)) {
+    recorded = loadAcquisitionRecord(ended->folder).value_or(AcquisitionRecord());
     if (const auto cost = calibration::resultFrom<calibration::Stage::acquisition>(*ended).cost)
       stage.goOnFrom(*ended, cost->seconds);
+  }
   ensureMemory(used, settingsOf(folder), platform::memoryLeft());
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
-  OutlookObserver looking(observer, outlook);
+  RecordingObserver recording(observer, recorded);
+  OutlookObserver looking(recording, outlook);
   transport::Acquisition acquisition = acquisition::acquire(
       {shots, linearization, settings, patientHandler(handler, stage), &looking}, progress);
   if (std::optional<Outlook> last = lastOf(looking)) {
@@ -137,7 +142,9 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   if (std::optional<Message> poor = poorQuality(acquisition.expected))
     acquisition.findings.insert(acquisition.findings.begin(), *std::move(poor));
   stage.waitForResult(bytesOf(acquisition));
-  calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
+  const calibration::StageResult stored =
+      calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
+  saveAcquisitionRecord(recording.record(), stored.folder);
   return acquisition;
 }
 

@@ -25,13 +25,28 @@ constexpr std::chrono::seconds beforeRetry{5};
 }  // namespace
 
 AcquirePage::AcquirePage(Session& session, QObject* parent)
-    : DevicePage(stepName, session, parent), question_(std::make_shared<AlarmQuestion>()), room_(this) {
+    : DevicePage(stepName, session, parent),
+      question_(std::make_shared<AlarmQuestion>()),
+      recalling_(
+          [this](Recalled recalled) {
+            if (recalled.measurement != wanted_) return;
+            recalled_ = std::move(recalled);
+            ++recalls_;
+            recallTrace();
+            tellResult();
+          },
+          [this](const Failure& failure) {
+            Q_EMIT failed({failure, tr("What is measured is safe.")});
+          }),
+      room_(this) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
     finish();
     trace_.clear();
     forecast_.reset();
     secondsAPattern_ = 0.0;
+    wanted_.clear();
+    recalled_ = {};
     countKept();
     connect(&session_.live(), &LiveRig::seen, this, [this] {
       if (isMeasuring()) tellProgress();
@@ -39,9 +54,10 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   });
   connect(&session_, &Session::stepsChanged, this, [this] {
     lookAtResponse();
+    if (isLookedAt_) recall();
+    recallTrace();
     tellAll();
   });
-  connect(&session_, &Session::acquisitionChanged, this, &AcquirePage::resultChanged);
   connect(&session_, &Session::roomLightChanged, this, &AcquirePage::resultChanged);
   connect(&session_, &Session::devicesChanged, this, [this] {
     // Whoever has asked to stop does not wait for a camera that has gone.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "jobs/job.h"
+#include "jobs/latest.h"
 #include "jobs/room_question.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/time_left.h"
@@ -63,6 +64,7 @@ class AcquirePage : public DevicePage {
   void finish() override;
 
   void enter() override;
+  void leave() override { isLookedAt_ = false; }
 
   bool isMeasuring() const { return job_.isRunning(); }
   /// What was measured is what the settings want.
@@ -139,6 +141,8 @@ class AcquirePage : public DevicePage {
   void setKeptPhotographs(pipeline::KeptPhotographs kept);
   /// Linear, of the shown camera: as last photographed or as measured. Empty: not yet.
   image::Image floodlight() const;
+  /// It is being read.
+  bool isFloodlightComing() const { return recalling_.isBusy() && floodlightNumber() == 0; }
   /// Another number, another picture; 0: none.
   int floodlightNumber() const;
 
@@ -202,6 +206,8 @@ class AcquirePage : public DevicePage {
   void tick();
   void expect(const WorkLeft& left);
   void lookAtResponse();
+  void recall();
+  void recallTrace();
 
   PageCommand *start_, *startNow_, *stay_, *next_, *pause_, *resume_, *keep_, *measureAnew_, *return_;
   PageCommand* goOnWithDisk_;                                                 // of the banner too
@@ -221,6 +227,17 @@ class AcquirePage : public DevicePage {
 
   AcquisitionTrace trace_;
   Traced traced_;
+  /// What a measurement left behind that this session did not see.
+  struct Recalled {
+    std::string measurement;
+    std::vector<image::Image> floodlights;  // a camera
+    std::optional<pipeline::AcquisitionRecord> record;
+  };
+  bool isLookedAt_ = false;
+  std::string wanted_;  // the measurement that is recalled, or is being read
+  Recalled recalled_;
+  int recalls_ = 0;
+  Latest<Recalled> recalling_;
   std::optional<WorkLeft> forecast_;
   double secondsAPattern_ = 0.0;
   PhotographRate rate_;

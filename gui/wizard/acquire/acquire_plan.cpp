@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jobs/free_space.h"
+#include "relucent/calibration/results.h"
 #include "wizard/acquire/acquire_page.h"
 
 namespace relucent::gui {
@@ -125,20 +126,38 @@ bool AcquirePage::isDone() const {
 }
 
 void AcquirePage::enter() {
-  if (isDone() && floodlightNumber() == 0) session_.wantAcquisition();
+  isLookedAt_ = true;
+  recall();
+}
+
+/// Of the measurement that is used what can be shown of it, without T, which takes long to read.
+void AcquirePage::recall() {
+  if (isMeasuring() || session_.measurement() == wanted_) return;
+  wanted_ = session_.measurement();
+  recalled_ = {};
+  if (wanted_.empty()) return;
+  recalling_.ask([name = wanted_, stored = *session_.result(calibration::Stage::acquisition)]() -> Recalled {
+    return {name, calibration::loadFlood(stored), pipeline::loadAcquisitionRecord(stored.folder)};
+  });
 }
 
 int AcquirePage::floodlightNumber() const {
   if (!session_.isOpen()) return 0;
-  if (int number = session_.live().floodlightNumber(camera())) return number;
-  return session_.acquisition() ? -1 : 0;
+  if (camera() < recalled_.floodlights.size()) return -recalls_;
+  return session_.live().floodlightNumber(camera());
 }
 
 image::Image AcquirePage::floodlight() const {
   if (floodlightNumber() > 0) return session_.live().floodlight(camera()).signal;
-  auto measured = session_.acquisition();
-  if (!measured || camera() >= measured->transport.cameras().devices()) return {};
-  return image::imageFromStack(measured->flood, measured->transport.cameras(), camera());
+  return floodlightNumber() < 0 ? recalled_.floodlights[camera()] : image::Image();
+}
+
+/// Of a measurement of this session more is known than is on record.
+void AcquirePage::recallTrace() {
+  const bool isKnown = traced() == traced_ && !trace_.growth().levels.empty();
+  if (!isDone() || isKnown || recalled_.measurement.empty() || recalled_.measurement != wanted_) return;
+  recalled_.record ? trace_.recall(*recalled_.record) : trace_.clear();
+  traced_ = traced();
 }
 
 void AcquirePage::setSecondsToLeave(int seconds) {

@@ -2,8 +2,12 @@
 #include "wizard/acquire/acquire_plan_view.h"
 
 #include <QComboBox>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "jobs/latest.h"
 #include "relucent/base/time_left.h"
 #include "relucent/pipeline/pictures.h"
 #include "text/message_text.h"
@@ -188,28 +192,57 @@ QWidget* resultPart(AcquirePage& model) {
 
 }  // namespace
 
+namespace {
+
+/// Pictures of as many pixels as the camera has, made on another thread.
+struct FloodlightPicture {
+  QImage picture;
+  LitOutline lit;
+};
+
+FloodlightPicture floodlightPicture(const image::Image& flood) {
+  if (flood.empty()) return {};
+  return {pictureOf(flood, pipeline::displayWhite(flood)), litOutline(flood)};
+}
+
+}  // namespace
+
 QWidget* floodlightCard(AcquirePage& model) {
   auto* card = new Card(AcquirePage::tr("Floodlight image"));
   auto* view = new ImageView;
   view->setObjectName("floodlight-view");
   view->setAccessibleName(AcquirePage::tr("The surface in the projector's full light"));
-  view->setEmptyText(
-      AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
   card->body()->addWidget(view, 1);
   card->addAction(new DeviceSelector(DeviceSelector::Kind::camera, model, card));
-  auto refresh = [&model, card, view, shown = std::pair(-1, std::size_t{0})]() mutable {
-    card->setVisible(!model.isMeasuring());
-    const auto wanted = std::pair(model.floodlightNumber(), model.camera());
-    if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
-    const image::Image flood = wanted.first == 0 ? image::Image() : model.floodlight();
-    view->setPicture(flood.empty() ? QImage() : pictureOf(flood, pipeline::displayWhite(flood)));
-    const LitOutline lit = flood.empty() ? LitOutline() : litOutline(flood);
-    view->setOverlay(lit.picture);
+  auto show = [&model, card, view](const FloodlightPicture& flood) {
+    view->setPicture(flood.picture);
+    view->setOverlay(flood.lit.picture);
     const QString white = model.projectors() > 1 ? AcquirePage::tr("all projectors fully white")
                                                  : AcquirePage::tr("the projector fully white");
-    const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(lit.share));
-    card->setSubtitle(lit.picture.isNull() ? white : whole);
-    view->setAccessibleDescription(lit.picture.isNull() ? QString() : whole);
+    const QString whole = AcquirePage::tr("%1; lit: %2 of the view").arg(white, percentText(flood.lit.share));
+    card->setSubtitle(flood.lit.picture.isNull() ? white : whole);
+    view->setAccessibleDescription(flood.lit.picture.isNull() ? QString() : whole);
+  };
+  auto making = std::make_shared<Latest<FloodlightPicture>>(show, [&model](const Failure& failure) {
+    Q_EMIT model.failed({failure, {}});
+  });
+  auto refresh = [&model, card, view, show, making,
+                  shown = std::optional<std::pair<int, std::size_t>>()]() mutable {
+    card->setVisible(!model.isMeasuring());
+    view->setEmptyText(
+        model.isFloodlightComing()
+            ? AcquirePage::tr("Reading what was measured")
+            : AcquirePage::tr("Appears when measuring begins. Nothing is projected before you start."));
+    const auto wanted = std::pair(model.floodlightNumber(), model.camera());
+    if (model.isMeasuring() || std::exchange(shown, wanted) == wanted) return;
+    if (wanted.first == 0) {
+      show({});
+      making->ask([] { return FloodlightPicture(); });  // what is being made is of another measurement
+    } else {
+      making->ask([flood = std::make_shared<const image::Image>(model.floodlight())] {
+        return floodlightPicture(*flood);
+      });
+    }
   };
   refreshOn(model, card, refresh, &AcquirePage::settingsChanged, &AcquirePage::resultChanged);
   return card;

@@ -97,6 +97,7 @@ void AcquisitionTrace::clear() {
   }
   began_.reset();
   ended_.reset();
+  isRecalled_ = false;
   Q_EMIT changed();
 }
 
@@ -107,6 +108,21 @@ void AcquisitionTrace::begin() {
 
 void AcquisitionTrace::end() {
   if (!ended_) ended_ = Clock::now();
+}
+
+void AcquisitionTrace::recall(const pipeline::AcquisitionRecord& record) {
+  clear();
+  for (const auto& [seconds, reading] : record.checks) points_.push_back({seconds, reading});
+  for (const auto& [seconds, retake] : record.again) marks_.push_back({seconds, retake});
+  ended_ = Clock::now();
+  began_ =
+      *ended_ - std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.seconds));
+  {
+    QMutexLocker lock(&guard_);
+    growth_ = {record.levels, record.levels.empty() ? 0 : record.levels.back()};
+  }
+  isRecalled_ = true;
+  Q_EMIT changed();
 }
 
 double AcquisitionTrace::seconds() const {
@@ -161,7 +177,8 @@ AcquisitionTrace::Growth AcquisitionTrace::growth() const {
 }
 
 std::optional<RoomLight> AcquisitionTrace::roomLight() const {
-  if (points_.empty()) return std::nullopt;
+  // What is on record says nothing of now.
+  if (points_.empty() || isRecalled_) return std::nullopt;
   const sentinels::Reading& now = points_.back().reading;
   return RoomLight{now.roomLight, !isOf(now, {sentinels::AlarmKind::ambientChanged})};
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "relucent/pipeline/acquisition_record.h"
 #include "relucent/pipeline/outlook.h"
 #include "relucent/sentinels/observer.h"
 #include "wizard/session/session.h"
@@ -53,6 +54,8 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   /// Anew. To be called before the measuring thread begins.
   void begin();
   void end();
+  /// As it is on record of a measurement of another session.
+  void recall(const pipeline::AcquisitionRecord& record);
   /// Since begin(), until end().
   double seconds() const;
 
@@ -93,6 +96,7 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   std::vector<Mark> marks_;
   std::optional<Clock::time_point> began_, ended_;
   SharedOutlook outlook_;
+  bool isRecalled_ = false;
   mutable QMutex guard_;
   Growth growth_;
 };

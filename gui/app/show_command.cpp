@@ -66,11 +66,13 @@ int run(const PlayShow& play) {
           return shared != nullptr ? shared->host() : nullptr;
         });
   });
-  Termination termination;
-  QObject::connect(&termination, &Termination::requested, &show, [&show] {
+  const auto end = [&show] {
     show.stop();
     QGuiApplication::quit();
-  });
+  };
+  Termination termination;
+  QObject::connect(&termination, &Termination::requested, &show, end);
+  QObject::connect(&show, &Show::endWanted, &show, end);
   show.start();
   return QGuiApplication::exec();
 }

@@ -65,6 +65,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
             if (control_) control_->announce('/' + work, "progress", {fraction, stage});
           });
   connect(&photographs_, &ShowPhotographs::ended, this, &Show::photographed);
+  connect(&escape_, &HeldKey::held, this, &Show::endWanted);
   for (const QString& problem : awake_.problems()) log_.warn(problem);
   health_.setInterval(healthInterval);
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
@@ -125,6 +126,7 @@ void Show::open() {
         log_.tell("display back: " + name);
         writeHealth(state_);
       });
+      escape_.watch(*window);
       windows_.push_back(std::move(window));
     }
     if (!windows_.empty() && !windows_.front()->surface().keepsStep())

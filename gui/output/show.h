@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "desktop/awake.h"
+#include "output/held_key.h"
 #include "output/machine_clock.h"
 #include "output/player.h"
 #include "output/show_log.h"
@@ -62,6 +63,12 @@ class Show : public QObject, private RemoteActions {
   std::optional<NetworkPlace> status() const;
   /// Checks the clock and the displays, and writes the health file. Called automatically every ten seconds.
   void look();
+  /// So long Esc has to be held at a projector's window to end it.
+  static constexpr std::chrono::milliseconds endsAfter{2000};
+
+ Q_SIGNALS:
+  /// Somebody at the machine wants it to end.
+  void endWanted();
 
  private:
   void open();
@@ -117,6 +124,7 @@ class Show : public QObject, private RemoteActions {
   std::shared_ptr<Playlist> content_;
   std::unique_ptr<Player> player_;
   QString renderer_;
+  HeldKey escape_{Qt::Key_Escape, endsAfter};
   QTimer health_, again_, streamsLooked_;
   int failures_ = 0;
   qsizetype toldSkipped_ = 0;

@@ -204,7 +204,8 @@ QString installedText(const OutputPage& page) {
   using InstalledShow = OutputPage::InstalledShow;
   switch (page.installedShow()) {
     case InstalledShow::thisVenues:
-      return OutputPage::tr("Installed. The show starts at the next log-in, without camera or wizard.");
+      return OutputPage::tr("Installed. The show starts at the next log-in, without camera or wizard.") +
+             ' ' + OutputPage::tr("To end it, hold Esc for two seconds at the projector's screen.");
     case InstalledShow::anotherVenues:
       return page.isInstallable()
                  ? OutputPage::tr("Another venue's show starts at log-in. Installing this one replaces it.")

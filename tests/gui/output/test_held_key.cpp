@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// A key that counts once it was held.
+#include "output/held_key.h"
+
+#include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QSignalSpy>
+#include <QWindow>
+#include <QtTest>
+
+using namespace relucent::gui;
+
+namespace {
+
+constexpr std::chrono::milliseconds enough{60};
+
+void send(QWindow& window, QEvent::Type type, int key = Qt::Key_Escape, bool isRepeated = false) {
+  QKeyEvent event(type, key, Qt::NoModifier, {}, isRepeated);
+  QCoreApplication::sendEvent(&window, &event);
+}
+
+}  // namespace
+
+class TestHeldKey : public QObject {
+  Q_OBJECT
+
+ private slots:
+  /// Law: it counts once, when it was held for long enough, however the keyboard repeats it.
+  void aKeyThatIsHeldCountsOnce() {
+    QWindow window;
+    HeldKey escape(Qt::Key_Escape, enough);
+    escape.watch(window);
+    QSignalSpy held(&escape, &HeldKey::held);
+    QElapsedTimer time;
+    time.start();
+    send(window, QEvent::KeyPress);
+    QCOMPARE(held.size(), 0);
+    send(window, QEvent::KeyRelease, Qt::Key_Escape, true);
+    send(window, QEvent::KeyPress, Qt::Key_Escape, true);
+    QTRY_COMPARE(held.size(), 1);
+    QVERIFY(time.elapsed() >= enough.count() - 1);
+    send(window, QEvent::KeyPress, Qt::Key_Escape, true);
+    send(window, QEvent::KeyRelease);
+    QTest::qWait(2 * enough.count());
+    QCOMPARE(held.size(), 1);
+  }
+
+  void whatIsLetGoOfDoesNotCount_data() {
+    QTest::addColumn<QList<int>>("events");
+    QTest::newRow("let go of") << QList<int>{QEvent::KeyRelease};
+    QTest::newRow("another window") << QList<int>{QEvent::FocusOut};
+    QTest::newRow("hidden") << QList<int>{QEvent::Hide};
+  }
+  void whatIsLetGoOfDoesNotCount() {
+    QFETCH(QList<int>, events);
+    QWindow window;
+    HeldKey escape(Qt::Key_Escape, enough);
+    escape.watch(window);
+    QSignalSpy held(&escape, &HeldKey::held);
+    send(window, QEvent::KeyPress);
+    for (int type : events) {
+      if (type == QEvent::KeyRelease) {
+        send(window, QEvent::KeyRelease);
+        continue;
+      }
+      QEvent event(static_cast<QEvent::Type>(type));
+      QCoreApplication::sendEvent(&window, &event);
+    }
+    QTest::qWait(3 * enough.count());
+    QCOMPARE(held.size(), 0);
+  }
+
+  void otherKeysDoNotCount() {
+    QWindow window;
+    HeldKey escape(Qt::Key_Escape, enough);
+    escape.watch(window);
+    QSignalSpy held(&escape, &HeldKey::held);
+    send(window, QEvent::KeyPress, Qt::Key_B);
+    QTest::qWait(3 * enough.count());
+    QCOMPARE(held.size(), 0);
+  }
+};
+
+QTEST_MAIN(TestHeldKey)
+#include "test_held_key.moc"

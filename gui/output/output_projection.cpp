@@ -189,6 +189,11 @@ void OutputProjection::nextChart() {
   Q_EMIT changed();
 }
 
+void OutputProjection::endChart() {
+  if (player_) player_->setChart(std::nullopt);
+  Q_EMIT changed();
+}
+
 void OutputProjection::setCompensated(bool compensated) {
   if (player_) player_->setCompensated(compensated);
   Q_EMIT changed();

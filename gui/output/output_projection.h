@@ -60,6 +60,8 @@ class OutputProjection : public QObject {
   void setOverlay(bool overlay);
   /// The first one, another one, then the playlist again.
   void nextChart();
+  /// The playlist again.
+  void endChart();
   void setCompensated(bool compensated);
 
   PlayerStatistics statistics() const { return player_ ? player_->statistics() : PlayerStatistics(); }

@@ -46,6 +46,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   keepShow_ = addCommand(Icon::power, [] {});
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  endChart_ = addCommand(Icon::play, [this] { projection_.endChart(); });
   renew_ = addCommand(Icon::play, [this] { renew(); });
   review_ = addCommand(Icon::next, [this] { Q_EMIT stepWanted(stepToReview()); });
   connect(&session_, &Session::opened, this, [this] {
@@ -123,7 +124,11 @@ void OutputPage::enter() {
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (playsEarlier()) return {StepState::busy, tr("Earlier correction"), false, true};
-  if (isOpen()) return {StepState::busy, isBlack() ? tr("Black") : isFrozen() ? tr("Frozen") : tr("Playing")};
+  if (isOpen())
+    return {StepState::busy, isBlack()      ? tr("Black")
+                             : showsChart() ? tr("Test chart")
+                             : isFrozen()   ? tr("Frozen")
+                                            : tr("Playing")};
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
@@ -142,7 +147,7 @@ QString OutputPage::hint() const {
   if (isOpen()) {
     switch (proof_.next()) {
       case OutputProof::Next::photograph:
-        if (isBlack() || isFrozen() || isInstalled()) return playingHint();
+        if (isBlack() || isFrozen() || showsChart() || isInstalled()) return playingHint();
         return isInstallable()
                    ? tr("Take a verification photograph, or install without proof.")
                    : tr("Take a verification photograph: it proves that the venue is measured well.");
@@ -173,6 +178,7 @@ QString OutputPage::hint() const {
 /// While nothing stands against the show: what it does, in one voice with the rail.
 QString OutputPage::playingHint() const {
   if (isBlack()) return tr("Black: the show goes on unseen until you show it again.");
+  if (showsChart()) return tr("A test chart is on the surface. T shows the next one, then the playlist.");
   if (isFrozen()) return tr("Frozen: this picture stands until you press Play.");
   if (!isInstallable())
     return tr("Rehearsed to the end. A simulated venue is not installed. Hold A to compare.");
@@ -192,6 +198,7 @@ void OutputPage::updateCommands() {
                  isInstallable() && !playlist_.isEmpty());
   renew_->show(tr("Show the new correction"), session_.areDevicesFree() && !projectorWithoutScreen());
   review_->show(tr("Look at it first"));
+  endChart_->show(tr("Show the playlist"));
   prove_->show(tr("Take verification photograph"), mayProve());
   checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
   repair_->show(tr("Repair the calibration"), proof_.isPossible() && proof_.mayFlash());
@@ -257,6 +264,9 @@ std::optional<Banner> OutputPage::banner() const {
                                   "are out of date count with what was chosen there before."),
                   isReviewed ? nullptr : review_};
   }
+  if (isOpen() && showsChart())
+    return Banner{Banner::Kind::information, tr("A test chart is on the surface"),
+                  tr("The playlist runs on unseen until you show it again."), endChart_};
   if (const auto stopped = onMeasurement(session_, goOnMeasuring_)) return stopped;
   if (!proof_.isOutOfDate()) return std::nullopt;
   return Banner{Banner::Kind::amber, tr("The verification photograph is out of date"),
@@ -270,7 +280,9 @@ QString OutputPage::stepToReview() const {
   for (const auto& [stage, step] : {std::pair(Stage::threshold, "threshold"),
                                     {Stage::clustering, "cluster"},
                                     {Stage::content, "preview"}})
-    if (session_.progress(stage) == calibration::StageProgress::stale) return step;
+    if (session_.progress(stage) == calibration::StageProgress::stale &&
+        !(stage == Stage::clustering && areClustersFollowed(session_)))
+      return step;
   return {};
 }
 

@@ -70,6 +70,8 @@ class OutputPage : public DevicePage {
   bool isScreenLost() const { return isOpen() && projectorWithoutScreen().has_value(); }
   bool isBlack() const { return projection_.isBlack(); }
   bool isFrozen() const { return projection_.isFrozen(); }
+  /// A test chart is on the projectors in place of the playlist.
+  bool showsChart() const { return projection_.showsChart(); }
   bool isCompensated() const { return projection_.isCompensated(); }
   void setBlack(bool black) { projection_.setBlack(black); }
   void setFrozen(bool frozen) { projection_.setFrozen(frozen); }
@@ -166,7 +168,7 @@ class OutputPage : public DevicePage {
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
   PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_, *removeShow_, *keepShow_,
       *aimAgain_;  // what comes before installing
-  PageCommand* renew_;
+  PageCommand *renew_, *endChart_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;

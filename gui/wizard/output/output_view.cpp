@@ -287,6 +287,8 @@ class OutputStage : public QWidget {
     PlayerStatistics s = page_.projection().statistics();
     if (!page_.isOpen() || !page_.missingScreen().isEmpty() || s.frames == 0) return {};
     if (page_.playsEarlier()) return OutputPage::tr("Earlier correction");
+    if (page_.isBlack()) return OutputPage::tr("Black");
+    if (page_.showsChart()) return OutputPage::tr("Test chart");
     QString clipped = percentText(s.clipped);
     if (!(s.framesPerSecond > 0.0))
       return OutputPage::tr("still picture, %1 of the pixels at their limit").arg(clipped);

@@ -59,7 +59,7 @@ void PlaylistView::refresh() {
   if (count() != items.size()) updateGeometry();
   while (count() > items.size()) delete takeItem(count() - 1);
   while (count() < items.size()) addItem(new QListWidgetItem);
-  qsizetype playing = page_.projection().playing();
+  qsizetype playing = page_.showsChart() ? -1 : page_.projection().playing();
   for (int i = 0; i < count(); ++i) {
     QString name = OutputPlaylist::nameOf(items[i]);
     QListWidgetItem* entry = item(i);

@@ -120,6 +120,27 @@ class TestWhatPlays : public QObject {
     QVERIFY(!page_->banner());
   }
 
+  /// Law: what is on the surface in place of the playlist is said, with the way back to it.
+  void aTestChartIsSaid() {
+    openOutput();
+    PlaylistView list(*page_);
+    const auto marked = [&list] { return list.item(0)->data(Qt::UserRole).toInt() == 2; };
+    QTRY_VERIFY(marked());
+    page_->projection().nextChart();
+    QCOMPARE(page_->status().result, OutputPage::tr("Test chart"));
+    QCOMPARE(page_->banner()->sentence, OutputPage::tr("A test chart is on the surface"));
+    QVERIFY2(page_->hint().contains("T "), qPrintable(page_->hint()));
+    QTRY_VERIFY(!marked());
+    // Black is what is seen of both.
+    page_->setBlack(true);
+    QCOMPARE(page_->status().result, OutputPage::tr("Black"));
+    page_->setBlack(false);
+    page_->banner()->command->trigger();
+    QVERIFY(!page_->showsChart() && !page_->banner());
+    QCOMPARE(page_->status().result, OutputPage::tr("Playing"));
+    QTRY_VERIFY(marked());
+  }
+
   /// Law: what photographs of the picture have made better is what plays from then on, until it is to be
   /// shown as before, or in another way.
   void aPerfectedPicturePlays() {

@@ -151,6 +151,20 @@ bool isInstalled(Start start, const QString& config, const QString& argument) {
   return QString::fromUtf8(file.readAll()).contains(' ' + word);
 }
 
+void moveInstalled(Start start, const QString& config, const QString& from, const QString& to) {
+  QFile file(fileOf(start, config));
+  if (!file.open(QIODevice::ReadOnly)) return;
+  const QString text = QString::fromUtf8(file.readAll());
+  const auto word = [start](const QString& argument) {
+    return ' ' + (start == Start::service ? systemdWord(argument, false) : desktopWord(argument));
+  };
+  // The folder itself, and the beginning of what lies within: a word without its last quote.
+  QString moved = text;
+  moved.replace(word(from), word(to));
+  moved.replace(word(from + '/').chopped(1), word(to + '/').chopped(1));
+  if (moved != text) writeFileAtomically(file.fileName().toStdString(), moved.toStdString());
+}
+
 QString uninstall(Start start, const QString& config) {
   if (start == Start::service) removed(switchOf(config));
   return removed(fileOf(start, config)) ? fileOf(start, config) : QString();

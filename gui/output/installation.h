@@ -30,6 +30,10 @@ bool isInstalled(Start start, const QString& config);
 /// Whether one is installed with this argument, the folder of a venue.
 bool isInstalled(Start start, const QString& config, const QString& argument);
 
+/// Where the one that is installed names a folder, or what lies within, it names that of `to` from now on.
+/// Nothing where there is none. Atomic. Throws: as install().
+void moveInstalled(Start start, const QString& config, const QString& from, const QString& to);
+
 /// Removes it. Returns the file, or nothing if there was none. Throws: Error{disk}.
 QString uninstall(Start start, const QString& config);
 

@@ -20,6 +20,10 @@ struct Translated {
 
 constexpr const char* key = "recent/venues";
 
+QString folderOf(const QString& entry) {
+  return entry.mid(entry.indexOf('|') + 1);
+}
+
 QString stateOf(const calibration::CalibrationFolder& folder) {
   if (const int kept = photographsInterrupted(folder); kept > 0)
     return Translated::tr("Interrupted: %n photograph(s) are safe", nullptr, kept);
@@ -64,9 +68,22 @@ QList<RecentVenue> RecentVenues::list() const {
 void RecentVenues::add(const QString& folder, const QDateTime& now) {
   QStringList entries = settings_.value(key).toStringList();
   QString clean = QDir::cleanPath(folder);
-  entries.removeIf([&](const QString& entry) { return entry.mid(entry.indexOf('|') + 1) == clean; });
+  entries.removeIf([&](const QString& entry) { return folderOf(entry) == clean; });
   entries.prepend(now.toString(Qt::ISODate) + '|' + clean);
   while (entries.size() > most) entries.removeLast();
+  settings_.setValue(key, entries);
+}
+
+void RecentVenues::moved(const QString& from, const QString& to) {
+  QStringList entries = settings_.value(key).toStringList();
+  for (QString& entry : entries)
+    if (folderOf(entry) == from) entry = entry.left(entry.indexOf('|') + 1) + to;
+  settings_.setValue(key, entries);
+}
+
+void RecentVenues::forget(const QString& folder) {
+  QStringList entries = settings_.value(key).toStringList();
+  entries.removeIf([&](const QString& entry) { return folderOf(entry) == folder; });
   settings_.setValue(key, entries);
 }
 

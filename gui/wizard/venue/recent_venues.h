@@ -30,6 +30,10 @@ class RecentVenues {
   explicit RecentVenues(QSettings& settings) : settings_(settings) {}
   QList<RecentVenue> list() const;
   void add(const QString& folder, const QDateTime& now = QDateTime::currentDateTime());
+  /// One is elsewhere now; it keeps its place.
+  void moved(const QString& from, const QString& to);
+  /// One is gone for good.
+  void forget(const QString& folder);
 
  private:
   QSettings& settings_;

@@ -25,12 +25,15 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
     : PageModel(stepName, parent),
       session_(session),
       recent_(recent),
+      keeping_(session, recent),
       openScreen_(session),
       endQuestion_(session) {
   checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
+  remove_ = addCommand(Icon::remove, [this] { removeAsked(); });
+  keepVenue_ = addCommand(Icon::folder, [] {});
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = rehearsalVenues();
   setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
@@ -124,6 +127,8 @@ void VenuePage::updateCommands() {
   begin_->setGlyph(mode_ == Mode::rehearse ? Icon::play : Icon::next);
   begin_->show(mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"), problem().isEmpty());
   changeScreen_->show(tr("Change the screen"));
+  remove_->show(tr("Move to the trash"));
+  keepVenue_->show(tr("Keep it"));
 }
 
 PageCommand* VenuePage::primary() const {
@@ -177,6 +182,45 @@ QString VenuePage::tidyProblem() const {
 
 std::unique_ptr<VenueTidy> VenuePage::tidy(const RecentVenue& venue) {
   return std::make_unique<VenueTidy>(session_, stepName, venue.folder);
+}
+
+void VenuePage::rename(const RecentVenue& venue, const QString& name) {
+  QString why = keeping_.whyNotRenamed(venue);
+  if (why.isEmpty()) why = VenueKeeping::nameProblem(venue, name);
+  if (!why.isEmpty())
+    return Q_EMIT failed({{ErrorKind::input, why, tr("Try again then."), {}}, tr("Nothing was changed.")});
+  try {
+    keeping_.rename(venue, name);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing of the venue is lost.")});
+  }
+  tellSettings();
+}
+
+void VenuePage::askToRemove(const RecentVenue& venue) {
+  toRemove_ = venue;
+  FailureReport question;
+  question.failure.heading = tr("Remove a venue");
+  question.failure.what =
+      tr("“%1” goes to the trash, with its photographs, results and playlist.").arg(venue.name);
+  question.safe = tr("Until the trash is emptied it can be taken back from there.");
+  question.goOn = remove_;
+  question.resume = keepVenue_;
+  question.isQuestion = true;
+  Q_EMIT failed(question);
+}
+
+void VenuePage::removeAsked() {
+  const RecentVenue venue = std::exchange(toRemove_, {});
+  // What has become of it since it was asked.
+  if (const QString why = keeping_.whyNotRemoved(venue); !why.isEmpty())
+    return Q_EMIT failed({{ErrorKind::input, why, tr("Try again then."), {}}, tr("Nothing was changed.")});
+  try {
+    keeping_.remove(venue);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing of the venue is lost.")});
+  }
+  tellSettings();
 }
 
 void VenuePage::open(const QString& path) {

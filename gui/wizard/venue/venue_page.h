@@ -12,6 +12,7 @@
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
 #include "wizard/venue/recent_venues.h"
+#include "wizard/venue/venue_keeping.h"
 #include "wizard/venue/venue_network.h"
 #include "wizard/venue/venue_screen.h"
 
@@ -75,6 +76,13 @@ class VenuePage : public PageModel {
   QString tidyProblem() const;
   /// Of a venue that was opened before; see VenueTidy.
   std::unique_ptr<VenueTidy> tidy(const RecentVenue& venue);
+
+  /// What another name and the trash are for.
+  VenueKeeping& keeping() { return keeping_; }
+  /// Tells failed() where it cannot be done.
+  void rename(const RecentVenue& venue, const QString& name);
+  /// Asks first.
+  void askToRemove(const RecentVenue& venue);
 
   const std::vector<RehearsalVenue>& venues() const { return venues_; }
   const std::vector<RehearsalSize>& sizes() const { return sizes_; }
@@ -171,6 +179,7 @@ class VenuePage : public PageModel {
   WorkLeft expectedWith(double secondsAPhotograph) const;
   WorkLeft expectedOf(const RehearsalVenue& venue) const;
   venue::SurpriseSettings surprisesWanted() const;
+  void removeAsked();
   void begin();
   void openNow(const QString& folder);
   void beginNow();
@@ -183,6 +192,8 @@ class VenuePage : public PageModel {
 
   Session& session_;
   RecentVenues recent_;
+  VenueKeeping keeping_;
+  RecentVenue toRemove_;  // somebody is asked
   VenueScreen openScreen_;
   EndQuestion endQuestion_;
   Mode mode_ = Mode::start;
@@ -202,6 +213,7 @@ class VenuePage : public PageModel {
   bool roomClear_ = false;
   bool named_ = false;  // by the user
   PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
+  PageCommand *remove_, *keepVenue_;  // of a question
 };
 
 }  // namespace relucent::gui

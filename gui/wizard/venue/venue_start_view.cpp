@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <QFileDialog>
+#include <QMenu>
 #include <QShortcut>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "wizard/frame/page_view.h"
+#include "wizard/venue/rename_dialog.h"
 #include "wizard/venue/tidy_dialog.h"
 #include "wizard/venue/tile.h"
 #include "wizard/venue/venue_page.h"
@@ -34,6 +36,7 @@ class RecentRow : public QFrame {
     row->addWidget(state);
     row->addSpacing(8);
     row->addWidget(tidyButton(model, venue));
+    row->addWidget(moreButton(model, venue));
     const bool isOpen = model.isOpenNow(venue);
     QPushButton* open = buttonOf(isOpen                ? VenuePage::tr("Is open")
                                  : venue.isInterrupted ? VenuePage::tr("Resume")
@@ -71,6 +74,40 @@ class RecentRow : public QFrame {
   }
   QPushButton* open_ = nullptr;
 
+  /// What is seldom done to a venue; on a right click, too.
+  QPushButton* moreButton(VenuePage& model, const RecentVenue& venue) {
+    QPushButton* more = buttonOf(VenuePage::tr("More"), "flat");
+    more->setObjectName("more");
+    more->setAccessibleName(VenuePage::tr("More for %1").arg(venue.name));
+    auto* menu = new QMenu(more);
+    menu->setToolTipsVisible(true);
+    more->setMenu(menu);
+    const auto add = [menu](const char* name, const QString& text, const QString& problem) {
+      QAction* action = menu->addAction(text);
+      action->setObjectName(name);
+      action->setEnabled(problem.isEmpty());
+      action->setToolTip(problem.isEmpty() ? QString() : plainToolTip(problem));
+      return action;
+    };
+    // Looked at when it is wanted: a show may have been installed since.
+    connect(menu, &QMenu::aboutToShow, this, [this, add, menu, &model, venue] {
+      menu->clear();
+      connect(add("rename", VenuePage::tr("Rename…"), model.keeping().whyNotRenamed(venue)),
+              &QAction::triggered, &model, [this, &model, venue] {
+                auto* dialog = new RenameDialog(venue, window());
+                dialog->setAttribute(Qt::WA_DeleteOnClose);
+                connect(dialog, &RenameDialog::chosen, &model,
+                        [&model, venue](const QString& name) { model.rename(venue, name); });
+                dialog->open();
+              });
+      connect(add("remove", VenuePage::tr("Remove…"), model.keeping().whyNotRemoved(venue)),
+              &QAction::triggered, &model, [&model, venue] { model.askToRemove(venue); });
+    });
+    setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(this, &QWidget::customContextMenuRequested, menu,
+            [this, menu](const QPoint& place) { menu->popup(mapToGlobal(place)); });
+    return more;
+  }
   QPushButton* tidyButton(VenuePage& model, const RecentVenue& venue) {
     QPushButton* tidy = buttonOf(VenuePage::tr("Free space…"), "flat");
     tidy->setObjectName("tidy");

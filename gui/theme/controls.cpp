@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "theme/controls.h"
 
+#include <QComboBox>
+
 #include <QEvent>
 #include <QGuiApplication>
 #include <QPainter>
@@ -104,7 +106,8 @@ void ElidedLabel::changeEvent(QEvent* event) {
 }
 
 void ElidedLabel::elide() {
-  setText(fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width()));
+  const QString shown = fontMetrics().elidedText(whole_, Qt::ElideRight, contentsRect().width());
+  setText(shown != whole_ && shown.size() <= leastLetters_ ? QString() : shown);
 }
 
 ElidedLabel* elidedLabel(const char* role) {
@@ -126,6 +129,8 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     title_->setWordWrap(false);
     header_->addWidget(title_);
     header_->addWidget(subtitle_ = elidedLabel("note"), 1);
+    constexpr int leastLetters = 9;
+    subtitle_->setLeastLetters(leastLetters);
     all->addLayout(header_);
   }
   body_ = new QVBoxLayout;
@@ -233,17 +238,36 @@ Segmented::Segmented(const QStringList& texts, QWidget* parent) : QWidget(parent
 QList<QAbstractButton*> Segmented::offered() const {
   QList<QAbstractButton*> buttons;
   for (QAbstractButton* button : group_.buttons())
-    if (!button->isHidden()) buttons.append(button);
+    if (!withheld_.contains(group_.id(button))) buttons.append(button);
   return buttons;
 }
 
 void Segmented::setOffered(int index, bool offered) {
-  QAbstractButton* button = group_.button(index);
-  if (button == nullptr || button->isHidden() != offered) return;
-  button->setVisible(offered);
+  if (group_.button(index) == nullptr || withheld_.contains(index) != offered) return;
+  if (offered)
+    withheld_.remove(index);
+  else
+    withheld_.insert(index);
   updateGeometry();
-  QResizeEvent again(size(), size());
-  resizeEvent(&again);
+  arrange();
+}
+
+void Segmented::foldIntoList(const QString& name) {
+  list_ = new QComboBox(this);
+  list_->setAccessibleName(name);
+  list_->hide();
+  connect(list_, &QComboBox::activated, this,
+          [this](int row) { group_.button(list_->itemData(row).toInt())->click(); });
+  connect(&group_, &QButtonGroup::idToggled, this, &Segmented::fillList);
+  updateGeometry();
+  arrange();
+}
+
+void Segmented::fillList() {
+  if (list_ == nullptr) return;
+  list_->clear();
+  for (QAbstractButton* button : offered()) list_->addItem(button->text(), group_.id(button));
+  list_->setCurrentIndex(list_->findData(current()));
 }
 
 QSize Segmented::sizeHint() const {
@@ -256,22 +280,37 @@ QSize Segmented::sizeHint() const {
 }
 
 QSize Segmented::minimumSizeHint() const {
-  QSize least;
+  QSize least = list_ != nullptr ? list_->minimumSizeHint() : QSize();
   for (const QAbstractButton* button : offered()) least = least.expandedTo(button->sizeHint());
   return least;
 }
 
 int Segmented::heightForWidth(int width) const {
   int one = sizeHint().height(), count = static_cast<int>(offered().size());
-  return width >= sizeHint().width() ? one : count * one + (count - 1) * space::tight;
+  if (width >= sizeHint().width()) return one;
+  return list_ != nullptr ? list_->sizeHint().height() : count * one + (count - 1) * space::tight;
 }
 
 /// By hand: of a widget with a layout, layouts ask that one how high it is.
 void Segmented::resizeEvent(QResizeEvent*) {
+  arrange();
+}
+
+void Segmented::arrange() {
   const QList<QAbstractButton*> buttons = offered();
   const auto count = static_cast<int>(buttons.size());
   const QSize row = sizeHint();
   bool inARow = width() >= row.width();
+  const bool isList = list_ != nullptr && !inARow;
+  for (QAbstractButton* button : group_.buttons()) button->setVisible(!isList && buttons.contains(button));
+  if (list_ != nullptr) list_->setVisible(isList);
+  if (isList) {
+    fillList();
+    // At the end, where the row ends too.
+    const QSize size = list_->sizeHint().boundedTo({width(), QWIDGETSIZE_MAX});
+    const QRect place(QPoint(width() - size.width(), (height() - size.height()) / 2), size);
+    return list_->setGeometry(QStyle::visualRect(layoutDirection(), rect(), place));
+  }
   int spare = width() - row.width(), left = 0, top = (height() - heightForWidth(width())) / 2;
   for (int i = 0; i < count; ++i) {
     int wide = buttons[i]->sizeHint().width() + (i + 1) * spare / count - i * spare / count;

@@ -6,10 +6,13 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSet>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "theme/icons.h"
+
+class QComboBox;
 
 namespace relucent::gui {
 
@@ -49,6 +52,8 @@ class ElidedLabel : public QLabel {
  public:
   explicit ElidedLabel(QWidget* parent = nullptr);
   void setWhole(const QString& text);
+  /// Of a text that does not fit, no fewer letters than these: they would say nothing.
+  void setLeastLetters(int letters) { leastLetters_ = letters; }
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -57,6 +62,7 @@ class ElidedLabel : public QLabel {
  private:
   void elide();
   QString whole_;
+  int leastLetters_ = 0;
 };
 /// A label that takes the available width.
 ElidedLabel* elidedLabel(const char* role);
@@ -132,6 +138,9 @@ class Segmented : public QWidget {
   void setCurrent(int index);
   /// What is not offered is not there to be chosen.
   void setOffered(int index, bool offered);
+  /// Where there is no room for a row it is a list that opens, as high as one line, and not a stack. `name`:
+  /// of what is chosen, for those who do not see it.
+  void foldIntoList(const QString& name);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
   bool hasHeightForWidth() const override { return true; }
@@ -145,7 +154,11 @@ class Segmented : public QWidget {
 
  private:
   QList<QAbstractButton*> offered() const;
+  void arrange();
+  void fillList();
   QButtonGroup group_;
+  QSet<int> withheld_;
+  QComboBox* list_ = nullptr;  // nullptr: it is stacked instead
 };
 
 /// A choice of one of a few, stacked: a name, a sentence, and the cost at the right.

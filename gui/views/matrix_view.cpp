@@ -15,7 +15,7 @@
 namespace relucent::gui {
 namespace {
 
-constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0;
+constexpr double rowsWidth = 52.0, columnsHeight = 34.0, barWidth = 64.0, margin = 8.0, titleHeight = 18.0;
 constexpr double around = 0.3;        // of what is seen, on each side, so that a short pan needs nothing new
 constexpr double decades = 4.0;       // that colours tell apart
 constexpr double lensShare = 0.4;     // of the frame's shorter side
@@ -44,7 +44,8 @@ MatrixView::MatrixView(QWidget* parent)
               [this](const Failure& failure) { setEmptyText(failure.what); }) {
   useVtk();
   plane_ = std::make_unique<PlaneScene>(*vtk());
-  for (MatrixLayer layer : {wholeLayer, detailLayer, lensLayer}) require(plane_->addLayer() == layer, "layers");
+  for (MatrixLayer layer : {wholeLayer, detailLayer, lensLayer})
+    require(plane_->addLayer() == layer, "layers");
   still_.setSingleShot(true);
   still_.setInterval(stillAfter);
   connect(&still_, &QTimer::timeout, this, [this] { want(); });
@@ -90,7 +91,8 @@ QRectF MatrixView::frame() const {
 }
 
 QRectF MatrixView::barArea() const {
-  return QRectF(frame().right() + margin, 0, barWidth, height());
+  // The axes' title may be as wide as the view.
+  return QRectF(frame().right() + margin, 0, barWidth, height() - titleHeight);
 }
 
 QRectF MatrixView::looked() const {

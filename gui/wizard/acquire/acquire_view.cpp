@@ -45,13 +45,28 @@ class PictureRow : public QWidget {
  protected:
   void resizeEvent(QResizeEvent* event) override {
     QWidget::resizeEvent(event);
-    const int cards = static_cast<int>(titles_.size());
-    const int room = (width() - (cards - 1) * space::gap) / cards - 2 * (space::card + space::small);
-    for (QLabel* title : titles_)
-      title->setWordWrap(title->fontMetrics().horizontalAdvance(title->text()) > room);
+    wrapTitles();
+  }
+  /// A selector may have come or gone.
+  bool event(QEvent* event) override {
+    if (event->type() == QEvent::LayoutRequest) wrapTitles();
+    return QWidget::event(event);
   }
 
  private:
+  void wrapTitles() {
+    const int cards = static_cast<int>(titles_.size());
+    const int room = (width() - (cards - 1) * space::gap) / cards - 2 * (space::card + space::small);
+    for (QLabel* title : titles_) {
+      // Beside it a device may be chosen.
+      const auto* selector = title->parentWidget()->findChild<DeviceSelector*>();
+      const bool isChosen = selector != nullptr && !selector->isHidden();
+      const int beside = isChosen ? selector->sizeHint().width() + space::small : 0;
+      const bool wraps = title->fontMetrics().horizontalAdvance(title->text()) > room - beside;
+      if (title->wordWrap() != wraps) title->setWordWrap(wraps);
+    }
+  }
+
   QHBoxLayout* row_;
   std::vector<QLabel*> titles_;
 };

@@ -59,6 +59,7 @@ class PreviewStage : public QWidget {
                            PreviewPage::tr("Difference"), PreviewPage::tr("Uncertainty"),
                            PreviewPage::tr("Contradiction")});
     kind_->setObjectName("preview-kind");
+    kind_->foldIntoList(PreviewPage::tr("What of it is shown"));
     card_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, card_));
     card_->addAction(kind_);
     views_ = {place_ = new CornerView, new ImageView, new ImageView, new ImageView, new ImageView};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Texts that somebody typed are shown as they are.
+// Texts that somebody typed are shown as they are; choices have room or fold.
 #include "theme/controls.h"
 
+#include <QComboBox>
+#include <QSignalSpy>
 #include <QTextDocumentFragment>
 #include <QtTest>
 
@@ -30,6 +32,59 @@ class TestControls : public QObject {
     }
     const QString tip = elided->toolTip();
     QCOMPARE(Qt::mightBeRichText(tip) ? QTextDocumentFragment::fromHtml(tip).toPlainText() : tip, text);
+  }
+
+  /// Law: without room for a row what folds is as high as one line, all of which is seen, and chooses the
+  /// same.
+  void whatHasNoRoomFoldsIntoAList() {
+    Segmented segments({"Picture", "Reachable light", "Difference", "Contradiction"});
+    segments.foldIntoList("What is shown");
+    segments.setOffered(3, false);
+    const int row = segments.sizeHint().height(), wide = segments.sizeHint().width();
+    auto* list = segments.findChild<QComboBox*>();
+    QCOMPARE(list->accessibleName(), QString("What is shown"));
+    const auto buttons = [&] {
+      int visible = 0;
+      for (const QPushButton* button : segments.findChildren<QPushButton*>())
+        visible += button->isVisibleTo(&segments);
+      return visible;
+    };
+    segments.resize(wide, row);
+    QCoreApplication::sendPostedEvents();
+    QVERIFY(!list->isVisibleTo(&segments));
+    QCOMPARE(buttons(), 3);
+
+    segments.resize(wide - 1, row);
+    segments.show();
+    QVERIFY(segments.heightForWidth(wide - 1) < 2 * row);
+    QVERIFY(segments.minimumSizeHint().width() < wide - 1);
+    QVERIFY(list->isVisibleTo(&segments));
+    segments.resize(wide - 1, segments.heightForWidth(wide - 1));
+    QVERIFY2(segments.rect().contains(list->geometry()) && list->height() >= list->sizeHint().height(),
+             "the list is cut off");
+    QCOMPARE(buttons(), 0);
+    QCOMPARE(list->count(), 3);
+    QSignalSpy chosen(&segments, &Segmented::chosen);
+    Q_EMIT list->activated(2);
+    QCOMPARE(chosen.size(), 1);
+    QCOMPARE(chosen.at(0).at(0).toInt(), 2);
+    QCOMPARE(segments.current(), 2);
+    segments.setCurrent(1);
+    QCOMPARE(list->currentIndex(), 1);
+    segments.setOffered(3, true);
+    QCOMPARE(list->count(), 4);
+
+    // With room for it, the row is back.
+    segments.resize(segments.sizeHint().width(), row);
+    QVERIFY(!list->isVisibleTo(&segments));
+    QCOMPARE(buttons(), 4);
+  }
+
+  /// Others are stacked, as they were.
+  void whatDoesNotFoldIsStacked() {
+    Segmented segments({"Corrected", "Original"});
+    const int row = segments.sizeHint().height();
+    QVERIFY(segments.heightForWidth(segments.sizeHint().width() - 1) > 2 * row);
   }
 };
 

@@ -14,9 +14,11 @@
 #include "relucent/venue/venue.h"
 #include "views/image_view.h"
 #include "views/number_text.h"
+#include "wizard/acquire/acquire_view.h"
 #include "wizard/acquire/block_sizes_view.h"
 #include "wizard/acquire/outlook_view.h"
 #include "wizard/acquire/retrying_observer.h"
+#include "wizard/devices/device_selector.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -124,6 +126,32 @@ class TestAcquirePage : public QObject {
     QVERIFY(patterns > 0.0 && patterns < page.cost().value().patterns);
     QVERIFY(page.floodlightNumber() > 0);
     QCOMPARE(page.floodlight().size(), (Size{40, 30}));
+  }
+
+  /// Law: beside the choice of one of several devices, titles are read whole, and so is the choice.
+  void titlesHaveRoomBesideDevices() {
+    CalibrateSettings dome = smallVenue({24, 18}, {20, 16}, 5);
+    std::get<VenueSettings>(dome.rig).name = "dome4";
+    own_->begin(dome);
+    AcquirePage page(*session_);
+    const PageView view = viewOf(page);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    stage->resize(758, 580);  // of a window of 1366 x 768
+    stage->show();
+    page.primary()->trigger();
+    QVERIFY(page.isMeasuring());
+    auto* row = stage->findChild<QWidget*>("pattern-view")->parentWidget()->parentWidget();
+    QTRY_VERIFY(row->isVisible());
+    QCoreApplication::processEvents();
+    for (const DeviceSelector* selector : row->findChildren<DeviceSelector*>()) {
+      QVERIFY(selector->isVisible());
+      QVERIFY2(selector->width() >= selector->sizeHint().width(), qPrintable(selector->currentText()));
+      const auto* title = selector->parentWidget()->findChild<QLabel*>();
+      QVERIFY2(title->wordWrap() || title->width() >= title->sizeHint().width(), qPrintable(title->text()));
+      QVERIFY2(title->height() >= title->heightForWidth(title->width()), qPrintable(title->text()));
+    }
+    page.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
   }
 
   /// Law: one count of patterns says how far it is: it never says that all is done while it measures, falls

@@ -86,9 +86,11 @@ double roundedUp(double percents) {
 
 /// How far the photographs are from the curve that was fitted; hidden where that was not recorded.
 QWidget* residualCard(LinearizePage& model) {
-  auto* card = new Card(LinearizePage::tr("Residuals"));
+  auto* card = new Card(LinearizePage::tr("Off the curve"));
+  card->setToolTip(
+      LinearizePage::tr("Residuals: what was photographed, less the curve that was fitted to it."));
   const auto level = axisOf(0.0, codes, LinearizePage::tr("Level sent to the projector"));
-  const QString title = LinearizePage::tr("Photographed less fitted, % of full");
+  const QString title = LinearizePage::tr("Off the curve, % of full");
   auto* chart = new LineChart(level, axisOf(-1.0, 1.0, title));
   chart->setObjectName("residual-chart");
   chart->setAccessibleName(LinearizePage::tr("How far each level's light is from the fitted curve"));

@@ -89,8 +89,8 @@ NightsChart chartOf(const std::vector<pipeline::NightRecord>& nights, NightFigur
   }
   for (const double day : without) alarms.points.push_back({day, low});
   chart.x = axisOf(first, 0.0, Nights::tr("Days before the last night"));
-  chart.y =
-      axisOf(low, high, figure == NightFigure::psnr ? Nights::tr("PSNR, dB") : Nights::tr("Colour error ΔE"));
+  chart.y = axisOf(low, high,
+                   figure == NightFigure::psnr ? Nights::tr("Quality, dB") : Nights::tr("Colour error ΔE"));
   chart.summary = Nights::tr("%n night(s).", nullptr, static_cast<int>(nights.size()));
   if (!measured.line.empty()) {
     const auto [best, worst] = std::ranges::minmax_element(measured.line, {}, &charts::Point::y);

@@ -18,7 +18,10 @@ NightsDialog::NightsDialog(std::vector<pipeline::NightRecord> nights, QWidget* p
   column->setSpacing(12);
   auto* head = new QHBoxLayout;
   head->addWidget(labelOf(windowTitle(), "title"), 1);
-  figure_ = new Segmented({tr("Colour error"), tr("PSNR")});
+  figure_ = new Segmented({tr("Colour error"), tr("Quality")});
+  figure_->setToolTip(
+      tr("Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; "
+         "more is better."));
   figure_->setObjectName("nights-figure");
   head->addWidget(figure_);
   column->addLayout(head);

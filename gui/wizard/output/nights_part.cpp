@@ -48,9 +48,10 @@ void NightsPart::reload() {
   }
   open_->setEnabled(!nights_.empty());
   if (nights_.empty())
-    return last_->show(Remark::Kind::watch, tr("There was no night yet"),
-                       tr("A show that is started with --night looks after the picture by itself when it is "
-                          "dark: it checks, repairs, perfects and proves, and tells here what came of it."));
+    return last_->show(
+        Remark::Kind::watch, tr("There was no night yet"),
+        tr("A show can look after the picture by itself at night: it checks, repairs, perfects "
+           "and proves, and tells here what came of it. Help (F1) says how it is started so."));
   const pipeline::NightRecord& night = nights_.back();
   const bool isAlarm = !night.alarm.empty(), isLeftOut = !night.skipped.empty();
   last_->show(isAlarm     ? Remark::Kind::warning

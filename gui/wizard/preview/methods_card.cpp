@@ -71,15 +71,18 @@ MethodsCard::MethodsCard(PreviewPage& page, QWidget* parent)
   table_->setAccessibleName(PreviewPage::tr("Comparison of methods"));
   table_->setHorizontalHeaderLabels({PreviewPage::tr("Method"), PreviewPage::tr("Notes"),
                                      PreviewPage::tr("Colour error"), PreviewPage::tr("Still picture"),
-                                     PreviewPage::tr("PSNR"), PreviewPage::tr("SSIM")});
+                                     PreviewPage::tr("Quality"), PreviewPage::tr("Detail kept")});
   table_->horizontalHeaderItem(MethodsTable::time)
       ->setToolTip(
           PreviewPage::tr("How long a still picture takes to be solved, once. Films always play by “All "
                           "bounces, for films” in the quicker show engine: how fast is said at Cluster."));
   table_->horizontalHeaderItem(MethodsTable::psnr)
       ->setToolTip(
+          PreviewPage::tr("Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.") + ' ' +
           PreviewPage::tr("Of this content, where it can be reached. What Acquire expects is a mean of "
                           "other pictures: the two may differ by some dB."));
+  table_->horizontalHeaderItem(MethodsTable::ssim)
+      ->setToolTip(PreviewPage::tr("Structural similarity, SSIM: 1 is all of it."));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(26);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft);

@@ -342,6 +342,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>يجري قياسه.</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>إنه مفتوح. افتح موقعًا آخر ثم عد.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>أعطِ الموقع اسمًا.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>لا يجوز في الاسم شرطة مائلة.</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>لا يمكن أن يبدأ الاسم بنقطة: سيكون مجلده مخفيًا.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>يوجد مجلد بهذا الاسم. اختر اسمًا آخر.</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>يبدأ عرضه عند تسجيل الدخول. افتحه وأزل العرض المثبّت في «الخرج» أولًا.</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3490,6 +3521,10 @@
         <source>all projectors fully white</source>
         <translation>جميع أجهزة العرض بيضاء بالكامل</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>قراءة ما قيس</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4334,6 +4369,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>اعرف أي أجزاء السطح يضيء بعضها بعضًا، وقسّمها إلى مجموعات تُحل كل منها على حدة.</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>جُمّعت من جديد</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>تم التغيير: يُطبَّق بمجرد المتابعة.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4788,14 +4831,6 @@
         <translation>الألوان في حدود %1</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>البواقي</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>المصوَّر ناقص المنحنى، % من الكامل</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>بُعد ضوء كل مستوى عن المنحنى</translation>
     </message>
@@ -4806,6 +4841,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>يعرض نمط الاختبار الواحد درجات كثيرة جنبًا إلى جنب، فتكفي أنماط قليلة.</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>البعد عن المنحنى</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>البواقي: ما صُوِّر مطروحًا منه المنحنى المطابق له.</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>البعد عن المنحنى، % من الكامل</translation>
     </message>
 </context>
 <context>
@@ -4909,10 +4956,6 @@ projector %2</source>
         <translation>أيام قبل الليلة الأخيرة</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR، dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>خطأ اللون ΔE</translation>
     </message>
@@ -4962,6 +5005,10 @@ projector %2</source>
         <source>Nobody was told: %1</source>
         <translation>لم يُبلَّغ أحد: ⁨%1⁩</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>الجودة، dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4972,10 +5019,6 @@ projector %2</source>
     <message>
         <source>Colour error</source>
         <translation>خطأ اللون</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4992,6 +5035,14 @@ projector %2</source>
     <message>
         <source>Close</source>
         <translation>إغلاق</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>الجودة</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>خطأ اللون: CIEDE2000، الأقل أفضل. الجودة: نسبة ذروة الإشارة إلى الضوضاء PSNR بوحدة dB؛ الأكثر أفضل.</translation>
     </message>
 </context>
 <context>
@@ -5013,10 +5064,6 @@ projector %2</source>
         <translation>لم تمرّ أي ليلة بعد</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>العرض الذي يُشغَّل بالخيار ‎--night يعتني بالصورة بنفسه عندما يحلّ الظلام: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة.</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>لا بدّ من أن ينظر أحد، ⁨%1⁩</translation>
     </message>
@@ -5027,6 +5074,10 @@ projector %2</source>
     <message>
         <source>All is well, %1</source>
         <translation>كل شيء على ما يرام، ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>يمكن للعرض أن يعتني بالصورة بنفسه ليلًا: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة. المساعدة (F1) تبيّن كيف يُشغَّل هكذا.</translation>
     </message>
 </context>
 <context>
@@ -5877,6 +5928,30 @@ projector %2</source>
         <source>Keep</source>
         <translation>إبقاء</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>لإنهائه استمر في ضغط Esc مدة ثانيتين على شاشة جهاز العرض.</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>لوحة اختبار</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>لوحة اختبار على السطح. يعرض المفتاح T التالية ثم قائمة التشغيل.</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>إظهار قائمة التشغيل</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>لوحة اختبار على السطح</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>تستمر قائمة التشغيل دون أن تُرى حتى تُظهرها من جديد.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6185,14 +6260,6 @@ projector %2</source>
     <message>
         <source>Method</source>
         <translation>الطريقة</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6537,6 +6604,49 @@ projector %2</source>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>‏95 من كل 100 بكسل تبقى ضمن القيمة المعروضة، وفي المتوسط %1 من الأبيض</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>الجودة</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>التفاصيل المحفوظة</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>نسبة ذروة الإشارة إلى الضوضاء PSNR: تبدو 20 dB خشنة و30 dB جيدة.</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>التشابه البنيوي SSIM: القيمة 1 تعني كلها.</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>ما يُعرض منها</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>إعادة تسمية موقع</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>الاسم</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>لمجلده الاسم نفسه ويُعاد تسميته معه. والعرض الذي يبدأ عند تسجيل الدخول يتبعه.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>إعادة تسمية</translation>
     </message>
 </context>
 <context>
@@ -7321,6 +7431,10 @@ projector %2</source>
     <message>
         <source>Keep everything</source>
         <translation>الاحتفاظ بكل شيء</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>تم التغيير: يُطبَّق بمجرد المتابعة.</translation>
     </message>
 </context>
 <context>
@@ -8141,6 +8255,50 @@ projector %2</source>
             <numerusform>يجيب %n جهاز. اختر من قائمة كل منها.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>نقل إلى سلة المهملات</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>الإبقاء عليه</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>حاول بعد ذلك مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>لم يُفقد شيء من الموقع.</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>إزالة موقع</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>ينتقل «%1» إلى سلة المهملات مع لقطاته ونتائجه وقائمة تشغيله.</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>يمكن استرجاعه من هناك حتى تُفرَّغ سلة المهملات.</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>المزيد</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>المزيد لـ %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>إعادة تسمية…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>إزالة…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8185,6 +8343,13 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>لهذا العرض، ثبّت برنامج تشغيل بطاقة الرسوم وأعد تشغيل Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>لم يُطبَّق بعد</translation>
     </message>
 </context>
 <context>
@@ -9167,6 +9332,48 @@ projector %2</source>
     <message>
         <source>let it begin with one of {}</source>
         <translation>اجعله يبدأ بأحد هذه: {}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>لا يمكن فتح المجلد ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>لا يمكن إعادة تسمية المجلد ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>لا يمكن نقله إلى سلة المهملات</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>قد لا توجد سلة مهملات لهذا القرص: أزل المجلد بمدير الملفات</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>يعمل برنامج آخر على هذا الموقع</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>انتظر حتى ينتهي أو أغلقه، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>

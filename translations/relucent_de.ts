@@ -334,6 +334,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>Er wird gerade gemessen.</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>Er ist geöffnet. Öffnen Sie einen anderen Spielort und kommen Sie dann zurück.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Geben Sie dem Spielort einen Namen.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Ein Name darf keinen Schrägstrich enthalten.</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>Ein Name darf nicht mit einem Punkt beginnen: Sein Ordner wäre verborgen.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Einen Ordner dieses Namens gibt es schon. Wählen Sie einen anderen Namen.</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>Seine Show startet bei der Anmeldung. Öffnen Sie ihn und entfernen Sie zuerst bei Ausgabe die installierte Show.</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3402,6 +3433,10 @@
         <source>all projectors fully white</source>
         <translation>alle Projektoren ganz weiß</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>Gemessenes wird gelesen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4218,6 +4253,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>Sehen, welche Teile der Oberfläche einander beleuchten, und sie in Gruppen teilen, die für sich lösbar sind.</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>Neu gruppiert</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Geändert: Es gilt, sobald Sie weitergehen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4660,14 +4703,6 @@
         <translation>Farben auf %1 genau</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>Abweichungen</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>Foto minus Kurve, % der vollen</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>Wie weit das Licht jeder Stufe von der Kurve liegt</translation>
     </message>
@@ -4678,6 +4713,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>Ein Testmuster zeigt viele Stufen nebeneinander, darum genügen wenige Muster.</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>Abstand zur Kurve</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>Residuen: was fotografiert wurde, minus die daran angepasste Kurve.</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>Abstand zur Kurve, % von voll</translation>
     </message>
 </context>
 <context>
@@ -4781,10 +4828,6 @@ Projektor %2</translation>
         <translation>Tage vor der letzten Nacht</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR, dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>Farbfehler ΔE</translation>
     </message>
@@ -4826,6 +4869,10 @@ Projektor %2</translation>
         <source>Nobody was told: %1</source>
         <translation>Niemand wurde verständigt: %1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>Qualität, dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4836,10 +4883,6 @@ Projektor %2</translation>
     <message>
         <source>Colour error</source>
         <translation>Farbfehler</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4856,6 +4899,14 @@ Projektor %2</translation>
     <message>
         <source>Close</source>
         <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualität</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>Farbfehler: CIEDE2000, weniger ist besser. Qualität: Spitzen-Signal-Rausch-Verhältnis, PSNR, in dB; mehr ist besser.</translation>
     </message>
 </context>
 <context>
@@ -4877,10 +4928,6 @@ Projektor %2</translation>
         <translation>Es gab noch keine Nacht</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>Eine Show, die mit --night gestartet wird, sorgt im Dunkeln selbst für das Bild: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam.</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>Jemand muss nachsehen, %1</translation>
     </message>
@@ -4891,6 +4938,10 @@ Projektor %2</translation>
     <message>
         <source>All is well, %1</source>
         <translation>Alles ist gut, %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>Eine Show kann nachts selbst für das Bild sorgen: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam. Die Hilfe (F1) sagt, wie sie so gestartet wird.</translation>
     </message>
 </context>
 <context>
@@ -5737,6 +5788,30 @@ Projektor %2</translation>
         <source>Keep</source>
         <translation>Behalten</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>Zum Beenden halten Sie am Bildschirm des Projektors zwei Sekunden lang Esc gedrückt.</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Testbild</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>Auf der Oberfläche ist ein Testbild. T zeigt das nächste, dann die Playlist.</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>Playlist zeigen</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>Auf der Oberfläche ist ein Testbild</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>Die Playlist läuft ungesehen weiter, bis Sie sie wieder zeigen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6037,14 +6112,6 @@ Projektor %2</translation>
     <message>
         <source>Method</source>
         <translation>Methode</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6389,6 +6456,49 @@ Projektor %2</translation>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>95 von 100 Pixeln bleiben innerhalb des gezeigten Werts, im Mittel %1 von Weiß</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualität</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>Erhaltene Details</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>Spitzen-Signal-Rausch-Verhältnis, PSNR: 20 dB sehen grob aus, 30 dB gut.</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>Strukturelle Ähnlichkeit, SSIM: 1 heißt alle.</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>Was davon gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>Spielort umbenennen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>Sein Ordner heißt ebenso und wird mit umbenannt. Eine Show, die bei der Anmeldung startet, folgt ihm.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
     </message>
 </context>
 <context>
@@ -7149,6 +7259,10 @@ Projektor %2</translation>
     <message>
         <source>Keep everything</source>
         <translation>Alles behalten</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Geändert: Es gilt, sobald Sie weitergehen.</translation>
     </message>
 </context>
 <context>
@@ -7945,6 +8059,50 @@ Projektor %2</translation>
             <numerusform>%n antworten. Wählen Sie in der Liste eines jeden.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>In den Papierkorb</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Versuchen Sie es danach noch einmal.</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>Vom Spielort ist nichts verloren.</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>Spielort entfernen</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>„%1“ kommt in den Papierkorb, mit Fotos, Ergebnissen und Playlist.</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>Bis der Papierkorb geleert wird, lässt er sich von dort zurückholen.</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Mehr</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>Mehr zu %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Umbenennen…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>Entfernen…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7989,6 +8147,13 @@ Projektor %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Installieren Sie für diese Ansicht den Treiber der Grafikkarte und starten Sie Relucent neu.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>Noch nicht angewandt</translation>
     </message>
 </context>
 <context>
@@ -8963,6 +9128,48 @@ Projektor %2</translation>
     <message>
         <source>let it begin with one of {}</source>
         <translation>lassen Sie sie mit einem von diesen beginnen: {}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>der Ordner lässt sich nicht öffnen ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>der Ordner lässt sich nicht umbenennen ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>er lässt sich nicht in den Papierkorb verschieben</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>dieses Laufwerk hat vielleicht keinen: entfernen Sie den Ordner mit der Dateiverwaltung</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>ein anderes Programm arbeitet an diesem Spielort</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>warten Sie, bis es fertig ist, oder beenden Sie es, dann versuchen Sie es noch einmal</translation>
     </message>
 </context>
 <context>

@@ -334,6 +334,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>Se está midiendo.</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>Está abierto. Abra otro lugar y vuelva después.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Dé un nombre al lugar.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nombre no puede contener una barra (/).</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>Un nombre no puede empezar con un punto: su carpeta quedaría oculta.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Ya hay una carpeta con ese nombre. Elija otro.</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>Su show empieza al iniciar sesión. Ábralo y quite primero el show instalado en Salida.</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3402,6 +3433,10 @@
         <source>all projectors fully white</source>
         <translation>todos los proyectores totalmente blancos</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>Leyendo lo medido</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4218,6 +4253,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>Ver qué partes de la superficie se iluminan entre sí y dividirlas en grupos que se resuelven por separado.</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>Agrupado de nuevo</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Cambiado: se aplica en cuanto continúe.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4660,14 +4703,6 @@
         <translation>Colores con error de %1</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>Residuos</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>Fotografiado menos curva, % del máximo</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>Cuánto se aparta de la curva la luz de cada nivel</translation>
     </message>
@@ -4678,6 +4713,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>Un patrón de prueba muestra muchos niveles a la vez; por eso bastan pocos.</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>Desvío de la curva</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>Residuos: lo fotografiado menos la curva ajustada a ello.</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>Desvío de la curva, % del máximo</translation>
     </message>
 </context>
 <context>
@@ -4781,10 +4828,6 @@ proyector %2</translation>
         <translation>Días antes de la última noche</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR, dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>Error de color ΔE</translation>
     </message>
@@ -4826,6 +4869,10 @@ proyector %2</translation>
         <source>Nobody was told: %1</source>
         <translation>No se avisó a nadie: %1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>Calidad, dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4836,10 +4883,6 @@ proyector %2</translation>
     <message>
         <source>Colour error</source>
         <translation>Error de color</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4856,6 +4899,14 @@ proyector %2</translation>
     <message>
         <source>Close</source>
         <translation>Cerrar</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Calidad</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>Error de color: CIEDE2000, menos es mejor. Calidad: relación señal-ruido de pico, PSNR, en dB; más es mejor.</translation>
     </message>
 </context>
 <context>
@@ -4877,10 +4928,6 @@ proyector %2</translation>
         <translation>Aún no ha habido ninguna noche</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>Un espectáculo iniciado con --night cuida por sí solo de la imagen a oscuras: comprueba, repara, perfecciona y verifica, y dice aquí el resultado.</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>Alguien tiene que mirar, %1</translation>
     </message>
@@ -4891,6 +4938,10 @@ proyector %2</translation>
     <message>
         <source>All is well, %1</source>
         <translation>Todo va bien, %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>Un show puede cuidar por sí solo de la imagen de noche: comprueba, repara, perfecciona y prueba, y dice aquí el resultado. La ayuda (F1) dice cómo se inicia así.</translation>
     </message>
 </context>
 <context>
@@ -5737,6 +5788,30 @@ proyector %2</translation>
         <source>Keep</source>
         <translation>Conservar</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>Para terminarlo, mantenga Esc dos segundos en la pantalla del proyector.</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Carta de prueba</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>Hay una carta de prueba en la superficie. T muestra la siguiente y después la lista.</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>Mostrar la lista</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>Hay una carta de prueba en la superficie</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>La lista sigue sin verse hasta que la muestre de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6037,14 +6112,6 @@ proyector %2</translation>
     <message>
         <source>Method</source>
         <translation>Método</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6389,6 +6456,49 @@ proyector %2</translation>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>95 de cada 100 píxeles quedan dentro del valor mostrado, en promedio %1 del blanco</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Calidad</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>Detalle conservado</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>Relación señal-ruido de pico, PSNR: 20 dB se ven toscos, 30 dB bien.</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>Similitud estructural, SSIM: 1 es todo.</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>Qué se muestra de ello</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>Cambiar el nombre de un lugar</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>Su carpeta se llama igual y cambia con él. Un show que empieza al iniciar sesión lo sigue.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Cambiar nombre</translation>
     </message>
 </context>
 <context>
@@ -7149,6 +7259,10 @@ proyector %2</translation>
     <message>
         <source>Keep everything</source>
         <translation>Conservar todo</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Cambiado: se aplica en cuanto continúe.</translation>
     </message>
 </context>
 <context>
@@ -7945,6 +8059,50 @@ proyector %2</translation>
             <numerusform>%n responden. Elija en la lista de cada uno.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>Llevar a la papelera</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>Conservarlo</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Inténtelo de nuevo después.</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>No se ha perdido nada del lugar.</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>Quitar un lugar</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>«%1» va a la papelera, con sus fotografías, resultados y lista de reproducción.</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>Hasta que se vacíe la papelera se puede recuperar de allí.</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Más</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>Más para %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Cambiar nombre…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>Quitar…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7989,6 +8147,13 @@ proyector %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Para esta vista, instale el controlador de la tarjeta gráfica y reinicie Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>Aún sin aplicar</translation>
     </message>
 </context>
 <context>
@@ -8963,6 +9128,48 @@ proyector %2</translation>
     <message>
         <source>let it begin with one of {}</source>
         <translation>haga que empiece por uno de estos: {}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>la carpeta no se puede abrir ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>no se puede cambiar el nombre de la carpeta ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>no se puede llevar a la papelera</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>puede que este disco no tenga ninguna: quite la carpeta con el gestor de archivos</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>otro programa está trabajando en este lugar</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>espere a que termine o ciérrelo, e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>

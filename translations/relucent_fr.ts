@@ -334,6 +334,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>Il est en cours de mesure.</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>Il est ouvert. Ouvrez un autre lieu, puis revenez.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Donnez un nom au lieu.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nom ne peut pas contenir de barre oblique.</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>Un nom ne peut pas commencer par un point : son dossier serait masqué.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Un dossier porte déjà ce nom. Choisissez un autre nom.</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>Sa diffusion démarre à l’ouverture de session. Ouvrez-le et retirez d’abord la diffusion installée à Sortie.</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3402,6 +3433,10 @@
         <source>all projectors fully white</source>
         <translation>tous les projecteurs entièrement blancs</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>Lecture de ce qui a été mesuré</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4218,6 +4253,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>Voir quelles parties de la surface s’éclairent entre elles et les diviser en groupes qui se résolvent seuls.</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>Regroupé à nouveau</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Modifié : appliqué dès que vous continuez.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4660,14 +4703,6 @@
         <translation>Couleurs à %1 près</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>Résidus</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>Photographié moins courbe, % du maximum</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>Écart entre la lumière de chaque niveau et la courbe</translation>
     </message>
@@ -4678,6 +4713,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>Un motif de test montre de nombreux niveaux côte à côte : peu de motifs suffisent.</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>Écart à la courbe</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>Résidus : ce qui a été photographié, moins la courbe ajustée.</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>Écart à la courbe, % du maximum</translation>
     </message>
 </context>
 <context>
@@ -4781,10 +4828,6 @@ projecteur %2</translation>
         <translation>Jours avant la dernière nuit</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR, dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>Erreur de couleur ΔE</translation>
     </message>
@@ -4826,6 +4869,10 @@ projecteur %2</translation>
         <source>Nobody was told: %1</source>
         <translation>Personne n’a été prévenu : %1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>Qualité, dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4836,10 +4883,6 @@ projecteur %2</translation>
     <message>
         <source>Colour error</source>
         <translation>Erreur de couleur</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4856,6 +4899,14 @@ projecteur %2</translation>
     <message>
         <source>Close</source>
         <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualité</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>Erreur de couleur : CIEDE2000, moins vaut mieux. Qualité : rapport signal sur bruit de crête, PSNR, en dB ; plus vaut mieux.</translation>
     </message>
 </context>
 <context>
@@ -4877,10 +4928,6 @@ projecteur %2</translation>
         <translation>Il n’y a pas encore eu de nuit</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>Un spectacle lancé avec --night prend soin de l’image tout seul quand il fait sombre : il contrôle, répare, perfectionne et vérifie, et dit ici ce qu’il en est.</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>Quelqu’un doit aller voir, %1</translation>
     </message>
@@ -4891,6 +4938,10 @@ projecteur %2</translation>
     <message>
         <source>All is well, %1</source>
         <translation>Tout va bien, %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>Une diffusion peut prendre soin de l’image toute seule la nuit : elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. L’aide (F1) dit comment la lancer ainsi.</translation>
     </message>
 </context>
 <context>
@@ -5737,6 +5788,30 @@ projecteur %2</translation>
         <source>Keep</source>
         <translation>Garder</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>Pour y mettre fin, maintenez Échap deux secondes sur l’écran du projecteur.</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Mire</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>Une mire est sur la surface. T affiche la suivante, puis la liste de lecture.</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>Afficher la liste</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>Une mire est sur la surface</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>La liste de lecture continue sans être vue jusqu’à ce que vous la réaffichiez.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6037,14 +6112,6 @@ projecteur %2</translation>
     <message>
         <source>Method</source>
         <translation>Méthode</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6389,6 +6456,49 @@ projecteur %2</translation>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>95 pixels sur 100 restent dans la valeur affichée, en moyenne %1 du blanc</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualité</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>Détail conservé</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>Rapport signal sur bruit de crête, PSNR : 20 dB paraissent grossiers, 30 dB bons.</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>Similarité structurelle, SSIM : 1 signifie tout.</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>Ce qui en est montré</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>Renommer un lieu</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>Son dossier porte le même nom et est renommé avec lui. Une diffusion qui démarre à l’ouverture de session suit.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Renommer</translation>
     </message>
 </context>
 <context>
@@ -7149,6 +7259,10 @@ projecteur %2</translation>
     <message>
         <source>Keep everything</source>
         <translation>Tout garder</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Modifié : appliqué dès que vous continuez.</translation>
     </message>
 </context>
 <context>
@@ -7945,6 +8059,50 @@ projecteur %2</translation>
             <numerusform>%n répondent. Choisissez dans la liste de chacun.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>Mettre à la corbeille</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>Le garder</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Réessayez ensuite.</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>Rien du lieu n’est perdu.</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>Supprimer un lieu</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>« %1 » va à la corbeille, avec ses photos, ses résultats et sa liste de lecture.</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>Jusqu’à ce que la corbeille soit vidée, il peut en être repris.</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Plus</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>Plus pour %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Renommer…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>Supprimer…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7989,6 +8147,13 @@ projecteur %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Pour cette vue, installez le pilote de la carte graphique et redémarrez Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>Pas encore appliqué</translation>
     </message>
 </context>
 <context>
@@ -8963,6 +9128,48 @@ projecteur %2</translation>
     <message>
         <source>let it begin with one of {}</source>
         <translation>faites-la commencer par l’un de : {}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>le dossier ne peut pas être ouvert ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>le dossier ne peut pas être renommé ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>il ne peut pas être mis à la corbeille</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>ce disque n’en a peut-être pas : supprimez le dossier avec le gestionnaire de fichiers</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>un autre programme travaille sur ce lieu</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>attendez qu’il ait fini ou fermez-le, puis réessayez</translation>
     </message>
 </context>
 <context>

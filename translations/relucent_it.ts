@@ -334,6 +334,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>È in corso di misura.</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>È aperto. Aprire un altro luogo, poi tornare qui.</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>Dare un nome al luogo.</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>Un nome non può contenere barre.</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>Un nome non può iniziare con un punto: la sua cartella sarebbe nascosta.</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>Esiste già una cartella con quel nome. Scegliere un altro nome.</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>Il suo show parte all’accesso. Aprirlo e rimuovere prima lo show installato in Uscita.</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3402,6 +3433,10 @@
         <source>all projectors fully white</source>
         <translation>tutti i proiettori completamente bianchi</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>Lettura di ciò che è stato misurato</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4218,6 +4253,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>Vedere quali parti della superficie si illuminano a vicenda e dividerle in gruppi risolvibili da soli.</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>Raggruppato di nuovo</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Modificato: si applica appena si prosegue.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4660,14 +4703,6 @@
         <translation>Colori entro %1</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>Residui</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>Fotografato meno curva, % del massimo</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>Quanto dista dalla curva la luce di ogni livello</translation>
     </message>
@@ -4678,6 +4713,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>Un pattern di prova mostra molti livelli affiancati: bastano pochi pattern.</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>Scarto dalla curva</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>Residui: ciò che è stato fotografato meno la curva adattata.</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>Scarto dalla curva, % del massimo</translation>
     </message>
 </context>
 <context>
@@ -4781,10 +4828,6 @@ proiettore %2</translation>
         <translation>Giorni prima dell’ultima notte</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR, dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>Errore di colore ΔE</translation>
     </message>
@@ -4826,6 +4869,10 @@ proiettore %2</translation>
         <source>Nobody was told: %1</source>
         <translation>Nessuno è stato avvisato: %1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>Qualità, dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4836,10 +4883,6 @@ proiettore %2</translation>
     <message>
         <source>Colour error</source>
         <translation>Errore di colore</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4856,6 +4899,14 @@ proiettore %2</translation>
     <message>
         <source>Close</source>
         <translation>Chiudi</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualità</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>Errore di colore: CIEDE2000, meno è meglio. Qualità: rapporto segnale-rumore di picco, PSNR, in dB; più è meglio.</translation>
     </message>
 </context>
 <context>
@@ -4877,10 +4928,6 @@ proiettore %2</translation>
         <translation>Non c’è ancora stata nessuna notte</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>Uno spettacolo avviato con --night si prende cura da solo dell’immagine al buio: controlla, ripara, perfeziona e verifica, e dice qui l’esito.</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>Qualcuno deve controllare, %1</translation>
     </message>
@@ -4891,6 +4938,10 @@ proiettore %2</translation>
     <message>
         <source>All is well, %1</source>
         <translation>Tutto bene, %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>Uno show può prendersi cura da solo dell’immagine di notte: controlla, ripara, perfeziona e dimostra, e dice qui l’esito. La guida (F1) dice come avviarlo così.</translation>
     </message>
 </context>
 <context>
@@ -5737,6 +5788,30 @@ proiettore %2</translation>
         <source>Keep</source>
         <translation>Mantieni</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>Per terminarlo, tenere premuto Esc per due secondi sullo schermo del proiettore.</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>Carta di test</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>Sulla superficie c’è una carta di test. T mostra la prossima, poi la playlist.</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>Mostra la playlist</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>Sulla superficie c’è una carta di test</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>La playlist prosegue non vista finché non la si mostra di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6037,14 +6112,6 @@ proiettore %2</translation>
     <message>
         <source>Method</source>
         <translation>Metodo</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6389,6 +6456,49 @@ proiettore %2</translation>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>95 pixel su 100 restano entro il valore mostrato, in media %1 del bianco</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>Qualità</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>Dettaglio conservato</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>Rapporto segnale-rumore di picco, PSNR: 20 dB appaiono grezzi, 30 dB buoni.</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>Somiglianza strutturale, SSIM: 1 significa tutto.</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>Che cosa ne viene mostrato</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>Rinomina un luogo</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>La sua cartella ha lo stesso nome e viene rinominata con esso. Uno show che parte all’accesso lo segue.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Rinomina</translation>
     </message>
 </context>
 <context>
@@ -7149,6 +7259,10 @@ proiettore %2</translation>
     <message>
         <source>Keep everything</source>
         <translation>Conserva tutto</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>Modificato: si applica appena si prosegue.</translation>
     </message>
 </context>
 <context>
@@ -7945,6 +8059,50 @@ proiettore %2</translation>
             <numerusform>%n rispondono. Scelga nella lista di ciascuno.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>Sposta nel cestino</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>Mantienilo</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>Riprovare dopo.</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>Del luogo non si è perso nulla.</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>Rimuovi un luogo</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>«%1» va nel cestino, con foto, risultati e playlist.</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>Finché il cestino non viene svuotato, lo si può recuperare da lì.</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Altro</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>Altro per %1</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Rinomina…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>Rimuovi…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7989,6 +8147,13 @@ proiettore %2</translation>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>Per questa vista, installare il driver della scheda grafica e riavviare Relucent.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>Non ancora applicato</translation>
     </message>
 </context>
 <context>
@@ -8963,6 +9128,48 @@ proiettore %2</translation>
     <message>
         <source>let it begin with one of {}</source>
         <translation>farlo iniziare con uno di questi: {}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>la cartella non si può aprire ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>la cartella non si può rinominare ({})</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>non si può spostare nel cestino</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>questo disco forse non ne ha uno: rimuovere la cartella con il gestore di file</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>un altro programma sta lavorando su questo luogo</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>attendere che abbia finito o chiuderlo, poi riprovare</translation>
     </message>
 </context>
 <context>

@@ -332,6 +332,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>測定中です。</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>開いています。別の会場を開いてから戻ってください。</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>会場の名前を入力してください。</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>名前にスラッシュは使えません。</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>名前をピリオドで始めることはできません。フォルダーが隠れてしまいます。</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>同じ名前のフォルダーがあります。別の名前にしてください。</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>この会場のショーはログイン時に始まります。会場を開き、先に「出力」で登録したショーを解除してください。</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3380,6 +3411,10 @@
         <source>all projectors fully white</source>
         <translation>すべてのプロジェクターが全面白</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>測定結果を読み込んでいます</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4189,6 +4224,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>投影面のどの部分が互いに照らし合うかを調べ、個別に解けるグループに分けます。</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>新たに分割済み</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>変更済み：次へ進むと適用されます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4628,14 +4671,6 @@
         <translation>色の誤差 %1 以内</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>残差</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>撮影値 − 曲線、最大の %</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>各レベルの光と曲線との差</translation>
     </message>
@@ -4646,6 +4681,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>1 枚のテストパターンに多くの段階が並ぶため、少ない枚数で足ります。</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>曲線からのずれ</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>残差：撮影した値から、当てはめた曲線を引いたものです。</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>曲線からのずれ、最大の %</translation>
     </message>
 </context>
 <context>
@@ -4749,10 +4796,6 @@ projector %2</source>
         <translation>最後の夜までの日数</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR、dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>色の誤差 ΔE</translation>
     </message>
@@ -4792,6 +4835,10 @@ projector %2</source>
         <source>Nobody was told: %1</source>
         <translation>誰にも通知できませんでした：%1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>画質、dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4802,10 +4849,6 @@ projector %2</source>
     <message>
         <source>Colour error</source>
         <translation>色の誤差</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4822,6 +4865,14 @@ projector %2</source>
     <message>
         <source>Close</source>
         <translation>閉じる</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>画質</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>色の誤差：CIEDE2000、小さいほど良好。画質：ピーク信号対雑音比（PSNR）、dB、大きいほど良好。</translation>
     </message>
 </context>
 <context>
@@ -4843,10 +4894,6 @@ projector %2</source>
         <translation>まだ夜の記録がありません</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>--night を付けて始めたショーは、暗い間に自分で画像を手入れします：確認、修復、仕上げ、検証を行い、その結果をここに示します。</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>確認が必要です、%1</translation>
     </message>
@@ -4857,6 +4904,10 @@ projector %2</source>
     <message>
         <source>All is well, %1</source>
         <translation>問題ありません、%1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>ショーは夜間に自分で映像を手入れできます：確認し、修復し、仕上げ、検証して、結果をここに示します。その始め方はヘルプ（F1）にあります。</translation>
     </message>
 </context>
 <context>
@@ -5702,6 +5753,30 @@ projector %2</source>
         <source>Keep</source>
         <translation>残す</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>終了するには、プロジェクターの画面で Esc を 2 秒間押し続けます。</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>テストチャート</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>表面にテストチャートを投影中です。T で次のチャート、その後はプレイリストに戻ります。</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>プレイリストを表示</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>表面にテストチャートを投影中です</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>もう一度表示するまで、プレイリストは見えないまま進みます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6000,14 +6075,6 @@ projector %2</source>
     <message>
         <source>Method</source>
         <translation>方式</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6352,6 +6419,49 @@ projector %2</source>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>100画素のうち95画素が表示値の範囲に収まります。平均は白の%1です</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>画質</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>細部の再現</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>ピーク信号対雑音比（PSNR）：20 dB は粗く、30 dB は良好に見えます。</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>構造的類似度（SSIM）：1 ですべて再現。</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>表示する内容</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>会場の名前を変更</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>フォルダーも同じ名前で、一緒に変更されます。ログイン時に始まるショーも追従します。</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>名前を変更</translation>
     </message>
 </context>
 <context>
@@ -7106,6 +7216,10 @@ projector %2</source>
     <message>
         <source>Keep everything</source>
         <translation>すべて残す</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>変更済み：次へ進むと適用されます。</translation>
     </message>
 </context>
 <context>
@@ -7896,6 +8010,50 @@ projector %2</source>
             <numerusform>%n 台が応答しました。それぞれのリストから選んでください。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>ゴミ箱に移す</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>残しておく</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>そのあとでもう一度お試しください。</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>会場のデータは何も失われていません。</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>会場を削除</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>「%1」を、写真、結果、プレイリストごとゴミ箱に移します。</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>ゴミ箱を空にするまでは、そこから元に戻せます。</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>その他</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>%1 のその他の操作</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>名前を変更…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>削除…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7940,6 +8098,13 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>この表示には、グラフィックカードのドライバーをインストールして Relucent を再起動してください。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>まだ適用されていません</translation>
     </message>
 </context>
 <context>
@@ -8912,6 +9077,48 @@ projector %2</source>
     <message>
         <source>let it begin with one of {}</source>
         <translation>次のいずれかで始めてください：{}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>フォルダーを開けません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>フォルダーの名前を変更できません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>ゴミ箱に移せません</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>このディスクにはゴミ箱がないかもしれません。ファイルマネージャーでフォルダーを削除してください</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>別のプログラムがこの会場を処理しています</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>終わるまで待つか、そのプログラムを閉じてから、もう一度お試しください</translation>
     </message>
 </context>
 <context>

@@ -332,6 +332,37 @@
     </message>
 </context>
 <context>
+    <name>VenueKeeping</name>
+    <message>
+        <source>It is being measured.</source>
+        <translation>正在测量中。</translation>
+    </message>
+    <message>
+        <source>It is open. Open another venue, then come back.</source>
+        <translation>它已打开。请先打开另一个场地再回来。</translation>
+    </message>
+    <message>
+        <source>Give the venue a name.</source>
+        <translation>请为场地命名。</translation>
+    </message>
+    <message>
+        <source>A name cannot hold a slash.</source>
+        <translation>名称不能包含斜杠。</translation>
+    </message>
+    <message>
+        <source>A name cannot begin with a full stop: its folder would be hidden.</source>
+        <translation>名称不能以句点开头：其文件夹会被隐藏。</translation>
+    </message>
+    <message>
+        <source>There is a folder of that name. Choose another name.</source>
+        <translation>已有同名文件夹。请换一个名称。</translation>
+    </message>
+    <message>
+        <source>Its show starts at log-in. Open it, and remove the installed show at Output first.</source>
+        <translation>其节目在登录时开始。请先打开它，在“输出”中移除已安装的节目。</translation>
+    </message>
+</context>
+<context>
     <name>ViewActions</name>
     <message>
         <source>Show everything</source>
@@ -3380,6 +3411,10 @@
         <source>all projectors fully white</source>
         <translation>所有投影机全白</translation>
     </message>
+    <message>
+        <source>Reading what was measured</source>
+        <translation>正在读取测量结果</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4189,6 +4224,14 @@
         <source>See which parts of the surface light each other, and split them into groups that can be solved on their own.</source>
         <translation>查看表面哪些部分互相照亮，并分成可各自求解的组。</translation>
     </message>
+    <message>
+        <source>Grouped anew</source>
+        <translation>已重新分组</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>已更改：继续后即生效。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4628,14 +4671,6 @@
         <translation>颜色误差 %1</translation>
     </message>
     <message>
-        <source>Residuals</source>
-        <translation>残差</translation>
-    </message>
-    <message>
-        <source>Photographed less fitted, % of full</source>
-        <translation>拍摄值减曲线，占最大值的 %</translation>
-    </message>
-    <message>
         <source>How far each level&apos;s light is from the fitted curve</source>
         <translation>每级的光与拟合曲线之差</translation>
     </message>
@@ -4646,6 +4681,18 @@
     <message>
         <source>One test pattern shows many levels side by side, so few patterns are enough.</source>
         <translation>一个测试图案并排显示许多级，因此只需少量图案。</translation>
+    </message>
+    <message>
+        <source>Off the curve</source>
+        <translation>与曲线的偏差</translation>
+    </message>
+    <message>
+        <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
+        <translation>残差：拍摄值减去拟合曲线。</translation>
+    </message>
+    <message>
+        <source>Off the curve, % of full</source>
+        <translation>与曲线的偏差，满值的 %</translation>
     </message>
 </context>
 <context>
@@ -4749,10 +4796,6 @@ projector %2</source>
         <translation>距最后一夜的天数</translation>
     </message>
     <message>
-        <source>PSNR, dB</source>
-        <translation>PSNR，dB</translation>
-    </message>
-    <message>
         <source>Colour error ΔE</source>
         <translation>颜色误差 ΔE</translation>
     </message>
@@ -4792,6 +4835,10 @@ projector %2</source>
         <source>Nobody was told: %1</source>
         <translation>未能通知任何人：%1</translation>
     </message>
+    <message>
+        <source>Quality, dB</source>
+        <translation>质量，dB</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::NightsDialog</name>
@@ -4802,10 +4849,6 @@ projector %2</source>
     <message>
         <source>Colour error</source>
         <translation>颜色误差</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
     </message>
     <message>
         <source>What the photograph of each night&apos;s proof came to, beside what was predicted.</source>
@@ -4822,6 +4865,14 @@ projector %2</source>
     <message>
         <source>Close</source>
         <translation>关闭</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>质量</translation>
+    </message>
+    <message>
+        <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
+        <translation>颜色误差：CIEDE2000，越小越好。质量：峰值信噪比（PSNR），单位 dB，越大越好。</translation>
     </message>
 </context>
 <context>
@@ -4843,10 +4894,6 @@ projector %2</source>
         <translation>还没有夜间记录</translation>
     </message>
     <message>
-        <source>A show that is started with --night looks after the picture by itself when it is dark: it checks, repairs, perfects and proves, and tells here what came of it.</source>
-        <translation>用 --night 启动的演出会在黑暗时自行维护图像：检查、修复、完善并验证，并在此说明结果。</translation>
-    </message>
-    <message>
         <source>Somebody has to look, %1</source>
         <translation>需要有人查看，%1</translation>
     </message>
@@ -4857,6 +4904,10 @@ projector %2</source>
     <message>
         <source>All is well, %1</source>
         <translation>一切正常，%1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
+        <translation>节目可在夜间自行维护画面：检查、修复、完善并验证，并在此说明结果。启动方法见帮助（F1）。</translation>
     </message>
 </context>
 <context>
@@ -5702,6 +5753,30 @@ projector %2</source>
         <source>Keep</source>
         <translation>保留</translation>
     </message>
+    <message>
+        <source>To end it, hold Esc for two seconds at the projector&apos;s screen.</source>
+        <translation>要结束它，请在投影机屏幕上按住 Esc 两秒。</translation>
+    </message>
+    <message>
+        <source>Test chart</source>
+        <translation>测试图卡</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface. T shows the next one, then the playlist.</source>
+        <translation>表面上正显示测试图卡。按 T 显示下一个，然后回到播放列表。</translation>
+    </message>
+    <message>
+        <source>Show the playlist</source>
+        <translation>显示播放列表</translation>
+    </message>
+    <message>
+        <source>A test chart is on the surface</source>
+        <translation>表面上正显示测试图卡</translation>
+    </message>
+    <message>
+        <source>The playlist runs on unseen until you show it again.</source>
+        <translation>播放列表在不可见的状态下继续，直到您再次显示。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6000,14 +6075,6 @@ projector %2</source>
     <message>
         <source>Method</source>
         <translation>方法</translation>
-    </message>
-    <message>
-        <source>PSNR</source>
-        <translation>PSNR</translation>
-    </message>
-    <message>
-        <source>SSIM</source>
-        <translation>SSIM</translation>
     </message>
     <message>
         <source>Notes</source>
@@ -6352,6 +6419,49 @@ projector %2</source>
     <message>
         <source>95 of 100 pixels come within the value shown, on average %1 of white</source>
         <translation>100 个像素中有 95 个在所示数值以内，平均为白色的 %1</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>质量</translation>
+    </message>
+    <message>
+        <source>Detail kept</source>
+        <translation>保留的细节</translation>
+    </message>
+    <message>
+        <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
+        <translation>峰值信噪比（PSNR）：20 dB 显得粗糙，30 dB 良好。</translation>
+    </message>
+    <message>
+        <source>Structural similarity, SSIM: 1 is all of it.</source>
+        <translation>结构相似度（SSIM）：1 表示全部保留。</translation>
+    </message>
+    <message>
+        <source>What of it is shown</source>
+        <translation>显示的内容</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
+        <source>Rename a venue</source>
+        <translation>重命名场地</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
+        <translation>其文件夹同名，会一并重命名。登录时开始的节目也会随之更新。</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>重命名</translation>
     </message>
 </context>
 <context>
@@ -7106,6 +7216,10 @@ projector %2</source>
     <message>
         <source>Keep everything</source>
         <translation>全部保留</translation>
+    </message>
+    <message>
+        <source>Changed: it is applied as soon as you go on.</source>
+        <translation>已更改：继续后即生效。</translation>
     </message>
 </context>
 <context>
@@ -7896,6 +8010,50 @@ projector %2</source>
             <numerusform>%n 台应答。请在各自的列表中选择。</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Move to the trash</source>
+        <translation>移到回收站</translation>
+    </message>
+    <message>
+        <source>Keep it</source>
+        <translation>保留它</translation>
+    </message>
+    <message>
+        <source>Try again then.</source>
+        <translation>之后请重试。</translation>
+    </message>
+    <message>
+        <source>Nothing of the venue is lost.</source>
+        <translation>场地的内容没有任何丢失。</translation>
+    </message>
+    <message>
+        <source>Remove a venue</source>
+        <translation>移除场地</translation>
+    </message>
+    <message>
+        <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
+        <translation>“%1”将连同照片、结果和播放列表移到回收站。</translation>
+    </message>
+    <message>
+        <source>Until the trash is emptied it can be taken back from there.</source>
+        <translation>在清空回收站之前，可以从那里恢复。</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
+    </message>
+    <message>
+        <source>More for %1</source>
+        <translation>%1 的更多操作</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>重命名…</translation>
+    </message>
+    <message>
+        <source>Remove…</source>
+        <translation>移除…</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -7940,6 +8098,13 @@ projector %2</source>
     <message>
         <source>For this view, install the graphics card&apos;s driver and start Relucent again.</source>
         <translation>要使用此视图，请安装显卡驱动并重新启动 Relucent。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::Wizard</name>
+    <message>
+        <source>Not applied yet</source>
+        <translation>尚未应用</translation>
     </message>
 </context>
 <context>
@@ -8912,6 +9077,48 @@ projector %2</source>
     <message>
         <source>let it begin with one of {}</source>
         <translation>请以下列之一开头：{}</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-open-folder</name>
+    <message>
+        <source>the folder cannot be opened ({})</source>
+        <translation>无法打开该文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>venue.cannot-rename</name>
+    <message>
+        <source>the folder cannot be renamed ({})</source>
+        <translation>无法重命名该文件夹（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>venue.no-trash</name>
+    <message>
+        <source>it cannot be moved to the trash</source>
+        <translation>无法移到回收站</translation>
+    </message>
+</context>
+<context>
+    <name>venue.remove-folder-yourself</name>
+    <message>
+        <source>this disk may have none: remove the folder with the file manager</source>
+        <translation>此磁盘可能没有回收站：请用文件管理器删除该文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>venue.used-by-another</name>
+    <message>
+        <source>another program is working on this venue</source>
+        <translation>另一个程序正在处理此场地</translation>
+    </message>
+</context>
+<context>
+    <name>venue.wait-for-another</name>
+    <message>
+        <source>wait until it has finished, or close it, then try again</source>
+        <translation>请等待其完成或将其关闭，然后重试</translation>
     </message>
 </context>
 <context>

@@ -24,6 +24,8 @@ class MethodsTable : public QTableWidget {
   }
   void fit() {
     int needed = 0;
+    // The heading of a column that is hidden has no width.
+    for (int column = psnr; column < columns; ++column) setColumnHidden(column, false);
     for (int column = 0; column < columns; ++column) {
       needed += std::max(sizeHintForColumn(column), horizontalHeader()->sectionSizeHint(column)) + cellMargin;
       if (column >= psnr) setColumnHidden(column, needed > viewport()->width());

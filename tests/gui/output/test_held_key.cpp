@@ -5,6 +5,7 @@
 #include <QElapsedTimer>
 #include <QKeyEvent>
 #include <QSignalSpy>
+#include <QTimer>
 #include <QWindow>
 #include <QtTest>
 
@@ -35,10 +36,15 @@ class TestHeldKey : public QObject {
     time.start();
     send(window, QEvent::KeyPress);
     QCOMPARE(held.size(), 0);
-    send(window, QEvent::KeyRelease, Qt::Key_Escape, true);
-    send(window, QEvent::KeyPress, Qt::Key_Escape, true);
+    QTimer repeating;
+    connect(&repeating, &QTimer::timeout, &window, [&window] {
+      send(window, QEvent::KeyRelease, Qt::Key_Escape, true);
+      send(window, QEvent::KeyPress, Qt::Key_Escape, true);
+    });
+    repeating.start(enough / 4);
     QTRY_COMPARE(held.size(), 1);
     QVERIFY(time.elapsed() >= enough.count() - 1);
+    repeating.stop();
     send(window, QEvent::KeyPress, Qt::Key_Escape, true);
     send(window, QEvent::KeyRelease);
     QTest::qWait(2 * enough.count());

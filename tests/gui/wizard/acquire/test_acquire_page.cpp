@@ -329,6 +329,8 @@ class TestAcquirePage : public QObject {
     AcquirePage page(*session_);
     measureResponse();
     const std::unique_ptr<QWidget> card(blockSizesCard(page));
+    card->resize(900, 200);
+    card->show();
     page.refresh();
     const auto said = [&card] {
       QStringList texts;

@@ -10,10 +10,13 @@
 
 namespace relucent::engine {
 
+/// What a camera pixel is known by: six vectors, see common.glsl.
+inline constexpr std::size_t knownFloats = 24, bytesKnown = knownFloats * sizeof(float);
+
 /// Buffers and programs of a frame on a graphics card, and its stages. The context must be current in all
 /// calls.
 struct OpenGlBackend::Objects {
-  explicit Objects(const EngineVenue& engine);
+  Objects(const EngineVenue& engine, std::size_t mostBound);
 
   void setContent(const EngineContent& content);
   /// What depends on what is free; `last`: with what was projected last.
@@ -44,14 +47,20 @@ struct OpenGlBackend::Objects {
   }
 
   /// Part of a buffer that a shader can bind at once.
+  struct Part {
+    std::size_t begin = 0, bytes = 0;
+  };
   struct Batch {
-    std::size_t first, count;  // tiles or slices
-    std::size_t begin, bytes;  // of the buffer that is bound in parts
+    std::size_t first, count;  // tiles, slices or camera pixels
+    Part part;                 // of the buffer that is bound in parts
     std::size_t projector = 0;
+    // Of slices of camera pixels: their rows, and the range of pixels that these are of.
+    Part rows{}, camera{};
   };
   struct Slices {
     Slices() = default;
-    explicit Slices(const LeafSlices& from);
+    Slices(const LeafSlices& from, std::size_t most) : Slices(from, {}, most) {}
+    Slices(const LeafSlices& from, const std::vector<SlicedTransport::Row>& rows, std::size_t most);
     GlBuffer slices, leaves;
     std::vector<Batch> batches;
   };
@@ -77,7 +86,7 @@ struct OpenGlBackend::Objects {
   GlProgram showing{shaders::show_placed}, encoding{shaders::encode};
 
   GlBuffer tiles, windowRows, windowWeights;
-  std::vector<Batch> tileBatches;
+  std::vector<Batch> tileBatches, cameraBatches;
   Slices forward, groupForward, backward;
   GlBuffer rows, groups, groupBack, nodes, nodeStart, segments, longNodes;
   std::size_t columns = 0, groupSlots = 0, longCount = 0, nodeCount = 0, cameraPixels = 0,

@@ -19,6 +19,9 @@ layout(location = 0) uniform uint firstSlice;
 layout(location = 1) uniform uint slices;
 layout(location = 2) uniform uint leavesBefore;  // / 32: those of the slices before what is bound
 layout(location = 3) uniform uint columns;       // behind their light there is that of groups
+#ifdef CORRECTION
+layout(location = 4) uniform uint pixelsBefore;  // those that `camera` knows
+#endif
 
 mat3 mixingAt(uint at) {  // its columns are the mixing's rows
   mat3 mixing;
@@ -32,8 +35,7 @@ void main() {
   if (index >= slices) return;
   uvec2 here = slice[firstSlice + index];
   uint end = slice[firstSlice + index + 1u].x - leavesBefore;
-  uint slot = 32u * (firstSlice + index) + lane;
-  uint r = rowStride * slot;
+  uint r = rowStride * (32u * index + lane);
   vec3 own = vec3(0.0);
   for (uint k = here.x - leavesBefore; k < end; ++k) {
     uvec2 one = leaf[32u * k + lane];
@@ -58,7 +60,7 @@ void main() {
   uint group = row[r + rowGroup];
   if (group != nothing) seen += unpackFloats(columnLight[columns + group]) * sharedMixing;
 #ifdef CORRECTION
-  uint c = cameraStride * pixel;
+  uint c = cameraStride * (pixel - pixelsBefore);
   vec3 held = clamp(want.xyz, vec3(0.0), max(camera[c + cameraFlood].xyz, vec3(0.0)));
   vec3 residual = want.w * (held - seen);
   vec3 lit = want.w * camera[c + cameraLit].xyz;

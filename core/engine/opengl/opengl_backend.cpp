@@ -15,7 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t vector = 4 * sizeof(float);
-constexpr std::size_t knownFloats = 24;  // six vectors a camera pixel
 
 /// Tiles as their shader reads them: the first row of the window and the scales of its weights.
 std::vector<std::array<std::uint32_t, 4>> tilesOf(const inverse::WindowArrays& windows) {
@@ -56,9 +55,9 @@ GlBuffer bufferOf(std::span<const float> values) {
 
 /// The ranges of tiles whose weights a shader can reach at once.
 template <typename Batch>
-std::vector<Batch> batchesOf(const inverse::WindowArrays& windows) {
+std::vector<Batch> batchesOf(const inverse::WindowArrays& windows, std::size_t most) {
   const std::size_t bytesOfARow = 6 * static_cast<std::size_t>(windows.tile * windows.tile);
-  const std::size_t alignment = GlBuffer::alignment(), most = GlBuffer::largest();
+  const std::size_t alignment = GlBuffer::alignment();
   std::vector<Batch> batches;
   for (std::size_t projector = 0; projector < windows.tiles->devices(); ++projector) {
     std::size_t tile = windows.tiles->offset(projector);
@@ -69,44 +68,99 @@ std::vector<Batch> batchesOf(const inverse::WindowArrays& windows) {
       while (end < last && bytesOfARow * windows.start[end + 1] - begin <= most) ++end;
       // One byte at the least: windows may be empty.
       const std::size_t bytes = std::max<std::size_t>(bytesOfARow * windows.start[end] - begin, 4);
-      batches.push_back({tile, end - tile, begin, bytes, projector});
+      batches.push_back({tile, end - tile, {begin, bytes}, projector});
       tile = end;
     }
   }
   return batches;
 }
 
+/// Camera pixels begin a part at multiples of so many, and slices of them: what they are known by and their
+/// rows are then aligned to 256 bytes, the most that OpenGL may ask for.
+constexpr std::size_t pixelsOfAPart = 8, slicesOfAPart = 8;
+static_assert(pixelsOfAPart * bytesKnown % 256 == 0 &&
+              slicesOfAPart * LeafSlices::lanes * sizeof(SlicedTransport::Row) % 256 == 0);
+
+/// The ranges of camera pixels of which a shader can reach at once what they are known by.
+template <typename Batch>
+std::vector<Batch> batchesOf(std::size_t pixels, std::size_t most) {
+  const std::size_t atOnce = std::max(most / bytesKnown / pixelsOfAPart, std::size_t{1}) * pixelsOfAPart;
+  std::vector<Batch> batches;
+  for (std::size_t first = 0; first < pixels; first += atOnce) {
+    const std::size_t count = std::min(atOnce, pixels - first);
+    batches.push_back({first, count, {bytesKnown * first, bytesKnown * count}});
+  }
+  return batches;
+}
+
+/// The camera pixels of some slices.
+struct PixelRange {
+  std::size_t first = std::numeric_limits<std::size_t>::max(), end = 0;
+
+  PixelRange with(const PixelRange& other) const {
+    return {std::min(first, other.first), std::max(end, other.end)};
+  }
+  std::size_t bytes() const { return end > first ? bytesKnown * (end - first) : 0; }
+};
+
+PixelRange pixelsOf(const std::vector<SlicedTransport::Row>& rows, std::size_t firstSlice,
+                    std::size_t endSlice) {
+  PixelRange range;
+  for (std::size_t i = LeafSlices::lanes * firstSlice; i < LeafSlices::lanes * endSlice && i < rows.size();
+       ++i)
+    if (rows[i].pixel != SlicedTransport::none)
+      range = range.with({rows[i].pixel / pixelsOfAPart * pixelsOfAPart, std::size_t{rows[i].pixel} + 1});
+  return range;
+}
+
 }  // namespace
 
-OpenGlBackend::Objects::Slices::Slices(const LeafSlices& from)
+OpenGlBackend::Objects::Slices::Slices(const LeafSlices& from, const std::vector<SlicedTransport::Row>& rows,
+                                       std::size_t most)
     : slices(from.slices), leaves(from.leaves, true) {
-  constexpr std::size_t bytesOfAUnit = LeafSlices::lanes * sizeof(PackedLeaf);
-  const std::size_t most = GlBuffer::largest() / bytesOfAUnit;
+  constexpr std::size_t bytesOfAUnit = LeafSlices::lanes * sizeof(PackedLeaf),
+                        rowsOfASlice = LeafSlices::lanes * sizeof(SlicedTransport::Row);
+  const std::size_t step = rows.empty() ? 1 : slicesOfAPart;
   for (std::size_t first = 0; first < from.count();) {
-    std::size_t end = first + 1;
-    while (end < from.count() && from.slices[end + 1].leaf - from.slices[first].leaf <= most) ++end;
-    const std::size_t units = from.slices[end].leaf - from.slices[first].leaf;
-    batches.push_back({first, end - first, bytesOfAUnit * from.slices[first].leaf,
-                       bytesOfAUnit * std::max<std::size_t>(units, 1)});
+    const auto bytesUpTo = [&](std::size_t end) {
+      return bytesOfAUnit * (from.slices[end].leaf - from.slices[first].leaf);
+    };
+    std::size_t end = std::min(first + step, from.count());
+    PixelRange pixels = pixelsOf(rows, first, end);
+    while (end < from.count()) {
+      const std::size_t next = std::min(end + step, from.count());
+      const PixelRange more = pixels.with(pixelsOf(rows, end, next));
+      if (bytesUpTo(next) > most || (!rows.empty() && rowsOfASlice * (next - first) > most) ||
+          more.bytes() > most)
+        break;
+      end = next;
+      pixels = more;
+    }
+    Batch batch{
+        first, end - first, {bytesOfAUnit * from.slices[first].leaf, std::max(bytesUpTo(end), bytesOfAUnit)}};
+    batch.rows = {rowsOfASlice * first, rowsOfASlice * (end - first)};
+    batch.camera = {pixels.bytes() > 0 ? bytesKnown * pixels.first : 0, std::max(pixels.bytes(), bytesKnown)};
+    batches.push_back(batch);
     first = end;
   }
 }
 
-OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
+OpenGlBackend::Objects::Objects(const EngineVenue& engine_, std::size_t mostBound) : engine(engine_) {
+  const std::size_t most = std::min(mostBound, GlBuffer::largest());
   const inverse::WindowArrays arrays = engine.inverse.view();
   const std::size_t pixels = static_cast<std::size_t>(arrays.tile * arrays.tile);
   const std::size_t windowCount = arrays.start[arrays.tiles->count()];
   tiles = GlBuffer(tilesOf(arrays));
   windowRows = GlBuffer(windowCount * sizeof(std::uint32_t), arrays.row);
   windowWeights = GlBuffer(3 * pixels * windowCount * sizeof(std::int16_t), arrays.weight, true);
-  tileBatches = batchesOf<Batch>(arrays);
+  tileBatches = batchesOf<Batch>(arrays, most);
 
   nodeCount = engine.venue.transport.layout().count();
   const SlicedTransport sliced = slicedTransport(engine.transport, nodeCount);
-  forward = Slices(sliced.forward);
-  groupForward = Slices(sliced.groupForward);
-  backward = Slices(sliced.backward);
-  rows = GlBuffer(sliced.rows);
+  forward = Slices(sliced.forward, sliced.rows, most);
+  groupForward = Slices(sliced.groupForward, most);
+  backward = Slices(sliced.backward, most);
+  rows = GlBuffer(sliced.rows, true);
   groups = GlBuffer(sliced.groups);
   groupBack = GlBuffer(sliced.groupBack);
   groupSlots = sliced.groups.size();
@@ -119,7 +173,8 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_) : engine(engine_) {
 
   cameraPixels = engine.venue.usable.size();
   known = knownOf(engine.venue, arrays);
-  camera = GlBuffer(known);
+  camera = GlBuffer(known, true);
+  cameraBatches = batchesOf<Batch>(cameraPixels, most);
   wanted = GlBuffer(vector * cameraPixels);
   unmixed = GlBuffer(vector * cameraPixels);
   placed = GlBuffer(vector * cameraPixels);
@@ -207,7 +262,8 @@ void OpenGlBackend::Objects::takeLight(std::span<const float> last) {
   light.write(0, values.data(), values.size() * sizeof(float));
 }
 
-OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context)
+OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context,
+                             std::size_t mostBound)
     : context_(std::move(context)), name_(fmt::format("OpenGL, {}", context_->renderer())) {
   GlContext::Current current(*context_);
   if (!current)
@@ -215,7 +271,7 @@ OpenGlBackend::OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContex
                 RELUCENT_MESSAGE("engine.graphics-card-unusable", "the graphics card cannot be used"),
                 RELUCENT_MESSAGE("engine.compute-on-processor", "compute on the processor instead"),
                 context_->renderer());
-  objects_ = std::make_unique<Objects>(engine);
+  objects_ = std::make_unique<Objects>(engine, mostBound);
 }
 
 OpenGlBackend::~OpenGlBackend() {

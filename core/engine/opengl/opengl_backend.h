@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -14,9 +16,11 @@ class GlContext;
 /// driver. A frame allocates nothing here, although drivers may. May be used by any thread, one at a time.
 class OpenGlBackend : public EngineBackend {
  public:
-  /// `engine` must outlive it.
-  /// Throws: Error{device} if the driver rejects the shaders, or the device's memory does not hold T and M.
-  OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context);
+  /// `engine` must outlive it. `mostBound`: bytes of T, M and what camera pixels are known by that a shader
+  /// is given at once, where the device allows for more: for tests. Throws: Error{device} if the driver
+  /// rejects the shaders, or the device's memory does not hold T and M.
+  OpenGlBackend(const EngineVenue& engine, std::unique_ptr<GlContext> context,
+                std::size_t mostBound = std::numeric_limits<std::size_t>::max());
   ~OpenGlBackend() override;
 
   std::string_view name() const override { return name_; }

@@ -63,7 +63,6 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
     linearOfSrgb.write(256 * sizeof(float), field.octaves.data(), sizeof field.octaves);
   }
   bindAll({&frame, &footprints, &weights, &camera, &wanted, &unmixed, &placed, &linearOfSrgb});
-  placing.set(0, cameraPixels);
   placing.set(1, static_cast<std::uint32_t>(picture.format));
   placing.set(2, static_cast<std::size_t>(picture.size.width) * bytesPerPixel(picture.format));
   placing.set(3, content->white * request.brightness);
@@ -78,14 +77,23 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
   placing.set(8, compensation::sensitivityOffset);
   placing.set(9, isHeld);
   placing.set(10, compensation::sharedLoss(engine.settings.target.clipping));
-  placing.run(cameraPixels);
+  for (const Batch& batch : cameraBatches) {
+    camera.bind(3, batch.part.begin, batch.part.bytes);
+    placing.set(0, batch.count);
+    placing.set(11, batch.first);
+    placing.run(batch.count);
+  }
 }
 
 void OpenGlBackend::Objects::showPlaced() noexcept {
   constexpr std::size_t parts = 64;
   bindAll({&brightnessParts, &camera, &wanted, &placed});
-  brightness.set(0, cameraPixels);
-  brightness.run(parts * group);
+  for (const Batch& batch : cameraBatches) {
+    camera.bind(1, batch.part.begin, batch.part.bytes);
+    brightness.set(0, batch.count);
+    brightness.set(1, batch.first);
+    brightness.run(parts * group);
+  }
   brightnessLast.run(group);
   bindAll({&brightest, &placed, &brightnessParts, &light});
   showing.set(0, projectorPixels);
@@ -115,14 +123,14 @@ void OpenGlBackend::Objects::invert(Inversion which) noexcept {
   const std::size_t pairs = static_cast<std::size_t>(arrays.tile * arrays.tile) / 2;
   for (const Batch& batch : tileBatches) {
     const Size size = projectors.size(batch.projector);
-    windowWeights.bind(2, batch.begin, batch.bytes);
+    windowWeights.bind(2, batch.part.begin, batch.part.bytes);
     program.set(0, batch.first);
     program.set(1, batch.count);
     program.set(2, arrays.tiles->offset(batch.projector));
     program.set(3, unsignedOf(arrays.tiles->size(batch.projector).width));
     program.set(5, unsignedOf(size.width), unsignedOf(size.height));
     program.set(6, projectors.offset(batch.projector));
-    program.set(7, batch.begin / sizeof(std::uint32_t));
+    program.set(7, batch.part.begin / sizeof(std::uint32_t));
     program.run(pairs * batch.count);
   }
 }
@@ -148,17 +156,19 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
   gather.set(0, columns);
   gather.run(columns);
 
-  auto overSlices = [](const GlProgram& program, const Slices& slices) {
+  auto overSlices = [](const GlProgram& program, const Slices& slices, const auto& bindMore) {
     for (const Batch& batch : slices.batches) {
-      slices.leaves.bind(1, batch.begin, batch.bytes);
+      slices.leaves.bind(1, batch.part.begin, batch.part.bytes);
       program.set(0, batch.first);
       program.set(1, batch.count);
-      program.set(2, batch.begin / (LeafSlices::lanes * sizeof(PackedLeaf)));
+      program.set(2, batch.part.begin / (LeafSlices::lanes * sizeof(PackedLeaf)));
+      bindMore(batch);
       program.run(LeafSlices::lanes * batch.count);
     }
   };
+  const auto nothingMore = [](const Batch&) {};
   bindAll({&groupForward.slices, &groupForward.leaves, &columnLight, &groups, &groupLight});
-  overSlices(groupForwardBoth, groupForward);
+  overSlices(groupForwardBoth, groupForward, nothingMore);
   bindAll({&groups, &groupLight, &columnLight});
   groupLightBoth.set(0, groupSlots);
   groupLightBoth.set(1, columns);
@@ -167,14 +177,19 @@ void OpenGlBackend::Objects::passThrough(bool correction) noexcept {
   const GlProgram& rowsForward = correction ? forwardCorrected : forwardStep;
   bindAll({&forward.slices, &forward.leaves, &columnLight, &rows, &wanted, &back, &camera, &unmixed});
   rowsForward.set(3, columns);
-  overSlices(rowsForward, forward);
+  overSlices(rowsForward, forward, [&](const Batch& batch) {
+    rows.bind(3, batch.rows.begin, batch.rows.bytes);
+    if (!correction) return;
+    camera.bind(6, batch.camera.begin, batch.camera.bytes);
+    rowsForward.set(4, batch.camera.begin / bytesKnown);
+  });
 
   const GlProgram& groupsBack = correction ? groupBackwardCorrected : groupBackwardStep;
   bindAll({&groups, &groupBack, &back});
   groupsBack.set(0, groupSlots);
   groupsBack.run(groupSlots);
   bindAll({&backward.slices, &backward.leaves, &back, &segmentSums});
-  overSlices(correction ? backwardCorrected : backwardStep, backward);
+  overSlices(correction ? backwardCorrected : backwardStep, backward, nothingMore);
 
   bindAll({&nodeStart, &segments, &segmentSums, &sums, &longNodes});
   sum.set(0, nodeCount);

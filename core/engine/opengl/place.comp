@@ -10,7 +10,7 @@ layout(std430, binding = 6) writeonly buffer Placed { vec4 placed[]; };
 // Behind light of codes there are the gains of white, in octaves: BrightnessField.
 layout(std430, binding = 7) readonly buffer LinearOfSrgb { float linearOfSrgb[]; };
 
-layout(location = 0) uniform uint pixels;
+layout(location = 0) uniform uint pixels;  // of those that `camera` knows, from
 layout(location = 1) uniform uint format;  // as ContentFrame::Format
 layout(location = 2) uniform uint bytesPerLine;
 layout(location = 3) uniform float white;
@@ -22,6 +22,7 @@ layout(location = 7) uniform vec3 luminance;
 layout(location = 8) uniform float sensitivityOffset;
 layout(location = 9) uniform bool isHeld;
 layout(location = 10) uniform float sharedLoss;  // compensation::sharedLoss()
+layout(location = 11) uniform uint firstPixel;
 
 const uint rgb8 = 0u, rgba8 = 1u, bgra8 = 2u;
 
@@ -56,8 +57,8 @@ float gainAt(vec2 place) {
 }
 
 void main() {
-  uint i = invocation();
-  if (i >= pixels) return;
+  if (invocation() >= pixels) return;
+  uint i = firstPixel + invocation();
   uint left = footprint[5u * i], top = footprint[5u * i + 1u], size = footprint[5u * i + 2u];
   uint width = size & 0xffffu, height = size >> 16;
   if (width == 0u) return;
@@ -72,7 +73,7 @@ void main() {
   }
   mean *= uintBitsToFloat(footprint[5u * i + 4u]);
 
-  uint c = cameraStride * i;
+  uint c = cameraStride * invocation();
   vec4 black = camera[c + cameraBlack];
   vec4 known = camera[c + cameraFlood];
   vec3 flood = known.xyz;

@@ -121,6 +121,30 @@ class TestBackends : public QObject {
     }
   }
 
+  void partsAreTheWhole_data() {
+    QTest::addColumn<QString>("scene");
+    for (const std::string& scene : engineSceneNames())
+      QTest::newRow(scene.c_str()) << QString::fromStdString(scene);
+  }
+  /// Law: what a graphics card cannot reach at once it is given in parts, and the frames are the same bits.
+  void partsAreTheWhole() {
+    SKIP_WHERE_MISSING(QString("OpenGL"));
+    QFETCH(QString, scene);
+    constexpr std::size_t most = 1024;  // bytes: some parts hold one of what they hold parts of
+    const EngineScene made = engineSceneOf(scene.toStdString());
+    const EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, plain(made));
+    const Image content = makeContent(Content::natural, {37, 28}, 3);
+    OpenGlBackend whole(engine, std::make_unique<GlContext>(GlContext::Device::any)),
+        inParts(engine, std::make_unique<GlContext>(GlContext::Device::any), most);
+    for (const FrameRequest& request : {FrameRequest{true, 0, 1.0f, 0.0f}, FrameRequest{true, 2, 1.0f, 0.0f}})
+      QVERIFY(rendered(inParts, engine, frameOf(content), request) ==
+              rendered(whole, engine, frameOf(content), request));
+    // Brightness of uncorrected content is a sum, in another order.
+    const FrameRequest off{false, 0, 1.0f, 0.0f};
+    QVERIFY(mostApart(rendered(inParts, engine, frameOf(content), off),
+                      rendered(whole, engine, frameOf(content), off)) <= 1);
+  }
+
   void gainsAreTheTargets_data() { everyBackendInEveryScene(); }
   /// With the gains of white that the target has, too; and without them as before.
   void gainsAreTheTargets() {

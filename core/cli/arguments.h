@@ -143,6 +143,12 @@ struct Tidy {
   std::vector<std::filesystem::path> calibrations;
   pipeline::TidySettings settings;
 };
+/// Masks of a calibration: shown, replaced or written.
+struct Masks {
+  std::filesystem::path calibration;
+  std::optional<std::vector<compensation::Mask>> masks{};  // to be kept from now on; none: as they are
+  std::filesystem::path exported;                          // a file to write them to; empty: none
+};
 /// Where projectors are on the network, as the command line says it.
 struct NetworkOptions {
   std::vector<std::string> addresses;      // "[N=]HOST[:PORT]"
@@ -182,7 +188,7 @@ struct Bench {
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
                              Repair, TendNight, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export,
-                             Relight, Separate, Difference, Report, Tidy, Projectors, Bench>;
+                             Relight, Separate, Difference, Report, Tidy, Masks, Projectors, Bench>;
 
 struct Arguments {
   Command command;

@@ -216,9 +216,12 @@ std::function<Command()> addCalibrateOptions(CLI::App* sub) {
   addCache(sub, command->cache);
   auto network = std::make_shared<NetworkOptions>();
   addNetworkOptions(sub, network);
+  auto masks = std::make_shared<std::optional<std::vector<compensation::Mask>>>();
+  addMasks(sub, *masks, "without either, all is lit");
   addExternalPrograms(sub, *devices);
   addSimulatedDevices(sub, *devices);
-  return [command, devices, network] {
+  return [command, devices, network, masks] {
+    if (*masks) command->settings.content.masks = **masks;
     command->settings.rig = rigOf(*devices);
     network->apply(command->settings.network, command->settings.rig);
     command->settings.linearization.seed = devices->seed;

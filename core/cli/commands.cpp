@@ -17,6 +17,7 @@
 #include "relucent/cli/terminal_progress.h"
 #include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
+#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/acquisition_chart.h"
@@ -211,6 +212,17 @@ struct Executor {
 
   CommandResult operator()(const Tidy& command) const {
     return outcomeOf(pipeline::tidy(command.calibrations, command.settings, progress));
+  }
+
+  CommandResult operator()(const Masks& command) const {
+    using calibration::CalibrationFolder;
+    CalibrationFolder folder =
+        CalibrationFolder::open(command.calibration, command.masks ? CalibrationFolder::Access::write
+                                                                   : CalibrationFolder::Access::read);
+    if (command.masks) pipeline::keepMasks(folder, *command.masks);
+    const std::vector<compensation::Mask> masks = pipeline::settingsOf(folder).content.masks;
+    if (!command.exported.empty()) pipeline::writeMasks(command.exported, masks);
+    return {{{"masks", pipeline::masksToJson(masks)}}, textOf(masks)};
   }
 
   CommandResult operator()(const Projectors& command) const {

@@ -149,6 +149,7 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
            target.clipping)
       ->type_name("CLIPPING");
   addViews(sub, target);
+  addMasks(sub, target.masks, "without either, those of the calibration");
 }
 
 void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, compensation::Method& method) {

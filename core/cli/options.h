@@ -153,6 +153,9 @@ std::function<Command()> addSeparateOptions(CLI::App* sub);
 std::function<Command()> addDifferenceOptions(CLI::App* sub);
 std::function<Command()> addReportOptions(CLI::App* sub);
 std::function<Command()> addTidyOptions(CLI::App* sub);
+std::function<Command()> addMasksOptions(CLI::App* sub);
+/// --mask and --masks: what the command line says of masks, none if nothing.
+void addMasks(CLI::App* sub, std::optional<std::vector<compensation::Mask>>& masks, const char* otherwise);
 std::function<Command()> addProjectorsOptions(CLI::App* sub);
 std::function<Command()> addBenchOptions(CLI::App* sub);
 

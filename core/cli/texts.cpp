@@ -309,6 +309,19 @@ std::string textOf(const pipeline::DifferenceResult& result) {
          textOf(pipeline::WrittenFiles{result.files});
 }
 
+std::string textOf(const std::vector<compensation::Mask>& masks) {
+  if (masks.empty()) return "There are no masks: all of the picture is lit.\n";
+  std::string text;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const compensation::Mask& mask = masks[i];
+    text += fmt::format("Mask {} in the view of camera {}: {} points, {}, feathered over {:.3g} % of the view.\n", i + 1,
+                        mask.camera + 1, mask.points.size(),
+                        mask.outline == compensation::Outline::curve ? "a curve" : "straight lines",
+                        100.0 * mask.feather);
+  }
+  return text;
+}
+
 std::string textOf(const pipeline::TidyResult& result) {
   const auto part = [](const pipeline::DiskShare& share, std::string_view what) {
     return share.files == 0 ? std::string()

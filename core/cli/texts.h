@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "relucent/compensation/mask.h"
 #include "relucent/pipeline/acquisition_bench.h"
 #include "relucent/pipeline/bench.h"
 #include "relucent/pipeline/calibrate.h"
@@ -40,6 +41,7 @@ std::string textOf(const pipeline::EvaluateResult& result);
 std::string textOf(const pipeline::SeparateResult& result);
 std::string textOf(const pipeline::DifferenceResult& result);
 std::string textOf(const pipeline::TidyResult& result);
+std::string textOf(const std::vector<compensation::Mask>& masks);
 std::string textOf(const pipeline::BenchResult& result);
 std::string textOf(const pipeline::InverseBenchResult& result);
 std::string textOf(const pipeline::AcquisitionBenchResult& result);

@@ -55,7 +55,7 @@ class OwnSolves {
   /// `asked`: of its light alone.
   void add(std::size_t projector, const CameraStack& asked, Progress& progress) {
     const ProjectorMask own = onlyOf(projector, free_, transport_.projectors());
-    const ConstrainedProblem problem{transport_, asked, target_.weight, own};
+    const ConstrainedProblem problem{transport_, asked, target_.weight, own, target_.available};
     const SolveResult solved =
         solveConstrained(problem, ProjectorStack(together_.projector.size(), 0.0f), settings_, progress);
     together_.iterations += solved.iterations;

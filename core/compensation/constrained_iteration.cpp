@@ -20,12 +20,11 @@ ProjectorStack gradientFrom(const ConstrainedProblem& problem, const CameraStack
 
 Iteration::Iteration(const ConstrainedProblem& problem)
     : problem_(problem), preconditioner_(diagonalPreconditioner(problem)) {
-  for (std::uint8_t free : problem.free) freeValues_ += free ? 3 : 0;
+  for (std::size_t j = 0; j < problem.free.size(); ++j) freeValues_ += problem.most(j) > 0.0f ? 3 : 0;
 }
 
 ProjectorStack Iteration::feasible(const ProjectorStack& x) const {
-  return stackOf<ProjectorStack>(x.size(),
-                                 [&](std::size_t j) { return problem_.free[j / 3] ? clamp01(x[j]) : 0.0f; });
+  return stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return held(x[j], j); });
 }
 
 double Iteration::objective(const CameraStack& lit) const {
@@ -45,7 +44,7 @@ double Iteration::objective(const CameraStack& lit) const {
 ProjectorStack Iteration::projectedStep(const ProjectorStack& x, const ProjectorStack& g, double step) const {
   auto length = static_cast<float>(step);
   return stackOf<ProjectorStack>(
-      x.size(), [&](std::size_t j) { return clamp01(x[j] - length * preconditioner_[j] * g[j]); });
+      x.size(), [&](std::size_t j) { return held(x[j] - length * preconditioner_[j] * g[j], j); });
 }
 
 double Iteration::metric(const ProjectorStack& a, const ProjectorStack& b, const ProjectorStack& c,

@@ -15,7 +15,11 @@ class Iteration {
  public:
   explicit Iteration(const ConstrainedProblem& problem);
 
-  /// x with every value in [0, 1] and the pixels that are not free at 0.
+  /// A value of x, held between 0 and a.
+  float held(float value, std::size_t j) const { return std::clamp(value, 0.0f, problem_.most(j / 3)); }
+  /// a of a value of x.
+  float most(std::size_t j) const { return problem_.most(j / 3); }
+  /// x with every value held.
   ProjectorStack feasible(const ProjectorStack& x) const;
   CameraStack light(const ProjectorStack& x) const { return problem_.transport.apply(x); }
 
@@ -23,14 +27,14 @@ class Iteration {
   double objective(const CameraStack& lit) const;
   /// grad f from T x.
   ProjectorStack gradientAt(const CameraStack& lit) const { return gradientFrom(problem_, lit); }
-  /// clamp01(x - step C g).
+  /// x - step C g, held between 0 and a.
   ProjectorStack projectedStep(const ProjectorStack& x, const ProjectorStack& g, double step) const;
   /// <a - b, C^-1 (c - d)>.
   double metric(const ProjectorStack& a, const ProjectorStack& b, const ProjectorStack& c,
                 const ProjectorStack& d) const;
   /// sum_i w_i |(a - b)_i|^2 of two camera stacks.
   double energy(const CameraStack& a, const CameraStack& b) const;
-  /// Root mean square over the free pixels of x - clamp01(x - C g).
+  /// Root mean square over the free pixels of x - projectedStep(x, g, 1).
   double projectedGradient(const ProjectorStack& x, const ProjectorStack& g) const;
   /// The optimal share of the step from x to trial, in closed form since f is quadratic.
   double bestShare(const ProjectorStack& x, const ProjectorStack& trial, const ProjectorStack& g,

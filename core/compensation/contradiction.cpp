@@ -17,15 +17,15 @@ constexpr double toldShare = 0.05;
 
 /// What the cameras see after the steps with these weights, from the same start.
 CameraStack seenAfterSteps(const Compensator& compensator, const CameraStack& wantedLessBlack,
-                           const std::vector<float>& weight, const ProjectorMask& free, ProjectorStack p,
-                           const Progress& progress) {
+                           const std::vector<float>& weight, const ProjectorMask& free,
+                           std::span<const float> available, ProjectorStack p, const Progress& progress) {
   const MeasuredVenue& venue = compensator.venue();
-  const ConstrainedProblem problem{venue.transport, wantedLessBlack, weight, free};
+  const ConstrainedProblem problem{venue.transport, wantedLessBlack, weight, free, available};
   const ProjectorStack c = diagonalPreconditioner(problem);
   for (float step : compensator.settings().steps) {
     progress.checkpoint();
     takeStep(problem, c, step, p);
-    for (float& value : p) value = clamp01(value);
+    for (std::size_t j = 0; j < p.size(); ++j) p[j] = std::clamp(p[j], 0.0f, problem.most(j / 3));
   }
   CameraStack seen = venue.transport.apply(p);
   parallelFor(0, seen.size(), 4096, [&](std::size_t i) { seen[i] += venue.black[i]; });
@@ -47,7 +47,7 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
 
   const ProjectorMask free = compensator.contentPixelsOf(target);
   const auto seenWith = [&](const std::vector<float>& weight) {
-    return seenAfterSteps(compensator, target.asked, weight, free, compensation.projector, progress);
+    return seenAfterSteps(compensator, target.asked, weight, free, target.available, compensation.projector, progress);
   };
   const auto errorOf = [&](const CameraStack& seen, std::size_t camera, const CameraMask& mask) {
     return image::deltaEMap(

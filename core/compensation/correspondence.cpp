@@ -80,7 +80,7 @@ ContentCorrespondence answered(const std::vector<std::vector<bool>>& groups, con
     for (std::size_t j = 0; j < pixels; ++j) {
       const std::int32_t row = rowOf(highest[j]);
       if (row < 0) continue;
-      const bool inside = target.inside[static_cast<std::size_t>(row)] != 0;
+      const bool inside = isCovered(target, static_cast<std::size_t>(row));
       if (std::pair(inside, highest[j]) < std::pair(content.free[j] != 0, answers[j])) continue;
       content.brightest[j] = row;
       content.free[j] = inside;
@@ -148,7 +148,7 @@ ContentCorrespondence ViewCorrespondence::of(const Target& target) const {
 ProjectorMask contentPixels(const std::vector<std::int32_t>& brightest, const Target& target) {
   ProjectorMask free(brightest.size(), 0);
   for (std::size_t j = 0; j < free.size(); ++j)
-    free[j] = brightest[j] >= 0 && target.inside[static_cast<std::size_t>(brightest[j])];
+    free[j] = brightest[j] >= 0 && isCovered(target, static_cast<std::size_t>(brightest[j]));
   return free;
 }
 

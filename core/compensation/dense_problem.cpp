@@ -14,7 +14,7 @@ constexpr std::size_t mostValues = std::size_t{1} << 26;  // half a gigabyte
 std::vector<std::size_t> freeValues(const ConstrainedProblem& problem) {
   std::vector<std::size_t> places;
   for (std::size_t j = 0; j < problem.free.size(); ++j)
-    if (problem.free[j])
+    if (problem.most(j) > 0.0f)
       for (std::size_t c = 0; c < 3; ++c) places.push_back(3 * j + c);
   return places;
 }
@@ -41,7 +41,7 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
                 RELUCENT_ENGLISH_MESSAGE("compensation.change-solver-or-shrink-content",
                                          "choose another solver, or place the content on fewer pixels"));
 
-  // sqrt(W) T, a column for every free value.
+  // sqrt(W) T diag(a), a column for every value that can be lit: what is solved for is p / a, between 0 and 1.
   Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
   Eigen::VectorXd b(a.rows());
   auto root = [&](std::size_t i) { return std::sqrt(static_cast<double>(problem.weight[rows[i] / 3])); };
@@ -52,7 +52,7 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
   ProjectorStack one(start.size(), 0.0f);
   for (std::size_t j = 0; j < columns.size(); ++j) {
     assembling.report(static_cast<double>(j) / static_cast<double>(columns.size()));
-    one[columns[j]] = 1.0f;
+    one[columns[j]] = problem.most(columns[j] / 3);
     CameraStack lit = problem.transport.apply(one);
     one[columns[j]] = 0.0f;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -63,7 +63,7 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
   SolveResult result;
   result.x.assign(start.size(), 0.0f);
   if (progress.stopAndKeep()) {
-    for (std::size_t j : columns) result.x[j] = clamp01(start[j]);
+    for (std::size_t j : columns) result.x[j] = std::min(clamp01(start[j]), problem.most(j / 3));
     return result;
   }
   DenseBoxSettings dense;
@@ -71,7 +71,8 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
   Progress solving = progress.part(0.8, RELUCENT_MESSAGE("stage.solving", "Solving"));
   DenseBoxResult solved = solveDenseBox(a, b, dense, solving);
   for (std::size_t j = 0; j < columns.size(); ++j)
-    result.x[columns[j]] = static_cast<float>(solved.x[static_cast<Eigen::Index>(j)]);
+    result.x[columns[j]] =
+        problem.most(columns[j] / 3) * static_cast<float>(solved.x[static_cast<Eigen::Index>(j)]);
   result.iterations = solved.iterations;
   result.converged = solved.converged;
   return result;

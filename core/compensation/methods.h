@@ -67,7 +67,8 @@ class Compensator {
   ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (a - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
-  /// C: of windows, clusters and refined StepPreconditioner's.
+  /// C: of windows, clusters and refined StepPreconditioner's. Where target.available holds light back, a = it: T diag(a)
+  /// in place of T, as if a filter hung before the projector, and p <= a, see engine/availability.h.
   /// `clusters` is prepared when it is first asked for.
   /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
@@ -99,7 +100,7 @@ class Compensator {
   const inverse::ClusterInverse& clusters(Progress& progress) const;
   /// The steps of `refined`, `rounds` times. `preconditioner`: C.
   void takeSteps(const ConstrainedProblem& problem, const ProjectorStack& preconditioner, int rounds,
-                 Compensation& p, Progress& progress) const;
+                 const std::vector<float>& available, Compensation& p, Progress& progress) const;
 
   const MeasuredVenue& venue_;
   const inverse::WindowInverse& inverse_;

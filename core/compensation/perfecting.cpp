@@ -109,13 +109,14 @@ Compensation solvedAgain(const Compensator& compensator, const Target& target, c
                          Compensation p, int rounds, Progress& progress) {
   const MeasuredVenue& venue = compensator.venue();
   Target corrected = target;
+  const CameraStack& flood = floodOf(venue, target);
   parallelFor(0, corrected.inside.size(), 4096, [&](std::size_t i) {
     if (target.inside[i] == 0) return;
     using Colour = Eigen::Map<const Eigen::Vector3f>;
     const Colour asked(&target.asked[3 * i]);
     Eigen::Map<Eigen::Vector3f> corrects(&corrected.asked[3 * i]);
     corrects = held(Colour(&target.wanted[3 * i]) - Colour(&venue.black[3 * i]) - Colour(&unexplained[3 * i]),
-                    asked.cwiseMin(0.0f), asked.cwiseMax(Colour(&venue.flood[3 * i])), target.clipping);
+                    asked.cwiseMin(0.0f), asked.cwiseMax(Colour(&flood[3 * i])), target.clipping);
   });
   return compensator.goOn(corrected, std::move(p), rounds, progress);
 }

@@ -17,7 +17,8 @@ void checkShapes(const ConstrainedProblem& problem) {
   std::size_t cameras = problem.transport.cameras().count(),
               projectors = problem.transport.projectors().count();
   require(problem.wantedLessBlack.size() == 3 * cameras && problem.weight.size() == cameras &&
-              problem.free.size() == projectors,
+              problem.free.size() == projectors &&
+              (problem.available.empty() || problem.available.size() == projectors),
           "{} values, {} weights and {} flags for {} camera and {} projector pixels",
           problem.wantedLessBlack.size(), problem.weight.size(), problem.free.size(), cameras, projectors);
 }
@@ -58,21 +59,25 @@ SolverSettings defaultsOf(SolverSettings::Algorithm algorithm) {
   return settings;
 }
 
+ProjectorStack hessianRowSums(const ConstrainedProblem& problem) {
+  const CameraStack lit = problem.transport.apply(
+      stackOf<ProjectorStack>(3 * problem.free.size(), [&](std::size_t j) { return problem.most(j / 3); }));
+  return problem.transport.applyTransposed(
+      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return problem.weight[i / 3] * lit[i]; }));
+}
+
 ProjectorStack hessianRowSums(const transport::TransportMatrix& transport, const std::vector<float>& weight,
                               const ProjectorMask& free) {
-  const CameraStack lit = transport.apply(stackOf<ProjectorStack>(
-      3 * free.size(), [&](std::size_t j) { return free[j / 3] ? 1.0f : 0.0f; }));
-  return transport.applyTransposed(
-      stackOf<CameraStack>(lit.size(), [&](std::size_t i) { return weight[i / 3] * lit[i]; }));
+  return hessianRowSums({transport, CameraStack(), weight, free});
 }
 
 ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem) {
   checkShapes(problem);
-  const ProjectorStack bound = hessianRowSums(problem.transport, problem.weight, problem.free);
+  const ProjectorStack bound = hessianRowSums(problem);
   float largest = bound.empty() ? 0.0f : *std::max_element(bound.begin(), bound.end());
   // What sees next to nothing would take steps of any length on rounding errors.
   return stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {
-    return problem.free[j / 3] && bound[j] > 1e-7f * largest ? 1.0f / bound[j] : 0.0f;
+    return problem.free[j / 3] && bound[j] > 1e-7f * largest ? problem.most(j / 3) / bound[j] : 0.0f;
   });
 }
 

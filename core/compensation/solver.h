@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,19 @@
 namespace relucent::compensation {
 
 /// Compensation as weighted least squares with box constraints:
-///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= 1,   b = wanted - e.
+///   minimise f(p) = 1/2 sum_i w_i |(T p - b)_i|^2   subject to 0 <= p <= a,   b = wanted - e,
+/// a = 1 on free pixels but for those of which not all light is available, 0 on the others.
 struct ConstrainedProblem {
   const transport::TransportMatrix& transport;
   const CameraStack& wantedLessBlack;  // b, camera stack
   const std::vector<float>& weight;    // w per camera pixel
   const ProjectorMask& free;           // per projector pixel; pixels with 0 are fixed at 0
+  std::span<const float> available{};  // per projector pixel, 0 to 1: Target::available; empty: all
+  /// a of a projector pixel.
+  float most(std::size_t pixel) const {
+    if (!free[pixel]) return 0.0f;
+    return available.empty() ? 1.0f : available[pixel];
+  }
 };
 
 struct SolverSettings {
@@ -50,18 +58,18 @@ struct SolveResult {
   ProjectorStack x;
   int iterations = 0;
   bool converged = false;          // the tolerance was met
-  double projectedGradient = 0.0;  // root mean square over the free pixels of p - clamp01(p - C grad f(p))
+  double projectedGradient = 0.0;  // root mean square over the free pixels of p - clamp(p - C grad f(p)), 0 to a
   double objective = 0.0;          // f
 };
 
-/// T^T W T 1, with 1 on the free pixels only: the row sums of the Hessian. Shape: projector stack.
+/// T^T W T a, with a of the problem: the row sums of the Hessian times a. Shape: projector stack.
 /// `weight`: W, one value a camera pixel.
+ProjectorStack hessianRowSums(const ConstrainedProblem& problem);
 ProjectorStack hessianRowSums(const transport::TransportMatrix& transport, const std::vector<float>& weight,
                               const ProjectorMask& free);
 
-/// C_j = 1 / (T^T W (T 1))_j, with 1 on the free pixels only: the diagonal that bounds T^T W T from above for
-/// non-negative transport, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a
-/// diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
+/// C_j = a_j / (T^T W (T a))_j: the diagonal that bounds T^T W T from above for non-negative transport, on pixels
+/// with any light, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
 /// Shapes: projector stack.  Source: core/compensation/README.md.
 ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem);
 

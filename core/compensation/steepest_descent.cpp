@@ -7,9 +7,9 @@ namespace relucent::compensation::detail {
 namespace {
 
 /// -g without what would leave the box at once.
-ProjectorStack feasibleDirection(const ProjectorStack& x, const ProjectorStack& g) {
+ProjectorStack feasibleDirection(const Iteration& at, const ProjectorStack& x, const ProjectorStack& g) {
   return stackOf<ProjectorStack>(x.size(), [&](std::size_t j) {
-    bool leaves = (x[j] <= 0.0f && g[j] > 0.0f) || (x[j] >= 1.0f && g[j] < 0.0f);
+    bool leaves = (x[j] <= 0.0f && g[j] > 0.0f) || (x[j] >= at.most(j) && g[j] < 0.0f);
     return leaves ? 0.0f : -g[j];
   });
 }
@@ -40,10 +40,10 @@ SolveResult solveSteepestDescent(const Iteration& at, const ProjectorStack& star
     result.converged = norm <= settings.tolerance;
     if (result.converged || result.iterations == settings.mostIterations) break;
 
-    ProjectorStack direction = feasibleDirection(x, g);
+    ProjectorStack direction = feasibleDirection(at, x, g);
     float step = lineMinimum(at, direction);
     ProjectorStack trial =
-        stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return clamp01(x[j] + step * direction[j]); });
+        stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return at.held(x[j] + step * direction[j], j); });
 
     // Where clamping bent the line, its minimum lies elsewhere, and f might have risen.
     CameraStack litTrial = at.light(trial);

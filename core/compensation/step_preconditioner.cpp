@@ -33,9 +33,10 @@ StepPreconditioner::StepPreconditioner(const transport::TransportMatrix& transpo
 ProjectorStack StepPreconditioner::of(const ConstrainedProblem& problem) const {
   require(share_.size() == 3 * problem.free.size(), "C of {} projector values for {} pixels", share_.size(),
           problem.free.size());
-  const ProjectorStack bound = hessianRowSums(problem.transport, problem.weight, problem.free);
+  const ProjectorStack bound = hessianRowSums(problem);
   return stackOf<ProjectorStack>(bound.size(), [&](std::size_t j) {
-    return problem.free[j / 3] ? from(share_[j], inverse(bound[j - j % 3 + green], least_)) : 0.0f;
+    if (!problem.free[j / 3]) return 0.0f;
+    return problem.most(j / 3) * from(share_[j], inverse(bound[j - j % 3 + green], least_));
   });
 }
 

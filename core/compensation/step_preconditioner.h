@@ -32,7 +32,7 @@ class StepPreconditioner {
     if (share >= 0.0f) return share * inverse;
     return inverse > 0.0f ? -share : 0.0f;
   }
-  /// C of a problem with weights W. 0 on pixels that are not free.
+  /// C of a problem with weights W, where not all light is available a / (Tᵀ W T a). 0 on pixels that are not free.
   ProjectorStack of(const ConstrainedProblem& problem) const;
 
  private:

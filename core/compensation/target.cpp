@@ -7,6 +7,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/compensation/black_steps.h"
+#include "relucent/compensation/stacks.h"
 #include "relucent/compensation/white_levels.h"
 
 namespace relucent::compensation {
@@ -237,12 +238,40 @@ std::vector<Message> problems(const TargetSettings& settings) {
   if (settings.blackLift && !(*settings.blackLift >= 0.0 && *settings.blackLift < 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.black-lift-out-of-range",
                                              "the black lift must lie between 0 and 1"));
+  if (settings.masks)
+    for (Message& problem : problems(*settings.masks)) found.push_back(std::move(problem));
   if (settings.unreachableWeight &&
       !(*settings.unreachableWeight >= 0.0 && *settings.unreachableWeight <= 1.0))
     found.push_back(RELUCENT_ENGLISH_MESSAGE("compensation.unreachable-weight-out-of-range",
                                              "the weight of unreachable pixels must lie between 0 and 1"));
   return found;
 }
+
+namespace {
+
+/// Takes what masks cover out of a target that is placed.
+void takeMasks(const MeasuredVenue& venue, const TargetSettings& settings, Target& target) {
+  if (!settings.masks || settings.masks->empty()) return;
+  MaskedLight light = maskedLight(venue, *settings.masks);
+  target.masked = std::move(light.masked);
+  target.available = std::move(light.available);
+  const CameraStack missing = venue.transport.apply(
+      stackOf<ProjectorStack>(3 * target.available.size(), [&](std::size_t i) { return 1.0f - target.available[i / 3]; }));
+  target.flood = stackOf<CameraStack>(
+      missing.size(), [&](std::size_t i) { return std::max(0.0f, venue.flood[i] - missing[i]); });
+  bool wasAny = false, isAny = false;
+  for (std::size_t i = 0; i < target.inside.size(); ++i) {
+    wasAny = wasAny || target.inside[i] != 0;
+    if (target.masked[i] >= fullyMasked) target.inside[i] = 0;
+    isAny = isAny || target.inside[i] != 0;
+  }
+  if (wasAny && !isAny)
+    throw Error(ErrorKind::input,
+                RELUCENT_MESSAGE("compensation.masks-cover-everything", "the masks cover the whole picture"),
+                RELUCENT_MESSAGE("compensation.shrink-masks", "make a mask smaller, or remove one"));
+}
+
+}  // namespace
 
 CameraMask seesProjection(const MeasuredVenue& venue) {
   CameraMask pixels(venue.usable.size());
@@ -357,6 +386,7 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
     }
   }
   target.corners = target.placements.front()->corners;
+  takeMasks(venue, settings, target);
 
   const float white = WhiteLevels(venue, target.inside).at(target.viewWeight, settings.reachablePercentile);
   target.white = {white, white, white};
@@ -373,13 +403,18 @@ Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
   target.reachable.assign(pixels, 0);
   target.weight.assign(pixels, 0.0f);
   target.windowsWeight.assign(pixels, 0.0f);
+  const CameraStack& most = floodOf(venue, target);
   const auto fit = [&](std::size_t i, float weight) {
     if (!target.inside[i]) return;
     Eigen::Map<const Eigen::Vector3f> content(&target.content[3 * i]);
     Eigen::Map<Eigen::Vector3f> wanted(&target.wanted[3 * i]);
     wanted = white * (target.gain.empty() ? 1.0f : target.gain[i]) *
              (lift + (1.0f - lift) * (mixing * content).array());
-    Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&venue.flood[3 * i]);
+    if (!target.masked.empty()) {
+      wanted *= unmaskedShare(target, i);
+      weight *= unmaskedShare(target, i);
+    }
+    Eigen::Map<const Eigen::Vector3f> black(&venue.black[3 * i]), flood(&most[3 * i]);
     Eigen::Map<Eigen::Vector3f> asked(&target.asked[3 * i]);
     asked = wanted - black;
     if (settings.objective == Objective::seen)

@@ -10,6 +10,7 @@
 #include "relucent/base/message.h"
 #include "relucent/compensation/brightness.h"
 #include "relucent/compensation/clipping.h"
+#include "relucent/compensation/mask.h"
 #include "relucent/compensation/placement.h"
 #include "relucent/compensation/viewer.h"
 #include "relucent/compensation/views.h"
@@ -82,6 +83,8 @@ struct TargetSettings {
   Clipping clipping = Clipping::channels;  // of what is asked for where it is held to what can be had
   /// Weight of unreachable pixels; none: as the objective has it.
   std::optional<double> unreachableWeight{};
+  /// Where nothing is to be lit; none: nobody has said, as no masks.
+  std::optional<std::vector<Mask>> masks{};
 
   /// For measuring how well T and its inverse are known: errors of light, as one always has measured them.
   static TargetSettings ofLight() {
@@ -97,7 +100,7 @@ std::vector<Message> problems(const TargetSettings& settings);
 struct Target {
   CameraStack content;   // the placed content, 0 to 1; 0 outside
   CameraStack wanted;    // camera signal per second; e outside
-  CameraMask inside;     // per camera pixel: the content covers it
+  CameraMask inside;     // per camera pixel: the content covers it, and no mask all of it
   CameraMask reachable;  // per camera pixel inside: e <= wanted <= T 1 + e in all channels
   CameraStack asked;     // what the solve asks for, less e; Objective::seen: held between 0 and the flood
   /// Per camera pixel: its view's inside, less where unreachable, 0 where unusable; times its sensitivity().
@@ -112,7 +115,24 @@ struct Target {
   std::vector<std::optional<Placement>> placements{};
   std::vector<float> viewWeight{};  // per camera, of its view; the largest is 1
   Clipping clipping = Clipping::channels;
+  // What masks do, see maskedLight(); all three empty: there are none.
+  std::vector<float> masked{};     // s, per camera pixel
+  std::vector<float> available{};  // a, per projector pixel: it is to be used up to there
+  CameraStack flood{};             // T 1 less what of it is not available, not below 0
 };
+
+/// The flood image of what a target may use.
+inline const CameraStack& floodOf(const MeasuredVenue& venue, const Target& target) {
+  return target.flood.empty() ? venue.flood : target.flood;
+}
+/// 1 - s of a camera pixel.
+inline float unmaskedShare(const Target& target, std::size_t pixel) {
+  return target.masked.empty() ? 1.0f : 1.0f - target.masked[pixel];
+}
+/// Whether the content, or else a mask, covers all of a camera pixel: the projector pixels there are the content's.
+inline bool isCovered(const Target& target, std::size_t pixel) {
+  return target.inside[pixel] != 0 || (!target.masked.empty() && target.masked[pixel] >= fullyMasked);
+}
 
 /// The weight of unreachable pixels.
 float unreachableWeightOf(const TargetSettings& settings);
@@ -165,10 +185,11 @@ transport::ColourBlock meanColourMixing(const MeasuredVenue& venue);
 /// In the views of other cameras it lies on the surface where the first one sees it (MeasuredVenue::views),
 /// or in a quadrilateral of their own. White is the same signal in all channels and views: as bright as
 /// `reachablePercentile` allows, that is so bright that this share of the usable pixels inside, each with its
-/// view's weight, cannot show it (their T 1 + e lies below it in some channel).  Source:
+/// view's weight, cannot show it (their T 1 + e lies below it in some channel). Towards a mask wanted goes to 0 as
+/// 1 - s, and so does the weight; what is fully masked asks for nothing, and is not inside.  Source:
 /// core/compensation/README.md. Throws: Error{input} if no part of the view is lit, a corner lies outside the
-/// view, the corners enclose nothing usable, no view has a weight, or views of cameras are set that there are
-/// not.
+/// view, the corners enclose nothing usable or all of it is masked, no view has a weight, or views or masks of cameras
+/// are set that there are not.
 Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
                  const TargetSettings& settings);
 

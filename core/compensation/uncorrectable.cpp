@@ -52,9 +52,10 @@ class SecondViews {
 
 /// What the projector's limits say of a pixel.
 Uncorrectable byBrightness(const MeasuredVenue& venue, const Target& target, std::size_t i) {
+  const CameraStack& flood = floodOf(venue, target);
   bool dark = false, bright = false;
   for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-    dark = dark || !(target.wanted[c] <= venue.black[c] + venue.flood[c]);
+    dark = dark || !(target.wanted[c] <= venue.black[c] + flood[c]);
     bright = bright || target.wanted[c] < venue.black[c];
   }
   return dark ? Uncorrectable::tooDark : bright ? Uncorrectable::tooBright : Uncorrectable::none;

@@ -7,7 +7,6 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
-#include "relucent/compensation/stacks.h"
 
 namespace relucent::engine {
 namespace {
@@ -60,19 +59,22 @@ void AvailabilityFollower::aim(const Availability& wanted, const EngineContent& 
   wanted_.clear();
   missing_.clear();
   settled_ = false;
-  if (wanted.isComplete()) return;
+  if (wanted.isComplete()) {
+    findMissing(content);
+    return;
+  }
   for (std::size_t j = 0; j < projectors.devices(); ++j) {
     const std::vector<float> shares = sharesOfPixels(wanted.projectors[j], projectors.size(j));
     wanted_.insert(wanted_.end(), shares.begin(), shares.end());
   }
+  for (std::size_t j = 0; j < content.kept.size(); ++j) wanted_[j] *= content.kept[j];
   findMissing(content);
 }
 
 void AvailabilityFollower::findMissing(const EngineContent& content) {
   freeVersion_ = content.freeVersion;
-  if (wanted_.empty()) return;
-  missing_ = engine_.venue.transport.apply(compensation::stackOf<ProjectorStack>(
-      3 * wanted_.size(), [&](std::size_t i) { return content.free[i / 3] ? 1.0f - wanted_[i / 3] : 0.0f; }));
+  const std::vector<float>& towards = wanted_.empty() ? content.kept : wanted_;
+  missing_ = towards.empty() ? CameraStack() : missingLight(engine_, content.free, towards);
 }
 
 bool AvailabilityFollower::advance(std::chrono::duration<double> elapsed, EngineContent& content) {
@@ -82,6 +84,7 @@ bool AvailabilityFollower::advance(std::chrono::duration<double> elapsed, Engine
   }
   if (settled_) return false;
   const std::size_t pixels = content.free.size(), values = 3 * content.weight.size();
+  const std::vector<float>& wanted = wanted_.empty() ? content.kept : wanted_;
   if (content.available.empty()) {
     content.available.assign(pixels, 1.0f);
     content.missing = CameraStack(values, 0.0f);
@@ -90,7 +93,7 @@ bool AvailabilityFollower::advance(std::chrono::duration<double> elapsed, Engine
   const auto farthest = [&](std::size_t begin, std::size_t end) {
     float most = 0.0f;
     for (std::size_t j = begin; j < end; ++j)
-      most = std::max(most, std::abs(content.available[j] - (wanted_.empty() ? 1.0f : wanted_[j])));
+      most = std::max(most, std::abs(content.available[j] - (wanted.empty() ? 1.0f : wanted[j])));
     return most;
   };
   std::array<float, fixedParts> apart{};
@@ -99,12 +102,12 @@ bool AvailabilityFollower::advance(std::chrono::duration<double> elapsed, Engine
   });
   settled_ = left * std::ranges::max(apart) < asGoodAsThere;
   if (settled_) {
-    content.available = wanted_;
+    content.available = wanted;
     content.missing = missing_;
     return true;
   }
   parallelFor(0, pixels, 16384, [&](std::size_t j) {
-    const float there = wanted_.empty() ? 1.0f : wanted_[j];
+    const float there = wanted.empty() ? 1.0f : wanted[j];
     content.available[j] = there + left * (content.available[j] - there);
   });
   parallelFor(0, values, 16384, [&](std::size_t i) {

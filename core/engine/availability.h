@@ -30,7 +30,8 @@ Availability::Grid completeGrid(Size projector, int side);
 std::vector<float> sharesOfPixels(const Availability::Grid& grid, Size projector);
 
 /// Prepared content for light that somebody stands in. What is projected is a p, a of every projector pixel,
-/// as if a filter were in front of it: T diag(a) instead of T. It becomes so smoothly:
+/// as if a filter were in front of it: T diag(a) instead of T. With a mask, a is the product of its share
+/// (EngineContent::kept) and of what somebody leaves. It becomes so smoothly:
 ///   a(t + dt) = a* + (a(t) - a*) exp(-dt / 0.05 s)
 /// and with it what no longer arrives, T (1 - a) of what is free, which is linear in a: a product with T for
 /// every a* that is asked for, and then a mean of two pictures a frame.
@@ -48,12 +49,14 @@ class AvailabilityFollower {
   bool advance(std::chrono::duration<double> elapsed, EngineContent& content);
   /// Whether it is there.
   bool settled() const { return settled_; }
+  /// Whether it is there, and nobody stands in any light.
+  bool isComplete() const { return settled_ && wanted_.empty(); }
 
  private:
   void findMissing(const EngineContent& content);
 
   const EngineVenue& engine_;
-  std::vector<float> wanted_;  // a*; empty: all
+  std::vector<float> wanted_;  // a*; empty: all that masks leave
   CameraStack missing_;        // of a*
   std::uint64_t freeVersion_ = 0;
   bool settled_ = true;

@@ -62,7 +62,7 @@ CpuBackend::CpuBackend(const EngineVenue& engine, const EngineKernels* kernels)
 void CpuBackend::setContent(const EngineContent& content) {
   content_ = &content;
   field_ = {};
-  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 7] = 1.0f;
+  for (std::size_t i = 0; i < content.weight.size(); ++i) known_[8 * i + 7] = content.unmaskedShare(i);
   for (std::vector<float>* values : {&wanted_, &held_, &unmixed_, &placed_, &nodes_})
     std::fill(values->begin(), values->end(), 0.0f);
   hasLast_ = false;
@@ -129,7 +129,8 @@ void CpuBackend::contentFollowed() {
 void CpuBackend::startFrom(std::span<const float> projector) {
   require(content_ != nullptr && projector.size() == 3 * engine_.brightest.size(),
           "{} values of {} projector pixels", projector.size(), engine_.brightest.size());
-  for (std::size_t i = 0; i < projector.size(); ++i) nodes_[i] = shareOf(i / 3) * clamp01(projector[i]);
+  for (std::size_t i = 0; i < projector.size(); ++i)
+    nodes_[i] = content_->free[i / 3] ? content_->availableOf(i / 3, clamp01(projector[i])) : 0.0f;
   hasLast_ = true;
 }
 
@@ -196,7 +197,7 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
     const bool shown = brightest[j] >= 0 && content_->free[j];
     const std::size_t from = shown ? 4 * static_cast<std::size_t>(brightest[j]) : 0;
     for (std::size_t c = 0; c < 3; ++c)
-      nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) : 0.0f;
+      nodes_[3 * j + c] = shown ? clamp01(brightness * placed_[from + c]) * content_->keptOf(j) : 0.0f;
   });
   encodeAll(words);
 }

@@ -51,7 +51,8 @@ void CpuBackend::takeGains(const compensation::BrightnessField& field) noexcept 
   field_ = field;
   parallelFor(0, content_->place.size(), 4096, [&](std::size_t i) {
     if (content_->warp.inside(i))
-      known_[8 * i + 7] = field_.gain(content_->place[i][0], content_->place[i][1]);
+      known_[8 * i + 7] =
+          field_.gain(content_->place[i][0], content_->place[i][1]) * content_->unmaskedShare(i);
   });
 }
 

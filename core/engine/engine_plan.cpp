@@ -28,7 +28,8 @@ std::vector<float> weightsOf(const compensation::MeasuredVenue& venue, const com
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
     for (std::size_t i = begin; i < end; ++i)
-      weight[i] = venue.usable[i] != 0 ? target.viewWeight[camera] : 0.0f;
+      weight[i] =
+          venue.usable[i] != 0 ? target.viewWeight[camera] * compensation::unmaskedShare(target, i) : 0.0f;
   }
   return weight;
 }
@@ -86,6 +87,12 @@ EngineVenue prepareVenue(const compensation::MeasuredVenue& venue, const inverse
           std::move(encoders)};
 }
 
+CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free,
+                         const std::vector<float>& available) {
+  return engine.venue.transport.apply(compensation::stackOf<ProjectorStack>(
+      3 * available.size(), [&](std::size_t i) { return free[i / 3] ? 1.0f - available[i / 3] : 0.0f; }));
+}
+
 EngineContent prepareContent(const EngineVenue& engine, Size content) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
   const compensation::MeasuredVenue& venue = engine.venue;
@@ -110,6 +117,12 @@ EngineContent prepareContent(const EngineVenue& engine, Size content) {
   auto lit = compensation::stackOf<ProjectorStack>(
       3 * result.free.size(), [&](std::size_t j) { return result.free[j / 3] ? 1.0f : 0.0f; });
   result.lit = venue.transport.apply(lit);
+  result.masked = std::move(target.masked);
+  result.kept = std::move(target.available);
+  if (!result.kept.empty()) {
+    result.available = result.kept;
+    result.missing = missingLight(engine, result.free, result.kept);
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -60,10 +61,27 @@ struct EngineContent {
   std::vector<float> viewWeight;  // per camera, of its view; the largest is 1
   std::vector<std::optional<compensation::Placement>> placements;  // as Target's
   std::uint64_t freeVersion = 0;  // another one where `free`, `brightest` and `lit` have changed
-  // Of light that somebody stands in, see AvailabilityFollower; both empty: all arrives.
+  // Of light that a mask takes or that somebody stands in, see AvailabilityFollower; both empty: all is used.
   std::vector<float> available;  // per projector pixel: a, 0 to 1
   CameraStack missing;           // camera stack: T (1 - a) of what is free
+  // Of masks alone, see compensation::maskedLight(); both empty: there are none.
+  std::vector<float> kept;    // per projector pixel: a
+  std::vector<float> masked;  // per camera pixel: s
+
+  /// 1 - s of a camera pixel: what is wanted there, and its weight, are that much of what they were.
+  float unmaskedShare(std::size_t pixel) const { return masked.empty() ? 1.0f : 1.0f - masked[pixel]; }
+  /// a of masks.
+  float keptOf(std::size_t pixel) const { return kept.empty() ? 1.0f : kept[pixel]; }
+  /// What of a value that is projected, by what masks leave, is when somebody stands in the light besides.
+  float availableOf(std::size_t pixel, float value) const {
+    if (available.empty()) return value;
+    const float most = keptOf(pixel);
+    return most > 0.0f ? available[pixel] / most * std::min(value, most) : 0.0f;
+  }
 };
+
+/// T (1 - a) of what is free.
+CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free, const std::vector<float>& available);
 
 /// Prepares content of a size, placed as fitTarget() places it.
 /// Throws: as fitTarget().

@@ -17,7 +17,8 @@ constexpr std::size_t mostKept = 8;
 
 CameraMask insideOf(const EngineContent& content, std::size_t pixels) {
   CameraMask inside(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) inside[i] = content.warp.inside(i);
+  for (std::size_t i = 0; i < pixels; ++i)
+    inside[i] = content.warp.inside(i) && (content.masked.empty() || content.masked[i] < compensation::fullyMasked);
   return inside;
 }
 
@@ -30,6 +31,7 @@ ViewFollower::ViewFollower(const EngineVenue& engine, const EngineContent& conte
                       compensation::DirectLightSettings{}) {
   target_.inside = insideOf(content, engine.venue.usable.size());
   target_.placements = content.placements;
+  target_.masked = content.masked;
   for (std::size_t view = 0; view < content.viewWeight.size(); ++view)
     shows_.push_back(white_.isPossible(view, engine.settings.target.reachablePercentile));
 }
@@ -74,7 +76,8 @@ void ViewFollower::follow(std::span<const double> weights, EngineContent& conten
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
     parallelFor(begin, end, 16384, [&](std::size_t i) {
-      content.weight[i] = engine_.venue.usable[i] != 0 ? content.viewWeight[camera] : 0.0f;
+      content.weight[i] =
+          engine_.venue.usable[i] != 0 ? content.viewWeight[camera] * content.unmaskedShare(i) : 0.0f;
     });
   }
   const Lit& lit = litFor(asked);
@@ -83,6 +86,9 @@ void ViewFollower::follow(std::span<const double> weights, EngineContent& conten
   content.brightest = lit.brightest;
   content.lit = lit.lit;
   content.freeVersion = lit.version;
+  // Where somebody stands in it besides, AvailabilityFollower finds what is missing.
+  if (!content.kept.empty() && content.available == content.kept)
+    content.missing = missingLight(engine_, content.free, content.kept);
 }
 
 }  // namespace relucent::engine

@@ -15,6 +15,7 @@
 #include "relucent/image/colour_map.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
+#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/pictures.h"
 #include "relucent/pipeline/projection.h"
@@ -123,7 +124,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
   MeasuredCalibration measured = loadCalibration(folder, loading);
   const compensation::MeasuredVenue& venue = measured.venue;
 
-  compensation::Target target = fitTarget(content, venue, settings.target);
+  compensation::Target target = fitTarget(content, venue, withMasks(settings.target, folder));
   compensation::CompensatorSettings compensatorSettings;
   compensatorSettings.optimum = compensation::defaultsOf(settings.solver);
   compensation::Compensator compensator(venue, measured.inverse, compensatorSettings);

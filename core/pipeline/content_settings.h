@@ -24,6 +24,7 @@ struct ContentSettings {
   std::optional<compensation::Corners> corners;  // as TargetSettings
   std::vector<compensation::ViewSettings> views;
   std::optional<compensation::Position> viewer{};
+  std::vector<compensation::Mask> masks{};  // where nothing is to be lit
 
   bool operator==(const ContentSettings&) const = default;
 };

@@ -17,6 +17,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/judge.h"
+#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/perfecting_loop.h"
 #include "relucent/pipeline/projection.h"
 #include "relucent/pipeline/projection_photographs.h"
@@ -328,7 +329,9 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
   MeasuredCalibration measured = loadCalibration(folder, loading);
   if (settings.rig) measured.rig = *settings.rig;
   Progress evaluating = progress.part(0.8, RELUCENT_MESSAGE("stage.evaluating", "Evaluating"));
-  return evaluated(measured, settings, cache, evaluating).result;
+  EvaluateSettings masked = settings;
+  masked.target = withMasks(settings.target, folder);
+  return evaluated(measured, masked, cache, evaluating).result;
 }
 
 }  // namespace relucent::pipeline

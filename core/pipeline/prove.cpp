@@ -17,6 +17,7 @@
 #include "relucent/photography/photographer.h"
 #include "relucent/pipeline/aim.h"
 #include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/projection.h"
@@ -239,7 +240,8 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   const transport::TransportMatrix& transport = measured.venue.transport;
   rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);
 
-  compensation::Target target = fitTarget(content, measured.venue, settings.target);
+  compensation::Target target =
+      fitTarget(content, measured.venue, withMasks(settings.target, folder));
   compensation::CompensatorSettings solver;
   solver.clustering = settingsOf(folder).clustering;
   compensation::Compensator compensator(measured.venue, measured.inverse, solver);

@@ -183,6 +183,7 @@ compensation::TargetSettings targetOf(const ContentSettings& settings) {
   target.brightness = settings.brightness;
   target.objective = settings.objective;
   target.clipping = settings.clipping;
+  target.masks = settings.masks;
   return target;
 }
 

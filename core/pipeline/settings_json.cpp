@@ -7,6 +7,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/enum_json.h"
+#include "relucent/pipeline/masks_file.h"
 
 // Each in its type's namespace, as the library looks for them there.
 namespace relucent {
@@ -411,6 +412,7 @@ calibration::Json stagesToJson(const CalibrateSettings& settings) {
   for (const compensation::ViewSettings& view : settings.content.views)
     content["views"].push_back(viewToJson(view));
   if (settings.content.viewer) content["viewer"] = *settings.content.viewer;
+  if (!settings.content.masks.empty()) content["masks"] = masksToJson(settings.content.masks);
   Sorted linearization = settings.linearization;
   // Calibrations from before there was such a choice keep their fingerprints.
   if (settings.linearization.exposureUnit > 0.0)
@@ -443,6 +445,8 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
     settings.content.blackLift = ofContent<double>(sorted, "blackLift");
     settings.content.views = viewsFromJson(sorted);
     settings.content.viewer = ofContent<compensation::Position>(sorted, "viewer");
+    const std::optional<calibration::Json> masks = ofContent<calibration::Json>(sorted, "masks");
+    settings.content.masks = masks ? masksFromJson(*masks) : std::vector<compensation::Mask>();
     settings.content.brightness =
         ofContent<compensation::Brightness>(sorted, "brightness").value_or(compensation::Brightness::even);
     settings.content.clipping =

@@ -176,7 +176,7 @@ bool EngineRenderer::followShadows(const RenderRequest& request) {
     shadows_->aim(available_ ? *available_ : all, *content_);
   }
   if (shadows_->advance(std::min(elapsed, mostOfAFade), *content_)) backend_->availabilityFollowed();
-  return !content_->available.empty();
+  return !shadows_->isComplete();
 }
 
 void EngineRenderer::interrupt() {
@@ -224,7 +224,7 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
                     last_.compensated &&
                     (request.viewer != last_.viewer || request.brightness != last_.brightness);
   if (wanted.fromLast) wanted.steps = std::max(wanted.steps, 1);
-  const bool isShadowed = request.compensated && !content_->available.empty();
+  const bool isShadowed = request.compensated && shadows_ && !shadows_->isComplete();
   if (isShadowed && isSolved(content, request)) {
     // From the picture as it is without a shadow on: elsewhere it stays what it was.
     backend_->startFrom(solved_);

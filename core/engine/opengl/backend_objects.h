@@ -99,7 +99,7 @@ struct OpenGlBackend::Objects {
   std::vector<float> known;
   GlBuffer camera, wanted, unmixed, placed;
   GlBuffer light, nodeLight, columnLight, groupLight, back, segmentSums, sums;
-  GlBuffer counters, brightnessParts, brightest, words, linearOfSrgb;
+  GlBuffer counters, brightnessParts, brightest, kept, words, linearOfSrgb;
   GlBuffer frame, footprints, weights;
   compensation::BrightnessField field;  // behind linearOfSrgb
   std::vector<Encoder> encoders;

@@ -49,7 +49,8 @@ vec3 unpackFloats(uvec2 code) {
 }
 
 /// What a camera pixel is known by, six to a pixel:
-/// black, and 1 where it is usable; flood, and the number of its view; lit; nine of the unmixing matrix, row by row, its
+/// black, and where it is usable what no mask takes of it, else 0; flood, and the number of its view; lit, and what no
+/// mask takes; nine of the unmixing matrix, row by row, its
 /// place in the content, and nothing.
 const uint cameraBlack = 0u, cameraFlood = 1u, cameraLit = 2u, cameraUnmix = 3u, cameraStride = 6u;
 
@@ -62,8 +63,8 @@ vec3 preconditioner(vec4 known) {
 const uint mostViews = 64u;
 #ifdef WEIGHTS
 layout(location = 16) uniform float viewWeight[mostViews];
-float weightOf(float usable, float view) {
-  return usable * viewWeight[uint(view)];
+float weightOf(float unmasked, float view) {
+  return unmasked * viewWeight[uint(view)];
 }
 #endif
 

@@ -35,7 +35,6 @@ std::vector<float> knownOf(const compensation::MeasuredVenue& venue, const inver
     float* to = &known[knownFloats * i];
     std::copy_n(&venue.black[3 * i], 3, to);
     std::copy_n(&venue.flood[3 * i], 3, to + 4);
-    to[3] = venue.usable[i] != 0 ? 1.0f : 0.0f;
     std::copy_n(windows.unmix + 9 * i, 9, to + 12);
   }
   const Rasters& cameras = venue.transport.cameras();
@@ -193,6 +192,7 @@ OpenGlBackend::Objects::Objects(const EngineVenue& engine_, std::size_t mostBoun
   counters = GlBuffer(vector);
   brightnessParts = GlBuffer(65 * 2 * sizeof(float));
   brightest = GlBuffer(engine.brightest);
+  kept = GlBuffer(sizeof(float) * projectorPixels);
   words = GlBuffer(sizeof(std::uint32_t) * projectorPixels);
 
   std::vector<float> linear;
@@ -216,8 +216,14 @@ void OpenGlBackend::Objects::setContent(const EngineContent& next) {
   static_assert(sizeof(ContentWarp::Footprint) == 20);
   footprints = GlBuffer(warp.footprints());
   weights = GlBuffer(warp.weights());
-  for (std::size_t i = 0; i < cameraPixels; ++i)
-    std::copy_n(next.place[i].data(), 2, &known[knownFloats * i + 21]);
+  for (std::size_t i = 0; i < cameraPixels; ++i) {
+    float* const to = &known[knownFloats * i];
+    to[3] = engine.venue.usable[i] != 0 ? next.unmaskedShare(i) : 0.0f;
+    to[11] = next.unmaskedShare(i);
+    std::copy_n(next.place[i].data(), 2, to + 21);
+  }
+  kept.write(0, next.kept.empty() ? std::vector<float>(projectorPixels, 1.0f).data() : next.kept.data(),
+             projectorPixels * sizeof(float));
   content = &next;
   hasLast = false;
   takeFree({});
@@ -319,9 +325,9 @@ void OpenGlBackend::startFrom(std::span<const float> projector) {
           "{} values of {} projector pixels", projector.size(), objects_->projectorPixels);
   GlContext::Current current(*context_);
   if (current && !lost_) {
-    const std::vector<float>& available = objects_->content->available;
     std::vector<float> dimmed(projector.begin(), projector.end());
-    for (std::size_t i = 0; i < dimmed.size() && !available.empty(); ++i) dimmed[i] *= available[i / 3];
+    for (std::size_t i = 0; i < dimmed.size(); ++i)
+      dimmed[i] = objects_->content->availableOf(i / 3, dimmed[i]);
     objects_->takeLight(dimmed);
     objects_->hasLast = true;
     if (!context_->failed()) return;

@@ -95,7 +95,7 @@ void OpenGlBackend::Objects::showPlaced() noexcept {
     brightness.run(parts * group);
   }
   brightnessLast.run(group);
-  bindAll({&brightest, &placed, &brightnessParts, &light});
+  bindAll({&brightest, &placed, &brightnessParts, &light, &kept});
   showing.set(0, projectorPixels);
   showing.run(projectorPixels);
   counters.clear();

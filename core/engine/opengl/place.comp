@@ -78,7 +78,7 @@ void main() {
   vec4 known = camera[c + cameraFlood];
   vec3 flood = known.xyz;
   vec4 last = camera[c + cameraUnmix + 2u];  // of the unmixing; the place in the content
-  vec3 value = white * gainAt(last.yz) * (lift + (1.0 - lift) * (mixing * mean));
+  vec3 value = white * camera[c + cameraLit].w * gainAt(last.yz) * (lift + (1.0 - lift) * (mixing * mean));
   bool reachable = all(greaterThanEqual(value, black.xyz)) && all(lessThanEqual(value, black.xyz + flood));
   vec3 rest = value - black.xyz;
   placed[i] = vec4(mean, 0.0);

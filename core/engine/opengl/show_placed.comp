@@ -5,6 +5,7 @@ layout(std430, binding = 0) readonly buffer Brightest { int brightest[]; };
 layout(std430, binding = 1) readonly buffer Placed { vec4 placed[]; };
 layout(std430, binding = 2) readonly buffer Parts { vec2 parts[]; };
 layout(std430, binding = 3) buffer Light { vec4 light[]; };
+layout(std430, binding = 4) readonly buffer Kept { float kept[]; };  // what masks leave
 
 layout(location = 0) uniform uint pixels;
 
@@ -13,6 +14,6 @@ void main() {
   if (j >= pixels) return;
   float free = light[j].w;
   bool shown = brightest[j] >= 0 && free > 0.0;
-  vec3 value = shown ? clampLight(parts[64].x * placed[max(brightest[j], 0)].xyz) : vec3(0.0);
+  vec3 value = shown ? kept[j] * clampLight(parts[64].x * placed[max(brightest[j], 0)].xyz) : vec3(0.0);
   light[j] = vec4(value, free);
 }

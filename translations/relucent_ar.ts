@@ -893,6 +893,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>ارسم الأقنعة في مشاهد الكاميرات التي قاست هذه المعايرة</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>محيطه يتقاطع مع نفسه</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>محيطه لا يحيط بشيء</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>يجب أن يكون تدرّج حافته بين 0 ونصف الضلع الأطول للمشهد</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>يجب أن تكون نقاطه أعدادًا منتهية</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>رُسم قناع في مشهد الكاميرا {}، لكن عدد الكاميرات {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>يجب أن تقع نقاطه داخل المشهد، من 0 إلى 1 على الجانبين</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>نقطتان من محيطه متطابقتان</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>يحتاج محيطه إلى ثلاث نقاط على الأقل</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>لا يجوز أن تزيد نقاط محيطه على {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>الأقنعة تغطي الصورة كلها</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>القناع {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>صغّر قناعًا أو أزل واحدًا</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2367,6 +2458,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>⁨{}⁩: الأبيض أعتم من الأحمر والأخضر والأزرق مجتمعةً بمقدار ⁨{} %⁩؛ أوقف توفير الطاقة وإدارة الألوان وأوضاع الصورة الديناميكية</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>ارسمه من جديد أو صحّح الملف</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>في القناع {} «{}»، وهذا الإصدار لا يعرفه</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>تتعذّر قراءة القناع {}: يحتاج إلى points بالشكل [[x, y], ...]، ويجوز أن يكون له camera وoutline وfeather</translation>
     </message>
 </context>
 <context>
@@ -4879,6 +4991,47 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>هذا ليس قناعًا: %1.</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>قناع جديد</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>محيط قناع</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>تدرّج حافة قناع</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>قناع مُزال</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>رسم قناع: %n نقطة. المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+            <numerusform>رسم قناع: نقطة واحدة (%n). المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+            <numerusform>رسم قناع: نقطتان (%n). المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+            <numerusform>رسم قناع: %n نقاط. المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+            <numerusform>رسم قناع: %n نقطة. المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+            <numerusform>رسم قناع: %n نقطة. المسافة تضع نقطة عند %1، %2. الإدخال يغلقه، وEscape يلغيه.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>النقطة %1 من %2، %3، %4.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6624,6 +6777,54 @@ projector %2</source>
     <message>
         <source>What of it is shown</source>
         <translation>ما يُعرض منها</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>القناع %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1، %2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>الأقنعة</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>لا يقع ضوء على هذه الأجزاء: الأبواب والنوافذ ومقاعد الزوار.</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>ارسم قناعًا</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>انقر نقاطًا في الصورة، ثم الأولى مرة أخرى للإغلاق. بلوحة المفاتيح: الأسهم والمسافة والإدخال؛ وEscape للإلغاء.</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>مستقيم</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>منحنٍ</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>كيفية وصل نقاط القناع</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>تدرّج الحافة</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>مدى عودة الضوء خارج القناع، بأجزاء الألف من المشهد</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>أزل القناع</translation>
     </message>
 </context>
 <context>

@@ -869,6 +869,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>zeichnen Sie Masken in den Ansichten der Kameras, die diese Kalibrierung gemessen haben</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>ihr Umriss überkreuzt sich selbst</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>ihr Umriss umschließt nichts</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>ihr weicher Rand muss zwischen 0 und der Hälfte der längeren Seite der Ansicht liegen</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>ihre Punkte müssen endliche Zahlen sein</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>eine Maske wurde in der Ansicht von Kamera {} gezeichnet, aber es gibt {} Kameras</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>ihre Punkte müssen in der Ansicht liegen, von 0 bis 1 längs beider Seiten</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>zwei Punkte ihres Umrisses sind gleich</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>ihr Umriss braucht mindestens drei Punkte</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>ihr Umriss darf höchstens {} Punkte haben</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>die Masken bedecken das ganze Bild</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>Maske {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>verkleinern Sie eine Maske oder entfernen Sie eine</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2343,6 +2434,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: Weiß ist {} % dunkler als Rot, Grün und Blau zusammen; schalten Sie Stromsparen, Farbmanagement und dynamische Bildmodi aus</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>zeichnen Sie sie neu oder berichtigen Sie die Datei</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>Maske {} hat „{}“, was diese Version nicht kennt</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>Maske {} ist nicht lesbar: Sie braucht points als [[x, y], ...] und darf camera, outline und feather haben</translation>
     </message>
 </context>
 <context>
@@ -4751,6 +4863,43 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>Das ist keine Maske: %1.</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>Neue Maske</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>Umriss einer Maske</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>Weicher Rand einer Maske</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>Entfernte Maske</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>Eine Maske wird gezeichnet: %n Punkt. Die Leertaste setzt einen bei %1, %2. Die Eingabetaste schließt sie, Escape bricht ab.</numerusform>
+            <numerusform>Eine Maske wird gezeichnet: %n Punkte. Die Leertaste setzt einen bei %1, %2. Die Eingabetaste schließt sie, Escape bricht ab.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>Punkt %1 von %2, %3, %4.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6476,6 +6625,54 @@ Projektor %2</translation>
     <message>
         <source>What of it is shown</source>
         <translation>Was davon gezeigt wird</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>Maske %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>Masken</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>Auf diese Teile fällt kein Licht: Türen, Fenster, Plätze der Besucher.</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>Maske zeichnen</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>Klicken Sie Punkte im Bild an und zum Schließen noch einmal den ersten. Mit der Tastatur: Pfeiltasten, Leertaste, Eingabetaste; Escape bricht ab.</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>Gerade</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>Geschwungen</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>Wie die Punkte der Maske verbunden sind</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>Weicher Rand</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>Wie weit jenseits der Maske das Licht zurückkehrt, in Tausendsteln der Ansicht</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>Maske entfernen</translation>
     </message>
 </context>
 <context>

@@ -266,6 +266,16 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>Drawing a mask: %n point. Space sets one at %1, %2. Return closes it, Escape leaves it.</numerusform>
+            <numerusform>Drawing a mask: %n points. Space sets one at %1, %2. Return closes it, Escape leaves it.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message numerus="yes">
         <source>%n night(s).</source>

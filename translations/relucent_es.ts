@@ -869,6 +869,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>dibuje máscaras en las vistas de las cámaras que midieron esta calibración</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>su contorno se cruza consigo mismo</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>su contorno no encierra nada</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>su borde suave debe estar entre 0 y la mitad del lado mayor de la vista</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>sus puntos deben ser números finitos</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>se dibujó una máscara en la vista de la cámara {}, pero hay {} cámaras</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>sus puntos deben estar dentro de la vista, de 0 a 1 en ambos lados</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>dos puntos de su contorno son iguales</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>su contorno necesita al menos tres puntos</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>su contorno puede tener como máximo {} puntos</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>las máscaras cubren toda la imagen</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>máscara {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>reduzca una máscara o quite una</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2343,6 +2434,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: el blanco es un {} % más oscuro que el rojo, el verde y el azul juntos; desactive el ahorro de energía, la gestión de color y los modos de imagen dinámicos</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>dibújela de nuevo o corrija el archivo</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>la máscara {} tiene «{}», que esta versión no conoce</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>la máscara {} no se puede leer: necesita points como [[x, y], ...] y puede tener camera, outline y feather</translation>
     </message>
 </context>
 <context>
@@ -4751,6 +4863,43 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>Esto no es una máscara: %1.</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>Máscara nueva</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>Contorno de una máscara</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>Borde suave de una máscara</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>Máscara quitada</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>Dibujando una máscara: %n punto. Espacio pone uno en %1, %2. Intro la cierra, Escape la abandona.</numerusform>
+            <numerusform>Dibujando una máscara: %n puntos. Espacio pone uno en %1, %2. Intro la cierra, Escape la abandona.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>Punto %1 de %2, %3, %4.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6476,6 +6625,54 @@ proyector %2</translation>
     <message>
         <source>What of it is shown</source>
         <translation>Qué se muestra de ello</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>Máscara %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>Máscaras</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>Sobre estas partes no cae luz: puertas, ventanas, asientos de los visitantes.</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>Dibujar una máscara</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>Haga clic en puntos de la imagen y de nuevo en el primero para cerrar. Con el teclado: flechas, Espacio, Intro; Escape abandona.</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>Rectas</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>Curvas</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>Cómo se unen los puntos de la máscara</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>Borde suave</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>Hasta dónde vuelve la luz más allá de la máscara, en milésimas de la vista</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>Quitar la máscara</translation>
     </message>
 </context>
 <context>

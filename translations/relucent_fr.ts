@@ -353,7 +353,7 @@
     </message>
     <message>
         <source>A name cannot begin with a full stop: its folder would be hidden.</source>
-        <translation>Un nom ne peut pas commencer par un point : son dossier serait masqué.</translation>
+        <translation>Un nom ne peut pas commencer par un point&#xa0;: son dossier serait masqué.</translation>
     </message>
     <message>
         <source>There is a folder of that name. Choose another name.</source>
@@ -866,6 +866,97 @@
     <message>
         <source>White changes by {} % from photograph to photograph: expose whole frames of the projector, multiples of {} ms, and switch its dynamic brightness off.</source>
         <translation>Le blanc varie de {} % d’une photo à l’autre : exposez des trames entières du projecteur, multiples de {} ms, et désactivez sa luminosité dynamique.</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>dessinez les masques dans les vues des caméras qui ont mesuré cette calibration</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>son contour se croise lui-même</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>son contour n’entoure rien</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>son bord doux doit être compris entre 0 et la moitié du grand côté de la vue</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>ses points doivent être des nombres finis</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>un masque a été dessiné dans la vue de la caméra {}, mais il y a {} caméras</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>ses points doivent être dans la vue, de 0 à 1 sur les deux côtés</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>deux points de son contour sont les mêmes</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>son contour demande au moins trois points</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>son contour peut avoir au plus {} points</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>les masques couvrent toute l’image</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>masque {} : {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>réduisez un masque ou supprimez-en un</translation>
     </message>
 </context>
 <context>
@@ -2343,6 +2434,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}&#x202f;: le blanc est plus sombre de {}&#x202f;% que le rouge, le vert et le bleu réunis&#x202f;; désactivez l’économie d’énergie, la gestion des couleurs et les modes d’image dynamiques</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>dessinez-le de nouveau ou corrigez le fichier</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>le masque {} contient « {} », que cette version ne connaît pas</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>le masque {} est illisible : il lui faut points sous la forme [[x, y], ...], et il peut avoir camera, outline et feather</translation>
     </message>
 </context>
 <context>
@@ -4259,7 +4371,7 @@
     </message>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
-        <translation>Modifié : appliqué dès que vous continuez.</translation>
+        <translation>Modifié&#xa0;: appliqué dès que vous continuez.</translation>
     </message>
 </context>
 <context>
@@ -4720,7 +4832,7 @@
     </message>
     <message>
         <source>Residuals: what was photographed, less the curve that was fitted to it.</source>
-        <translation>Résidus : ce qui a été photographié, moins la courbe ajustée.</translation>
+        <translation>Résidus&#xa0;: ce qui a été photographié, moins la courbe ajustée.</translation>
     </message>
     <message>
         <source>Off the curve, % of full</source>
@@ -4748,6 +4860,43 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>Ce n’est pas un masque : %1.</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>Nouveau masque</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>Contour d’un masque</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>Bord doux d’un masque</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>Masque supprimé</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>Dessin d’un masque : %n point. Espace en pose un à %1, %2. Entrée le ferme, Échap l’abandonne.</numerusform>
+            <numerusform>Dessin d’un masque : %n points. Espace en pose un à %1, %2. Entrée le ferme, Échap l’abandonne.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>Point %1 sur %2, %3, %4.</translation>
     </message>
 </context>
 <context>
@@ -4906,7 +5055,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Colour error: CIEDE2000, less is better. Quality: peak signal-to-noise ratio, PSNR, in dB; more is better.</source>
-        <translation>Erreur de couleur : CIEDE2000, moins vaut mieux. Qualité : rapport signal sur bruit de crête, PSNR, en dB ; plus vaut mieux.</translation>
+        <translation>Erreur de couleur&#xa0;: CIEDE2000, moins vaut mieux. Qualité&#xa0;: rapport signal sur bruit de crête, PSNR, en dB&#xa0;; plus vaut mieux.</translation>
     </message>
 </context>
 <context>
@@ -4941,7 +5090,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>Une diffusion peut prendre soin de l’image toute seule la nuit : elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. L’aide (F1) dit comment la lancer ainsi.</translation>
+        <translation>Une diffusion peut prendre soin de l’image toute seule la nuit&#xa0;: elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. L’aide (F1) dit comment la lancer ainsi.</translation>
     </message>
 </context>
 <context>
@@ -6467,15 +6616,63 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Peak signal-to-noise ratio, PSNR: 20 dB looks rough, 30 dB good.</source>
-        <translation>Rapport signal sur bruit de crête, PSNR : 20 dB paraissent grossiers, 30 dB bons.</translation>
+        <translation>Rapport signal sur bruit de crête, PSNR&#xa0;: 20 dB paraissent grossiers, 30 dB bons.</translation>
     </message>
     <message>
         <source>Structural similarity, SSIM: 1 is all of it.</source>
-        <translation>Similarité structurelle, SSIM : 1 signifie tout.</translation>
+        <translation>Similarité structurelle, SSIM&#xa0;: 1 signifie tout.</translation>
     </message>
     <message>
         <source>What of it is shown</source>
         <translation>Ce qui en est montré</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>Masque %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>Masques</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>Aucune lumière ne tombe sur ces parties : portes, fenêtres, places des visiteurs.</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>Dessiner un masque</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>Cliquez des points dans l’image, puis de nouveau le premier pour fermer. Au clavier : flèches, Espace, Entrée ; Échap abandonne.</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>Droit</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>Courbe</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>Comment les points du masque sont reliés</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>Bord doux</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>Jusqu’où la lumière revient au-delà du masque, en millièmes de la vue</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>Supprimer le masque</translation>
     </message>
 </context>
 <context>
@@ -7262,7 +7459,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
-        <translation>Modifié : appliqué dès que vous continuez.</translation>
+        <translation>Modifié&#xa0;: appliqué dès que vous continuez.</translation>
     </message>
 </context>
 <context>
@@ -8081,7 +8278,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source>“%1” goes to the trash, with its photographs, results and playlist.</source>
-        <translation>« %1 » va à la corbeille, avec ses photos, ses résultats et sa liste de lecture.</translation>
+        <translation>«&#xa0;%1&#xa0;» va à la corbeille, avec ses photos, ses résultats et sa liste de lecture.</translation>
     </message>
     <message>
         <source>Until the trash is emptied it can be taken back from there.</source>
@@ -9155,7 +9352,7 @@ projecteur %2</translation>
     <name>venue.remove-folder-yourself</name>
     <message>
         <source>this disk may have none: remove the folder with the file manager</source>
-        <translation>ce disque n’en a peut-être pas : supprimez le dossier avec le gestionnaire de fichiers</translation>
+        <translation>ce disque n’en a peut-être pas&#xa0;: supprimez le dossier avec le gestionnaire de fichiers</translation>
     </message>
 </context>
 <context>

@@ -869,6 +869,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>disegnare le maschere nelle viste delle fotocamere che hanno misurato questa calibrazione</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>il suo contorno incrocia sé stesso</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>il suo contorno non racchiude nulla</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>il suo bordo sfumato deve stare tra 0 e metà del lato maggiore della vista</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>i suoi punti devono essere numeri finiti</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>una maschera è stata disegnata nella vista della fotocamera {}, ma le fotocamere sono {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>i suoi punti devono stare nella vista, da 0 a 1 lungo entrambi i lati</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>due punti del suo contorno coincidono</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>il suo contorno richiede almeno tre punti</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>il suo contorno può avere al massimo {} punti</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>le maschere coprono tutta l’immagine</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>maschera {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>rimpicciolire una maschera o rimuoverne una</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2343,6 +2434,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}: il bianco è più scuro del {} % rispetto a rosso, verde e blu insieme; disattivare il risparmio energetico, la gestione del colore e le modalità immagine dinamiche</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>disegnarla di nuovo o correggere il file</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>la maschera {} ha «{}», che questa versione non conosce</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>la maschera {} non è leggibile: servono points come [[x, y], ...], e può avere camera, outline e feather</translation>
     </message>
 </context>
 <context>
@@ -4751,6 +4863,43 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>Questa non è una maschera: %1.</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>Nuova maschera</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>Contorno di una maschera</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>Bordo sfumato di una maschera</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>Maschera rimossa</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>Disegno di una maschera: %n punto. Spazio ne mette uno a %1, %2. Invio la chiude, Esc la abbandona.</numerusform>
+            <numerusform>Disegno di una maschera: %n punti. Spazio ne mette uno a %1, %2. Invio la chiude, Esc la abbandona.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>Punto %1 di %2, %3, %4.</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6476,6 +6625,54 @@ proiettore %2</translation>
     <message>
         <source>What of it is shown</source>
         <translation>Che cosa ne viene mostrato</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>Maschera %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>Maschere</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>Su queste parti non cade luce: porte, finestre, posti dei visitatori.</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>Disegna una maschera</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>Fare clic su punti dell’immagine, e di nuovo sul primo per chiudere. Con la tastiera: frecce, Spazio, Invio; Esc abbandona.</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>Dritto</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>Curvo</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>Come sono uniti i punti della maschera</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>Bordo sfumato</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>Fin dove torna la luce oltre la maschera, in millesimi della vista</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>Rimuovi la maschera</translation>
     </message>
 </context>
 <context>

@@ -863,6 +863,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>この校正を測定したカメラの視点にマスクを描いてください</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>輪郭が自分自身と交差しています</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>輪郭が何も囲んでいません</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>ぼかしは 0 から視野の長辺の半分までです</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>点は有限の数でなければなりません</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>カメラ {} の視点にマスクが描かれていますが、カメラは {} 台です</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>点は視野内、両辺とも 0 から 1 の間でなければなりません</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>輪郭の二つの点が同じです</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>輪郭には少なくとも三つの点が必要です</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>輪郭の点は最大 {} 個です</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>マスクが画像全体を覆っています</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>マスク {}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>マスクを小さくするか、一つ削除してください</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2337,6 +2428,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}：白は赤・緑・青の合計より {} % 暗くなっています。省電力、カラーマネジメント、ダイナミックな画質モードをオフにしてください</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>描き直すか、ファイルを直してください</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>マスク {} の「{}」は、この版では知られていません</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>マスク {} を読み込めません：points を [[x, y], ...] の形で指定し、camera、outline、feather は任意です</translation>
     </message>
 </context>
 <context>
@@ -4719,6 +4831,42 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>これはマスクになりません：%1。</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>新しいマスク</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>マスクの輪郭</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>マスクのぼかし</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>マスクの削除</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>マスクを描いています：点 %n 個。スペースで %1、%2 に点を置きます。Enter で閉じ、Escape で中止します。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>点 %1／%2、%3、%4。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6439,6 +6587,54 @@ projector %2</source>
     <message>
         <source>What of it is shown</source>
         <translation>表示する内容</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>マスク %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>マスク</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>これらの部分には光を当てません：扉、窓、来場者の席。</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>マスクを描く</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>画像内の点をクリックし、最初の点をもう一度クリックして閉じます。キーボードでは矢印キー、スペース、Enter。Escape で中止します。</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>直線</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>曲線</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>マスクの点のつなぎ方</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>ぼかし</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>マスクの外で光が戻るまでの幅（視野の千分率）</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>マスクを削除</translation>
     </message>
 </context>
 <context>

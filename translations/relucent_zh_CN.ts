@@ -863,6 +863,97 @@
     </message>
 </context>
 <context>
+    <name>compensation.draw-masks-of-cameras</name>
+    <message>
+        <source>draw masks in the views of the cameras that measured this calibration</source>
+        <translation>请在测量此校准的相机视角中绘制遮罩</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-crosses-itself</name>
+    <message>
+        <source>its outline crosses itself</source>
+        <translation>轮廓自相交叉</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-encloses-nothing</name>
+    <message>
+        <source>its outline encloses nothing</source>
+        <translation>轮廓没有围住任何部分</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-feather-out-of-range</name>
+    <message>
+        <source>its feather must lie between 0 and half of the view&apos;s larger side</source>
+        <translation>羽化须在 0 与视野长边的一半之间</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-not-finite</name>
+    <message>
+        <source>its points must be finite numbers</source>
+        <translation>各点必须是有限的数</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-of-no-camera</name>
+    <message>
+        <source>a mask was drawn in the view of camera {}, but there are {} cameras</source>
+        <translation>有一个遮罩画在相机 {} 的视角中，但只有 {} 台相机</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-outside-view</name>
+    <message>
+        <source>its points must lie within the view, from 0 to 1 along both sides</source>
+        <translation>各点必须在视野之内，两边均为 0 到 1</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-point-twice</name>
+    <message>
+        <source>two points of its outline are the same</source>
+        <translation>轮廓上有两个点相同</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-few-points</name>
+    <message>
+        <source>its outline needs three points at least</source>
+        <translation>轮廓至少需要三个点</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.mask-too-many-points</name>
+    <message>
+        <source>its outline may have {} points at most</source>
+        <translation>轮廓最多可有 {} 个点</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.masks-cover-everything</name>
+    <message>
+        <source>the masks cover the whole picture</source>
+        <translation>遮罩覆盖了整个画面</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.of-mask</name>
+    <message>
+        <source>mask {}: {}</source>
+        <translation>遮罩 {}：{}</translation>
+    </message>
+</context>
+<context>
+    <name>compensation.shrink-masks</name>
+    <message>
+        <source>make a mask smaller, or remove one</source>
+        <translation>请缩小或删除一个遮罩</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -2337,6 +2428,27 @@
     <message>
         <source>{}: white is {} % darker than red, green and blue together; switch off power saving, colour management and dynamic picture modes</source>
         <translation>{}：白色比红、绿、蓝之和暗 {} %。请关闭节能、色彩管理和动态图像模式</translation>
+    </message>
+</context>
+<context>
+    <name>masks.draw-again</name>
+    <message>
+        <source>draw it again, or correct the file</source>
+        <translation>请重新绘制，或改正文件</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unknown-key</name>
+    <message>
+        <source>mask {} has &quot;{}&quot;, which this version does not know</source>
+        <translation>遮罩 {} 含有“{}”，此版本不认识</translation>
+    </message>
+</context>
+<context>
+    <name>masks.unreadable</name>
+    <message>
+        <source>mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline and feather</source>
+        <translation>无法读取遮罩 {}：它需要形如 [[x, y], ...] 的 points，还可以有 camera、outline 和 feather</translation>
     </message>
 </context>
 <context>
@@ -4719,6 +4831,42 @@
     </message>
 </context>
 <context>
+    <name>relucent::gui::MaskEditing</name>
+    <message>
+        <source>This is no mask: %1.</source>
+        <translation>这不是遮罩：%1。</translation>
+    </message>
+    <message>
+        <source>New mask</source>
+        <translation>新遮罩</translation>
+    </message>
+    <message>
+        <source>Outline of a mask</source>
+        <translation>遮罩的轮廓</translation>
+    </message>
+    <message>
+        <source>Feather of a mask</source>
+        <translation>遮罩的羽化</translation>
+    </message>
+    <message>
+        <source>Removed mask</source>
+        <translation>删除的遮罩</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::MaskView</name>
+    <message numerus="yes">
+        <source>Drawing a mask: %n point(s). Space sets one at %1, %2. Return closes it, Escape leaves it.</source>
+        <translation>
+            <numerusform>正在绘制遮罩：%n 个点。空格在 %1，%2 处放置一点。回车闭合，Escape 取消。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Point %1 of %2, %3, %4.</source>
+        <translation>第 %1 点，共 %2 点，%3，%4。</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::MatrixView</name>
     <message>
         <source>camera %1
@@ -6439,6 +6587,54 @@ projector %2</source>
     <message>
         <source>What of it is shown</source>
         <translation>显示的内容</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>遮罩 %1</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1，%2</translation>
+    </message>
+    <message>
+        <source>Masks</source>
+        <translation>遮罩</translation>
+    </message>
+    <message>
+        <source>No light falls on these parts: doors, windows, where visitors sit.</source>
+        <translation>这些部分不受光照：门、窗、观众的座位。</translation>
+    </message>
+    <message>
+        <source>Draw a mask</source>
+        <translation>绘制遮罩</translation>
+    </message>
+    <message>
+        <source>Click points in the picture, and the first one again to close. With the keyboard: arrow keys, Space, Return; Escape leaves it.</source>
+        <translation>在画面中点击各点，再次点击第一个点即可闭合。用键盘：方向键、空格、回车；Escape 取消。</translation>
+    </message>
+    <message>
+        <source>Straight</source>
+        <translation>直线</translation>
+    </message>
+    <message>
+        <source>Curved</source>
+        <translation>曲线</translation>
+    </message>
+    <message>
+        <source>How the points of the mask are joined</source>
+        <translation>遮罩各点的连接方式</translation>
+    </message>
+    <message>
+        <source>Feather</source>
+        <translation>羽化</translation>
+    </message>
+    <message>
+        <source>How far beyond the mask the light comes back, thousandths of the view</source>
+        <translation>遮罩之外光恢复的范围，视野的千分之几</translation>
+    </message>
+    <message>
+        <source>Remove the mask</source>
+        <translation>删除遮罩</translation>
     </message>
 </context>
 <context>

@@ -31,31 +31,33 @@ compensation::Mask maskFrom(const std::string& text) {
     if (isRead) mask.points.push_back(point);
     if (isRead && (input >> std::ws).eof()) return mask;
   } while (isRead && input.get() == ',');
-  throw WrongUsage(
-      fmt::format("'{}' is no mask: write [CAMERA:]x,y,x,y,x,y,... with the points of its outline as shares of the "
-                  "view, 0 to 1",
-                  text));
+  throw WrongUsage(fmt::format(
+      "'{}' is no mask: write [CAMERA:]x,y,x,y,x,y,... with the points of its outline as shares of the "
+      "view, 0 to 1",
+      text));
 }
 
 }  // namespace
 
 void addMasks(CLI::App* sub, std::optional<std::vector<compensation::Mask>>& masks, const char* otherwise) {
-  CLI::Option* file = sub->add_option_function<std::string>(
-                             "--masks",
-                             [&masks](const std::string& name) {
-                               masks = name == "none" ? std::vector<compensation::Mask>() : pipeline::readMasks(name);
-                             },
-                             std::string("Parts of the views that are not to be lit, as the masks command writes them; "
-                                         "none: all is lit; ") +
-                                 otherwise)
-                          ->type_name("FILE|none");
+  CLI::Option* file =
+      sub->add_option_function<std::string>(
+             "--masks",
+             [&masks](const std::string& name) {
+               masks = name == "none" ? std::vector<compensation::Mask>() : pipeline::readMasks(name);
+             },
+             std::string("Parts of the views that are not to be lit, as the masks command writes them; "
+                         "none: all is lit; ") +
+                 otherwise)
+          ->type_name("FILE|none");
   addRepeated(
       sub, "--mask",
       [&masks](const std::string& text) {
         if (!masks) masks.emplace();
         masks->push_back(maskFrom(text));
       },
-      "One such part, by the points of its outline, as shares of the view from its upper left corner; may be given "
+      "One such part, by the points of its outline, as shares of the view from its upper left corner; may be "
+      "given "
       "several times")
       ->type_name("[CAMERA:]X,Y,...")
       ->excludes(file);
@@ -65,7 +67,8 @@ std::function<Command()> addMasksOptions(CLI::App* sub) {
   auto command = std::make_shared<Masks>();
   addFolder(sub, command->calibration, "Folder of the calibration");
   addMasks(sub, command->masks, "without either, they stay");
-  sub->add_option("--export", command->exported, "File to write the masks to, JSON, for --masks")->type_name("FILE");
+  sub->add_option("--export", command->exported, "File to write the masks to, JSON, for --masks")
+      ->type_name("FILE");
   return [command] { return Command(*command); };
 }
 

@@ -270,6 +270,12 @@ std::string textOf(const pipeline::EvaluateResult& result) {
     if (image.contradiction)
       text += fmt::format("Visibly worse because of other views: {:.1f} %.\n",
                           100.0 * image.contradiction->share);
+    if (const std::optional<pipeline::MaskScore>& masked = image.masked)
+      text += fmt::format(
+          "Masks leave {:.1f} % of the light there, {:.1f} % of the direct; elsewhere {:.2f} dB, {:.2f} "
+          "without them; "
+          "white {:.2f} times as bright.\n",
+          100.0 * masked->light, 100.0 * masked->direct, masked->psnr, masked->psnrWithout, masked->white);
     if (image.asExpected)
       text +=
           fmt::format("Within what the measurement expects of 95 %: {:.1f} %.\n", 100.0 * *image.asExpected);
@@ -314,10 +320,10 @@ std::string textOf(const std::vector<compensation::Mask>& masks) {
   std::string text;
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const compensation::Mask& mask = masks[i];
-    text += fmt::format("Mask {} in the view of camera {}: {} points, {}, feathered over {:.3g} % of the view.\n", i + 1,
-                        mask.camera + 1, mask.points.size(),
-                        mask.outline == compensation::Outline::curve ? "a curve" : "straight lines",
-                        100.0 * mask.feather);
+    text += fmt::format(
+        "Mask {} in the view of camera {}: {} points, {}, feathered over {:.3g} % of the view.\n", i + 1,
+        mask.camera + 1, mask.points.size(),
+        mask.outline == compensation::Outline::curve ? "a curve" : "straight lines", 100.0 * mask.feather);
   }
   return text;
 }

@@ -47,7 +47,8 @@ Contradiction contradictionOf(const Compensator& compensator, const Target& targ
 
   const ProjectorMask free = compensator.contentPixelsOf(target);
   const auto seenWith = [&](const std::vector<float>& weight) {
-    return seenAfterSteps(compensator, target.asked, weight, free, target.available, compensation.projector, progress);
+    return seenAfterSteps(compensator, target.asked, weight, free, target.available, compensation.projector,
+                          progress);
   };
   const auto errorOf = [&](const CameraStack& seen, std::size_t camera, const CameraMask& mask) {
     return image::deltaEMap(

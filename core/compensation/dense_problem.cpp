@@ -41,7 +41,8 @@ SolveResult solveDense(const ConstrainedProblem& problem, const ProjectorStack& 
                 RELUCENT_ENGLISH_MESSAGE("compensation.change-solver-or-shrink-content",
                                          "choose another solver, or place the content on fewer pixels"));
 
-  // sqrt(W) T diag(a), a column for every value that can be lit: what is solved for is p / a, between 0 and 1.
+  // sqrt(W) T diag(a), a column for every value that can be lit: what is solved for is p / a, between 0
+  // and 1.
   Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
   Eigen::VectorXd b(a.rows());
   auto root = [&](std::size_t i) { return std::sqrt(static_cast<double>(problem.weight[rows[i] / 3])); };

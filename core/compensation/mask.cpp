@@ -50,7 +50,8 @@ bool isBetween(const Point& a, const Point& b, const Point& p) {
 /// Whether two lines have a point in common.
 bool meet(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double ca = cross(a, b, c), da = cross(a, b, d), ac = cross(c, d, a), bc = cross(c, d, b);
-  if (((ca > 0.0) != (da > 0.0)) && ((ac > 0.0) != (bc > 0.0)) && ca != 0.0 && da != 0.0 && ac != 0.0 && bc != 0.0)
+  if (((ca > 0.0) != (da > 0.0)) && ((ac > 0.0) != (bc > 0.0)) && ca != 0.0 && da != 0.0 && ac != 0.0 &&
+      bc != 0.0)
     return true;
   return (ca == 0.0 && isBetween(a, b, c)) || (da == 0.0 && isBetween(a, b, d)) ||
          (ac == 0.0 && isBetween(c, d, a)) || (bc == 0.0 && isBetween(c, d, b));
@@ -68,8 +69,8 @@ bool crossesItself(const std::vector<Point>& outline) {
       }
       // Neighbours share a point; they cross where one runs back over the other.
       const Point &shared = k == i + 1 ? b : a, &before = k == i + 1 ? a : b, &after = k == i + 1 ? d : c;
-      const double along = (before[0] - shared[0]) * (after[0] - shared[0]) +
-                           (before[1] - shared[1]) * (after[1] - shared[1]);
+      const double along =
+          (before[0] - shared[0]) * (after[0] - shared[0]) + (before[1] - shared[1]) * (after[1] - shared[1]);
       if (n > 3 && cross(shared, before, after) == 0.0 && along > 0.0) return true;
     }
   return false;

@@ -37,18 +37,19 @@ struct Mask {
 inline constexpr std::size_t mostMaskPoints = 200;
 inline constexpr double widestFeather = 0.5;
 
-/// One sentence for each mask that is none: too few points, not finite, outside the view, an outline that crosses
-/// itself or encloses nothing.
+/// One sentence for each mask that is none: too few points, not finite, outside the view, an outline that
+/// crosses itself or encloses nothing.
 std::vector<Message> problems(const std::vector<Mask>& masks);
 /// What is wrong with the outline of one mask, empty if nothing is: for whoever draws it.
 Message outlineProblem(const Mask& mask);
 
-/// The closed outline as a polygon, in the mask's coordinates. A curve is the centripetal Catmull-Rom spline of its
-/// points, which has no cusps and no loops within a piece.  Source: Yuksel, Schaefer & Keyser, Parameterization and
-/// applications of Catmull-Rom curves, CAD 43, 2011.  Contract: three points or more.
+/// The closed outline as a polygon, in the mask's coordinates. A curve is the centripetal Catmull-Rom spline
+/// of its points, which has no cusps and no loops within a piece.  Source: Yuksel, Schaefer & Keyser,
+/// Parameterization and applications of Catmull-Rom curves, CAD 43, 2011.  Contract: three points or more.
 std::vector<std::array<double, 2>> outlineOf(const Mask& mask);
 
-/// How much of each pixel of a view the mask takes: with d the distance from the outline, 0 within it, and f the feather,
+/// How much of each pixel of a view the mask takes: with d the distance from the outline, 0 within it, and f
+/// the feather,
 ///   s = 1 - 3 t^2 + 2 t^3,   t = min(d / f, 1)
 /// 1 within the outline, 0 beyond the feather; means over the pixel.  Shape: one value a pixel of the view.
 /// Contract: outlineProblem() finds none.
@@ -66,10 +67,11 @@ struct MaskedLight {
 
 /// Of a projector pixel so much may be used that next to none of its direct light falls where a mask is:
 ///   B_ij = D_ij / sum_j D_ij        D: direct leaves of T (DirectLeaves), sums over the channels
-///   a_j  = min { 1 - s_i : B_ij >= 1/10 max_k B_kj },   k, i of one camera, over usable and directly lit pixels
-/// A row's own light divides out how bright its surface is, so that a dark door beside a white wall counts as the wall
-/// does. In the views of other cameras a pixel is masked where nine tenths of its direct light are gone.
-/// Only direct light: one dim bounce does not darken a wall.  Source: core/compensation/README.md.
+///   a_j  = min { 1 - s_i : B_ij >= 1/10 max_k B_kj },   k, i of one camera, over usable and directly lit
+///   pixels
+/// A row's own light divides out how bright its surface is, so that a dark door beside a white wall counts as
+/// the wall does. In the views of other cameras a pixel is masked where nine tenths of its direct light are
+/// gone. Only direct light: one dim bounce does not darken a wall.  Source: core/compensation/README.md.
 /// Throws: Error{input} for a mask of a camera that there is not. Contract: problems() finds none.
 MaskedLight maskedLight(const MeasuredVenue& venue, const std::vector<Mask>& masks,
                         const DirectLightSettings& settings = {});

@@ -12,8 +12,8 @@
 namespace relucent::compensation {
 namespace {
 
-/// Of the camera pixel that a projector pixel lights most, what another one must have to count: less than this of a
-/// projector pixel's light is the rim of its spot.
+/// Of the camera pixel that a projector pixel lights most, what another one must have to count: less than
+/// this of a projector pixel's light is the rim of its spot.
 constexpr float leastShare = 0.1f;
 /// Of its direct light, what a pixel of another view has lost that counts as masked.
 constexpr float lostToMasks = 0.9f;
@@ -70,7 +70,8 @@ std::vector<float> drawn(const Rasters& cameras, const std::vector<Mask>& masks)
                                    "draw masks in the views of the cameras that measured this calibration"));
     const std::vector<float> shares = sharesOf(mask, cameras.size(mask.camera));
     float* const first = &masked[cameras.offset(mask.camera)];
-    std::transform(shares.begin(), shares.end(), first, first, [](float a, float b) { return std::max(a, b); });
+    std::transform(shares.begin(), shares.end(), first, first,
+                   [](float a, float b) { return std::max(a, b); });
   }
   return masked;
 }

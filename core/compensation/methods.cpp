@@ -17,8 +17,8 @@ CameraStack difference(const CameraStack& a, const CameraStack& b) {
   return stackOf<CameraStack>(a.size(), [&](std::size_t i) { return a[i] - b[i]; });
 }
 
-/// Clamps, blackens what is not free, and says what share of the values that can be lit was cut off by the projector's
-/// limits.
+/// Clamps, blackens what is not free, and says what share of the values that can be lit was cut off by the
+/// projector's limits.
 double finish(ProjectorStack& p, const ProjectorMask& free, const std::vector<float>& available) {
   // A value beyond by less than half a code of an 8-bit projector is not visibly cut.
   constexpr float visible = 0.002f;
@@ -103,6 +103,7 @@ ProjectorMask Compensator::contentPixelsOf(const Target& target) const {
 }
 
 float Compensator::bestBrightness(const Target& target) const {
+  const CameraStack& flood = floodOf(venue_, target);
   double wanted = 0.0, seen = 0.0;
   const Rasters& cameras = venue_.transport.cameras();
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
@@ -111,7 +112,7 @@ float Compensator::bestBrightness(const Target& target) const {
     for (std::size_t i = begin; i < end; ++i) {
       if (!target.inside[i / 3] || !venue_.usable[i / 3]) continue;
       const double weight = ofView * static_cast<double>(unmaskedShare(target, i / 3));
-      double light = static_cast<double>(venue_.flood[i]) * static_cast<double>(target.content[i]);
+      double light = static_cast<double>(flood[i]) * static_cast<double>(target.content[i]);
       wanted += weight * light * static_cast<double>(target.asked[i]);
       seen += weight * light * light;
     }

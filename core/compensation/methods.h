@@ -67,10 +67,10 @@ class Compensator {
   ///            whole venue; the adjoint takes back light where many pixels' light meets (caustics)
   ///   refined  windows, then p <- clamp01(p + a_k C T^T W (a - T p)) for every a_k
   ///   optimum  the constrained least-squares solution, started from windows
-  /// C: of windows, clusters and refined StepPreconditioner's. Where target.available holds light back, a = it: T diag(a)
-  /// in place of T, as if a filter hung before the projector, and p <= a, see engine/availability.h.
-  /// `clusters` is prepared when it is first asked for.
-  /// Throws: Cancelled; Error{numerics} where solveConstrained() does; as computeClusterInverse().
+  /// C: of windows, clusters and refined StepPreconditioner's. Where target.available holds light back, a =
+  /// it: T diag(a) in place of T, as if a filter hung before the projector, and p <= a, see
+  /// engine/availability.h. `clusters` is prepared when it is first asked for. Throws: Cancelled;
+  /// Error{numerics} where solveConstrained() does; as computeClusterInverse().
   Compensation solve(Method method, const Target& target, Progress& progress) const;
 
   /// From p on, `rounds` times the steps of `refined`, of whatever made p.

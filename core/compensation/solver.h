@@ -57,9 +57,10 @@ SolverSettings defaultsOf(SolverSettings::Algorithm algorithm);
 struct SolveResult {
   ProjectorStack x;
   int iterations = 0;
-  bool converged = false;          // the tolerance was met
-  double projectedGradient = 0.0;  // root mean square over the free pixels of p - clamp(p - C grad f(p)), 0 to a
-  double objective = 0.0;          // f
+  bool converged = false;  // the tolerance was met
+  double projectedGradient =
+      0.0;                 // root mean square over the free pixels of p - clamp(p - C grad f(p)), 0 to a
+  double objective = 0.0;  // f
 };
 
 /// T^T W T a, with a of the problem: the row sums of the Hessian times a. Shape: projector stack.
@@ -68,9 +69,10 @@ ProjectorStack hessianRowSums(const ConstrainedProblem& problem);
 ProjectorStack hessianRowSums(const transport::TransportMatrix& transport, const std::vector<float>& weight,
                               const ProjectorMask& free);
 
-/// C_j = a_j / (T^T W (T a))_j: the diagonal that bounds T^T W T from above for non-negative transport, on pixels
-/// with any light, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a diagonal keeps the fixed point of the projected iteration where the constrained optimum is.
-/// Shapes: projector stack.  Source: core/compensation/README.md.
+/// C_j = a_j / (T^T W (T a))_j: the diagonal that bounds T^T W T from above for non-negative transport, on
+/// pixels with any light, so a step of one never overshoots. 0 where no weighted pixel is seen. Only a
+/// diagonal keeps the fixed point of the projected iteration where the constrained optimum is. Shapes:
+/// projector stack.  Source: core/compensation/README.md.
 ProjectorStack diagonalPreconditioner(const ConstrainedProblem& problem);
 
 /// grad f(p) = T^T W (T p - b), 0 on pixels that are not free.

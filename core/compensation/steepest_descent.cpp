@@ -42,8 +42,8 @@ SolveResult solveSteepestDescent(const Iteration& at, const ProjectorStack& star
 
     ProjectorStack direction = feasibleDirection(at, x, g);
     float step = lineMinimum(at, direction);
-    ProjectorStack trial =
-        stackOf<ProjectorStack>(x.size(), [&](std::size_t j) { return at.held(x[j] + step * direction[j], j); });
+    ProjectorStack trial = stackOf<ProjectorStack>(
+        x.size(), [&](std::size_t j) { return at.held(x[j] + step * direction[j], j); });
 
     // Where clamping bent the line, its minimum lies elsewhere, and f might have risen.
     CameraStack litTrial = at.light(trial);

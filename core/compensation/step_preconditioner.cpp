@@ -15,7 +15,8 @@ constexpr float leastShown = 1e-5f;
 
 }  // namespace
 
-StepPreconditioner::StepPreconditioner(const transport::TransportMatrix& transport, const CameraMask& usable) {
+StepPreconditioner::StepPreconditioner(const transport::TransportMatrix& transport,
+                                       const CameraMask& usable) {
   require(usable.size() == transport.cameras().count(), "{} flags for {} camera pixels", usable.size(),
           transport.cameras().count());
   std::vector<float> weight(usable.size());

@@ -255,8 +255,8 @@ void takeMasks(const MeasuredVenue& venue, const TargetSettings& settings, Targe
   MaskedLight light = maskedLight(venue, *settings.masks);
   target.masked = std::move(light.masked);
   target.available = std::move(light.available);
-  const CameraStack missing = venue.transport.apply(
-      stackOf<ProjectorStack>(3 * target.available.size(), [&](std::size_t i) { return 1.0f - target.available[i / 3]; }));
+  const CameraStack missing = venue.transport.apply(stackOf<ProjectorStack>(
+      3 * target.available.size(), [&](std::size_t i) { return 1.0f - target.available[i / 3]; }));
   target.flood = stackOf<CameraStack>(
       missing.size(), [&](std::size_t i) { return std::max(0.0f, venue.flood[i] - missing[i]); });
   bool wasAny = false, isAny = false;

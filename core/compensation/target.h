@@ -129,7 +129,8 @@ inline const CameraStack& floodOf(const MeasuredVenue& venue, const Target& targ
 inline float unmaskedShare(const Target& target, std::size_t pixel) {
   return target.masked.empty() ? 1.0f : 1.0f - target.masked[pixel];
 }
-/// Whether the content, or else a mask, covers all of a camera pixel: the projector pixels there are the content's.
+/// Whether the content, or else a mask, covers all of a camera pixel: the projector pixels there are the
+/// content's.
 inline bool isCovered(const Target& target, std::size_t pixel) {
   return target.inside[pixel] != 0 || (!target.masked.empty() && target.masked[pixel] >= fullyMasked);
 }
@@ -185,11 +186,11 @@ transport::ColourBlock meanColourMixing(const MeasuredVenue& venue);
 /// In the views of other cameras it lies on the surface where the first one sees it (MeasuredVenue::views),
 /// or in a quadrilateral of their own. White is the same signal in all channels and views: as bright as
 /// `reachablePercentile` allows, that is so bright that this share of the usable pixels inside, each with its
-/// view's weight, cannot show it (their T 1 + e lies below it in some channel). Towards a mask wanted goes to 0 as
-/// 1 - s, and so does the weight; what is fully masked asks for nothing, and is not inside.  Source:
+/// view's weight, cannot show it (their T 1 + e lies below it in some channel). Towards a mask wanted goes to
+/// 0 as 1 - s, and so does the weight; what is fully masked asks for nothing, and is not inside.  Source:
 /// core/compensation/README.md. Throws: Error{input} if no part of the view is lit, a corner lies outside the
-/// view, the corners enclose nothing usable or all of it is masked, no view has a weight, or views or masks of cameras
-/// are set that there are not.
+/// view, the corners enclose nothing usable or all of it is masked, no view has a weight, or views or masks
+/// of cameras are set that there are not.
 Target fitTarget(const image::Image& linearContent, const MeasuredVenue& venue,
                  const TargetSettings& settings);
 

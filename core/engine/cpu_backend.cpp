@@ -179,7 +179,7 @@ void CpuBackend::warpOnly(OutputWords words) noexcept {
       const auto weight = static_cast<double>(content_->weight[i]);
       if (weight == 0.0) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        double light = static_cast<double>(venue.flood[3 * i + c]) * static_cast<double>(placed_[4 * i + c]);
+        double light = static_cast<double>(known_[8 * i + 4 + c]) * static_cast<double>(placed_[4 * i + c]);
         wanted[part] += weight * light * static_cast<double>(wanted_[4 * i + c]);
         seen[part] += weight * light * light;
       }

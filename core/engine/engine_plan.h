@@ -81,7 +81,8 @@ struct EngineContent {
 };
 
 /// T (1 - a) of what is free.
-CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free, const std::vector<float>& available);
+CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free,
+                         const std::vector<float>& available);
 
 /// Prepares content of a size, placed as fitTarget() places it.
 /// Throws: as fitTarget().

@@ -18,7 +18,8 @@ constexpr std::size_t mostKept = 8;
 CameraMask insideOf(const EngineContent& content, std::size_t pixels) {
   CameraMask inside(pixels);
   for (std::size_t i = 0; i < pixels; ++i)
-    inside[i] = content.warp.inside(i) && (content.masked.empty() || content.masked[i] < compensation::fullyMasked);
+    inside[i] =
+        content.warp.inside(i) && (content.masked.empty() || content.masked[i] < compensation::fullyMasked);
   return inside;
 }
 

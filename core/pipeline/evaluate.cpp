@@ -17,6 +17,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/judge.h"
+#include "relucent/pipeline/mask_score.h"
 #include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/perfecting_loop.h"
 #include "relucent/pipeline/projection.h"
@@ -256,6 +257,10 @@ Evaluation evaluated(const MeasuredCalibration& measured, const EvaluateSettings
             contradictionOf(compensator, target, compensation, comparing);
         score.contradiction = {contradiction.share, contradiction.shares};
       }
+    }
+    if (settings.target.masks && !settings.target.masks->empty()) {
+      Progress untold;
+      score.masked = maskScore(compensator, judge, methods.back(), image.linear, settings.target, untold);
     }
     judgeRivals(rivals, settings.rivals, target, reachable, judge, score, judging);
     if (settings.perfected > 0) {

@@ -77,6 +77,16 @@ struct ViewScore {
   std::vector<MethodScore> perfected{};  // `refined`, as it was shown for one photograph after the other
 };
 
+/// What masks do, judged by the true light (mask_score.h).
+struct MaskScore {
+  compensation::Method method = compensation::Method::refined;
+  double light = 0.0;        // on what is masked, with masks, as a share of what was there without
+  double direct = 0.0;       // the same of direct light alone
+  double psnrWithout = 0.0;  // dB of the picture elsewhere, where it can be reached: without masks
+  double psnr = 0.0;         // and with them
+  double white = 1.0;        // the content's, with masks, as a share of what it was
+};
+
 /// What the first camera sees, in whose view the image lies.
 struct ImageScore {
   std::string name;
@@ -92,6 +102,7 @@ struct ImageScore {
   /// Share of all views' values, where pixels are usable, that the last method's prediction is as near to as
   /// it expects for 95 % of them (compensation/expected_error.h).
   std::optional<double> asExpected{};
+  std::optional<MaskScore> masked{};  // by the last method; none: there are no masks
 };
 
 /// What is seen of the edges of projectors' pictures where a flat grey is wanted (compensation/seams.h).

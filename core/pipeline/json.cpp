@@ -108,6 +108,13 @@ calibration::Json scoreToJson(const ImageScore& image) {
   addPerfected(json, image.perfected);
   if (image.contradiction) json["contradiction"] = contradictionToJson(*image.contradiction);
   if (image.asExpected) json["as_expected"] = *image.asExpected;
+  if (image.masked)
+    json["masks"] = {{"method", nameOf(image.masked->method)},
+                     {"light", image.masked->light},
+                     {"direct", image.masked->direct},
+                     {"psnr", image.masked->psnr},
+                     {"psnr_without", image.masked->psnrWithout},
+                     {"white", image.masked->white}};
   return json;
 }
 

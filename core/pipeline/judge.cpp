@@ -86,6 +86,12 @@ CameraStack Judge::seen(const compensation::Compensation& compensation) const {
   return reduction::reducedRadiance(venue_.trueRadiance(drive), reductions_);
 }
 
+CameraStack Judge::direct(const compensation::Compensation& compensation, Progress& progress) const {
+  const transport::TransportMatrix& truth = venue_.trueTransport();
+  return reduction::reducedRadiance(
+      relucent::compensation::directPart(truth, {}, progress).apply(compensation.projector), reductions_);
+}
+
 image::Image Judge::view(const CameraStack& stack, std::size_t camera) const {
   return image::imageFromStack(stack, rasters_, camera);
 }

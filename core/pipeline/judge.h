@@ -40,6 +40,9 @@ class Judge {
 
   /// What the cameras would see, free of noise.
   CameraStack seen(const compensation::Compensation& compensation) const;
+  /// The same by direct light alone (compensation/direct_light.h), without black, of projectors that are
+  /// linear.
+  CameraStack direct(const compensation::Compensation& compensation, Progress& progress) const;
   /// Of a stack of all cameras.
   image::Image view(const CameraStack& stack, std::size_t camera) const;
   CameraMask view(const CameraMask& mask, std::size_t camera) const;

@@ -16,7 +16,7 @@ namespace {
 using calibration::Json;
 using compensation::Mask;
 
-constexpr std::array<std::string_view, 4> known{"camera", "outline", "feather", "points"};
+constexpr std::array<std::string_view, 4> knownKeys{"camera", "outline", "feather", "points"};
 
 [[noreturn]] void failMasks(Message what) {
   throw Error(ErrorKind::format, std::move(what),
@@ -24,16 +24,17 @@ constexpr std::array<std::string_view, 4> known{"camera", "outline", "feather", 
 }
 
 [[noreturn]] void failUnreadable(std::size_t number) {
-  failMasks(RELUCENT_MESSAGE("masks.unreadable",
-                             "mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline "
-                             "and feather")
+  failMasks(RELUCENT_MESSAGE(
+                "masks.unreadable",
+                "mask {} cannot be read: it needs points as [[x, y], ...], and may have camera, outline "
+                "and feather")
                 .with(as::label(number)));
 }
 
 Mask maskFromJson(const Json& json, std::size_t number) {
   if (!json.is_object()) failUnreadable(number);
   for (const auto& [key, value] : json.items())
-    if (std::ranges::find(known, key) == known.end())
+    if (std::ranges::find(knownKeys, key) == knownKeys.end())
       failMasks(RELUCENT_MESSAGE("masks.unknown-key", "mask {} has \"{}\", which this version does not know")
                     .with(as::label(number), key));
   Mask mask;
@@ -74,14 +75,18 @@ std::vector<Mask> readMasks(const std::filesystem::path& file) {
   try {
     const Json json = Json::parse(readFile(file));
     if (!json.is_object() || !json.contains("masks"))
-      throw Error(ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("masks.no-list", "this file holds no list of masks"),
-                  RELUCENT_ENGLISH_MESSAGE("masks.write-list", "write an object with a list \"masks\", as the documentation has it"));
+      throw Error(
+          ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("masks.no-list", "this file holds no list of masks"),
+          RELUCENT_ENGLISH_MESSAGE("masks.write-list",
+                                   "write an object with a list \"masks\", as the documentation has it"));
     return masksFromJson(json.at("masks"));
   } catch (const Json::exception& cause) {
-    throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("masks.no-json", "this file of masks is not JSON ({})").with(cause.what()),
-                RELUCENT_ENGLISH_MESSAGE("masks.write-list", "write an object with a list \"masks\", as the documentation has it"),
-                file.string());
+    throw Error(
+        ErrorKind::format,
+        RELUCENT_ENGLISH_MESSAGE("masks.no-json", "this file of masks is not JSON ({})").with(cause.what()),
+        RELUCENT_ENGLISH_MESSAGE("masks.write-list",
+                                 "write an object with a list \"masks\", as the documentation has it"),
+        file.string());
   }
 }
 

@@ -13,8 +13,8 @@ namespace relucent::pipeline {
 /// Masks as calibrations and files of their own keep them, cameras counted from 1:
 ///   [{"camera": 1, "outline": "lines" | "curve", "feather": 0.02, "points": [[x, y], ...]}, ...]
 calibration::Json masksToJson(const std::vector<compensation::Mask>& masks);
-/// Throws: Error{format} that says which mask is none and why, or that it holds what this version does not know: light
-/// on a door is worse than a message.
+/// Throws: Error{format} that says which mask is none and why, or that it holds what this version does not
+/// know: light on a door is worse than a message.
 std::vector<compensation::Mask> masksFromJson(const calibration::Json& json);
 
 /// {"masks": [...]}.  Throws: Error{disk, format}.
@@ -25,8 +25,8 @@ void writeMasks(const std::filesystem::path& file, const std::vector<compensatio
 /// A target with the masks of the calibration, where nobody has said which.
 compensation::TargetSettings withMasks(compensation::TargetSettings target,
                                        const calibration::CalibrationFolder& folder);
-/// Keeps other masks in a calibration.  Throws: Error{input} for masks that are none, or of cameras that it has not;
-/// Error{disk}.
+/// Keeps other masks in a calibration. Whether its cameras are that many is seen where they are used.
+/// Throws: Error{input} for masks that are none; Error{disk}.
 void keepMasks(calibration::CalibrationFolder& folder, const std::vector<compensation::Mask>& masks);
 
 }  // namespace relucent::pipeline

@@ -240,8 +240,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   const transport::TransportMatrix& transport = measured.venue.transport;
   rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);
 
-  compensation::Target target =
-      fitTarget(content, measured.venue, withMasks(settings.target, folder));
+  compensation::Target target = fitTarget(content, measured.venue, withMasks(settings.target, folder));
   compensation::CompensatorSettings solver;
   solver.clustering = settingsOf(folder).clustering;
   compensation::Compensator compensator(measured.venue, measured.inverse, solver);

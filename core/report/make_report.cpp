@@ -11,6 +11,7 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/evaluation.h"
+#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/proof_record.h"
@@ -59,9 +60,10 @@ ReportComparison comparisonOf(const pipeline::EvaluatedPictures& pictures) {
 
 /// What T predicts, where the truth is not known.
 ReportComparison predictedComparison(const pipeline::NamedImage& image,
-                                     const pipeline::MeasuredCalibration& measured, Progress& progress) {
+                                     const pipeline::MeasuredCalibration& measured,
+                                     const compensation::TargetSettings& settings, Progress& progress) {
   const compensation::MeasuredVenue& venue = measured.venue;
-  compensation::Target target = compensation::fitTarget(image.linear, venue, {});
+  compensation::Target target = compensation::fitTarget(image.linear, venue, settings);
   compensation::Compensator compensator(venue, measured.inverse);
   const Rasters& cameras = venue.transport.cameras();
   auto seen = [&](const ProjectorStack& picture) {
@@ -243,6 +245,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
     pipeline::EvaluateSettings evaluation;
     evaluation.images = settings.images;
     evaluation.fewImages = true;  // whose pictures are on the page
+    evaluation.target = pipeline::withMasks({}, folder);
     pipeline::Evaluation judged = pipeline::evaluated(measured, evaluation, cache, comparing);
     for (const pipeline::EvaluatedPictures& pictures : judged.pictures)
       data.comparisons.push_back(comparisonOf(pictures));
@@ -253,7 +256,8 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
       content.push_back({image.stem().string(), image::readLinearContent(image)});
     if (content.empty()) content = pipeline::standardImages();
     for (const pipeline::NamedImage& image : content)
-      data.comparisons.push_back(predictedComparison(image, measured, comparing));
+      data.comparisons.push_back(
+          predictedComparison(image, measured, pipeline::withMasks({}, folder), comparing));
   }
 
   fs::path out = settings.out.empty() ? folder.path() / "report.html" : settings.out;

@@ -151,6 +151,13 @@ std::string viewWords(const compensation::ViewSettings& view) {
                                                                         : "the picture on the surface");
 }
 
+std::string maskWords(const compensation::Mask& mask) {
+  return fmt::format("not lit, in the view of camera {}; {} of {} points, feathered over {} of the view",
+                     mask.camera + 1,
+                     mask.outline == compensation::Outline::curve ? "a curve" : "straight lines",
+                     mask.points.size(), percent(mask.feather));
+}
+
 void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings& settings) {
   const pipeline::ContentSettings& content = settings.content;
   list.push_back({"Light that is used", cutWords(settings.threshold)});
@@ -165,6 +172,8 @@ void addContent(std::vector<NamedText>& list, const pipeline::CalibrateSettings&
                                                         : "as little as hides the edges of projectors"});
   for (std::size_t camera = 0; camera < content.views.size(); ++camera)
     list.push_back({fmt::format("View of camera {}", camera + 1), viewWords(content.views[camera])});
+  for (std::size_t i = 0; i < content.masks.size(); ++i)
+    list.push_back({fmt::format("Mask {}", i + 1), maskWords(content.masks[i])});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "wizard/devices/perfecting_part.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/light_part.h"
+#include "wizard/preview/mask_part.h"
 #include "wizard/preview/preview_page.h"
 #include "wizard/preview/views_part.h"
 
@@ -57,6 +58,7 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addWidget(viewsPart(page));
   column->addWidget(lightPart(page));
   column->addWidget(lineOf());
+  column->addWidget(maskPart(page));
   column->addWidget(labelOf(PreviewPage::tr("Reach"), "section"));
   auto* reach = new ValueRow(PreviewPage::tr("Can be reached"));
   auto* dark = new ValueRow(PreviewPage::tr("Too dark to reach"));

@@ -86,7 +86,13 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
           [this](const Failure& failure) {
             Q_EMIT failed({failure, tr("The picture of before stays.")});
           }),
-      perfecting_(session, stepName) {
+      perfecting_(session, stepName),
+      masks_(
+          settings_,
+          [this](const pipeline::ContentSettings& settings, const QString& what) {
+            setSettings(settings, what);
+          },
+          this) {
   connect(&perfecting_, &Perfecting::changed, this, [this] {
     tellStatus();
     tellResult();
@@ -104,6 +110,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     connect(qGuiApp, signal, this, &PreviewPage::tellStatus);
   connect(&session_, &Session::opened, this, [this] {
     finish();
+    masks_.choose(std::nullopt);
     settings_ = session_.settings().content;
     engine_ = nullptr;
     preview_ = nullptr;
@@ -128,6 +135,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
 }
 
 void PreviewPage::leave() {
+  masks_.cancel();
   looked_ = false;
   stopShining();
 }

@@ -8,6 +8,7 @@
 #include "wizard/devices/on_measurement.h"
 #include "wizard/devices/perfecting.h"
 #include "wizard/preview/content_preview.h"
+#include "wizard/preview/mask_editing.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -98,6 +99,7 @@ class PreviewPage : public DevicePage {
   void perfect();
   bool mayPerfect() const;
   Perfecting& perfecting() { return perfecting_; }
+  MaskEditing& masks() { return masks_; }
   /// Why it cannot shine now; empty: it can, or does.
   QString whyNotShining() const;
 
@@ -105,6 +107,7 @@ class PreviewPage : public DevicePage {
   void updateCommands() override;
   bool mayKeep() const override { return !isComputing() && problem_.isEmpty() && DevicePage::mayKeep(); }
   void keepChange() override { keepPlacement(); }
+  void cameraChanged() override { masks_.cancel(); }
 
  private:
   /// And for what.
@@ -151,6 +154,7 @@ class PreviewPage : public DevicePage {
   bool shinesCorrected_ = true;
   SurfacePictures surface_;
   Perfecting perfecting_;
+  MaskEditing masks_;
 };
 
 }  // namespace relucent::gui

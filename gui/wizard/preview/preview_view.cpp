@@ -11,7 +11,7 @@
 #include "views/number_text.h"
 #include "views/view_actions.h"
 #include "wizard/devices/device_selector.h"
-#include "wizard/preview/corner_view.h"
+#include "wizard/preview/mask_view.h"
 #include "wizard/preview/methods_card.h"
 #include "wizard/preview/preview_inspector.h"
 
@@ -62,7 +62,7 @@ class PreviewStage : public QWidget {
     kind_->foldIntoList(PreviewPage::tr("What of it is shown"));
     card_->addAction(new DeviceSelector(DeviceSelector::Kind::camera, page_, card_));
     card_->addAction(kind_);
-    views_ = {place_ = new CornerView, new ImageView, new ImageView, new ImageView, new ImageView};
+    views_ = {place_ = new MaskView, new ImageView, new ImageView, new ImageView, new ImageView};
     for (ImageView* view : views_) {
       view->setLink(&link_);
       view->setEmptyText(PreviewPage::tr("Preparing the preview"));
@@ -89,6 +89,7 @@ class PreviewStage : public QWidget {
           Q_EMIT page_.failed({failure, PreviewPage::tr("What is measured is safe.")});
         });
     connect(place_, &CornerView::moved, &page_, &PreviewPage::setCorners);
+    connectMasks();
     column->addWidget(card_, 1);
     column->addWidget(methods_ = new MethodsCard(page_));
     connect(kind_, &Segmented::chosen, this, [this](int index) {
@@ -149,7 +150,52 @@ class PreviewStage : public QWidget {
     return missing < 0.0005 ? PreviewPage::tr("All of it can be reached")
                             : PreviewPage::tr("Hatched: %1 cannot be reached").arg(percentText(missing));
   }
+  /// The masks of the shown view, by their numbers among all.
+  std::vector<std::size_t> masksInView() const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t mask = 0; mask < page_.masks().masks().size(); ++mask)
+      if (page_.masks().masks()[mask].camera == page_.camera()) numbers.push_back(mask);
+    return numbers;
+  }
+  void connectMasks() {
+    MaskEditing& editing = page_.masks();
+    const auto number = [this](int mask) { return masksInView().at(static_cast<std::size_t>(mask)); };
+    connect(place_, &MaskView::closed, this,
+            [this, &editing](const MaskView::Points& points) { editing.add(page_.camera(), points); });
+    connect(place_, &MaskView::cancelled, &editing, &MaskEditing::cancel);
+    connect(place_, &MaskView::pointsMoved, this,
+            [&editing, number](int mask, const MaskView::Points& points) {
+              editing.setPoints(number(mask), points);
+            });
+    connect(place_, &MaskView::removed, this, [&editing, number](int mask) { editing.remove(number(mask)); });
+    connect(place_, &MaskView::picked, this, [&editing, number](int mask) {
+      editing.choose(mask < 0 ? std::nullopt : std::optional(number(mask)));
+    });
+    connect(&editing, &MaskEditing::changed, this, [this, &editing] {
+      // It is drawn on the picture, which may not be what is looked at.
+      if (editing.isDrawing() && !place_->isDrawing()) {
+        if (kind_->current() != picture) {
+          kind_->setCurrent(picture);
+          Q_EMIT kind_->chosen(picture);
+        }
+        place_->setFocus(Qt::OtherFocusReason);
+      }
+      showMasks();
+    });
+  }
+  void showMasks() {
+    const MaskEditing& editing = page_.masks();
+    std::vector<compensation::Mask> masks;
+    int chosen = -1;
+    for (const std::size_t number : masksInView()) {
+      if (editing.chosen() == number) chosen = static_cast<int>(masks.size());
+      masks.push_back(editing.masks()[number]);
+    }
+    place_->setMasks(masks, chosen);
+    place_->setDrawing(editing.isDrawing(), editing.outline());
+  }
   void refresh() {
+    showMasks();
     place_->setWrong(!page_.problem().isEmpty());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
@@ -232,7 +278,7 @@ class PreviewStage : public QWidget {
   ViewLink link_;
   Card* card_;
   Segmented* kind_;
-  CornerView* place_;
+  MaskView* place_;
   std::array<ImageView*, 5> views_{};
   MethodsCard* methods_;
   QPointer<QWidget> room_;

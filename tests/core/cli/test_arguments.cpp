@@ -242,6 +242,20 @@ class TestArguments : public QObject {
     QVERIFY((walked.views.at(1).position == Position{-1.5, 2, 0.5}));
     QVERIFY((walked.viewer == Position{0.5, 2, 0.25}));
 
+    QVERIFY(!parsed<Compensate>("compensate d --image a.png --out o").settings.target.masks);
+    const std::vector<Mask> masks{{0, Outline::lines, {{0.1, 0.2}, {0.3, 0.2}, {0.3, 0.4}}, 0.02},
+                                  {1, Outline::lines, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.02}};
+    QVERIFY(parsed<Evaluate>("evaluate d --mask 0.1,0.2,0.3,0.2,0.3,0.4 --mask 2:0,0,1,0,1,1,0,1")
+                .settings.target.masks == masks);
+    QVERIFY(parsed<Compensate>("compensate d --image a.png --out o --masks none").settings.target.masks ==
+            std::vector<Mask>());
+    QVERIFY(parsed<Calibrate>("calibrate d --venue corner --mask 0.1,0.2,0.3,0.2,0.3,0.4")
+                .settings.content.masks == std::vector<Mask>{masks.front()});
+    QVERIFY(!parsed<cli::Masks>("masks d").masks &&
+            parsed<cli::Masks>("masks d --masks none").masks->empty());
+    for (const char* wrong : {"1,2,3", "0.1,0.2,", "a", "0:0,0,1,0,1,1", "1,2,3,4,5,6 7", "2:"})
+      QVERIFY_THROWS_EXCEPTION(WrongUsage, parseArguments({"masks", "d", "--mask", wrong}));
+
     Evaluate evaluate =
         parsed<Evaluate>("evaluate d --image a.png --image b.exr --method mix --method refined");
     QCOMPARE(evaluate.settings.images.size(), std::size_t{2});

@@ -61,14 +61,16 @@ class TestMasks : public QObject {
     QTest::addColumn<double>("feather");
     QTest::addColumn<QString>("sentence");
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto row = [](const char* name, Points points, Outline outline, double feather, const char* sentence) {
+    const auto row = [](const char* name, Points points, Outline outline, double feather,
+                        const char* sentence) {
       QTest::newRow(name) << std::move(points) << outline << feather << sentence;
     };
     row("sound", door().points, Outline::lines, 0.0, "");
     row("sound curve", door().points, Outline::curve, 0.5, "");
     row("triangle", {{0, 0}, {1, 0}, {0, 1}}, Outline::lines, 0.1, "");
     row("none", {}, Outline::lines, 0.1, "mask 1: its outline needs three points at least");
-    row("two", {{0.1, 0.1}, {0.2, 0.2}}, Outline::curve, 0.1, "mask 1: its outline needs three points at least");
+    row("two", {{0.1, 0.1}, {0.2, 0.2}}, Outline::curve, 0.1,
+        "mask 1: its outline needs three points at least");
     row("not a number", {{0.1, nan}, {0.2, 0.2}, {0.1, 0.2}}, Outline::lines, 0.1,
         "mask 1: its points must be finite numbers");
     row("outside", {{0.1, 1.2}, {0.2, 0.2}, {0.1, 0.2}}, Outline::lines, 0.1,
@@ -119,7 +121,8 @@ class TestMasks : public QObject {
       const double d = std::hypot(beyondX, beyondY), t = std::min(1.0, d / feather);
       QVERIFY(soft[i] >= 0.0f && soft[i] <= 1.0f && soft[i] + 1e-6f >= hard[i]);
       // A pixel holds means; a slope of 3/2 over the feather, and its own half beside the outline.
-      QVERIFY(std::abs(static_cast<double>(soft[i]) - (1.0 - t * t * (3.0 - 2.0 * t))) < 1.5 / feather + 0.05);
+      QVERIFY(std::abs(static_cast<double>(soft[i]) - (1.0 - t * t * (3.0 - 2.0 * t))) <
+              1.5 / feather + 0.05);
       area += static_cast<double>(hard[i]);
     }
     // Half of a fine pixel more on every side is within.
@@ -140,7 +143,8 @@ class TestMasks : public QObject {
     const std::vector<float> a = sharesOf(mask, {80, 60}), b = sharesOf(turned, {80, 60});
     for (std::size_t i = 0; i < a.size(); ++i) QVERIFY(std::abs(a[i] - b[i]) < 0.02f);
     const std::vector<float> straight = sharesOf(door(), {80, 60});
-    QVERIFY(std::accumulate(a.begin(), a.end(), 0.0f) > std::accumulate(straight.begin(), straight.end(), 0.0f));
+    QVERIFY(std::accumulate(a.begin(), a.end(), 0.0f) >
+            std::accumulate(straight.begin(), straight.end(), 0.0f));
   }
 
   /// With full projection of what is left, next to nothing direct falls on a mask, and elsewhere all does.
@@ -168,7 +172,8 @@ class TestMasks : public QObject {
 
   void everyMethodKeepsBelowWhatMasksLeave_data() {
     QTest::addColumn<Method>("method");
-    for (Method method : allValues<Method>()) QTest::addRow("%s", std::string(nameOf(method)).c_str()) << method;
+    for (Method method : allValues<Method>())
+      QTest::addRow("%s", std::string(nameOf(method)).c_str()) << method;
   }
   void everyMethodKeepsBelowWhatMasksLeave() {
     QFETCH(Method, method);
@@ -187,7 +192,8 @@ class TestMasks : public QObject {
     const double before = lightOnMask(venue.transport.apply(free), masked.masked),
                  after = lightOnMask(venue.transport.apply(p), masked.masked);
     const TransportMatrix direct = directPart(venue.transport, {}, quiet);
-    QVERIFY(lightOnMask(direct.apply(p), masked.masked) < 0.1 * lightOnMask(direct.apply(free), masked.masked));
+    QVERIFY(lightOnMask(direct.apply(p), masked.masked) <
+            0.1 * lightOnMask(direct.apply(free), masked.masked));
     QVERIFY(after < 0.45 * before);
   }
 
@@ -222,8 +228,9 @@ class TestMasks : public QObject {
     QVERIFY2(after > before - 1.0, qPrintable(QString("%1, %2 dB").arg(before).arg(after)));
   }
 
-  /// Two projectors light two camera pixels: the first one's only pixel both of them, the second one's each its own. A
-  /// mask on one of them takes the first projector's light from the other, which the second then gives.
+  /// Two projectors light two camera pixels: the first one's only pixel both of them, the second one's each
+  /// its own. A mask on one of them takes the first projector's light from the other, which the second then
+  /// gives.
   void lightIsFetchedFromTheOtherProjector() {
     const Rasters cameras(Size{8, 8}), projectors({{4, 8}, {8, 8}});
     const NodeLayout layout(projectors);
@@ -252,7 +259,8 @@ class TestMasks : public QObject {
     const ProjectorStack p = compensator.solve(Method::optimum, target, quiet).projector;
     const CameraStack seen = venue.transport.apply(p);
     const std::size_t masked = indexOf(cameras.size(0), {2, 4}), beside = indexOf(cameras.size(0), {3, 4});
-    QVERIFY(target.masked[masked] >= fullyMasked && target.inside[masked] == 0 && target.weight[masked] == 0.0f);
+    QVERIFY(target.masked[masked] >= fullyMasked && target.inside[masked] == 0 &&
+            target.weight[masked] == 0.0f);
     QCOMPARE(seen[3 * masked], 0.0f);
     const std::size_t first = 4 * 4 + 1, second = 4 * 8 + indexOf({8, 8}, {3, 4});
     QCOMPARE(p[3 * first], 0.0f);
@@ -265,8 +273,8 @@ class TestMasks : public QObject {
     const MeasuredVenue venue = twoViews();
     const MaskedLight light = maskedLight(venue, {door()});
     const std::size_t second = venue.transport.cameras().offset(1);
-    const auto masked = std::count_if(light.masked.begin() + static_cast<std::ptrdiff_t>(second), light.masked.end(),
-                                      [](float share) { return share >= fullyMasked; });
+    const auto masked = std::count_if(light.masked.begin() + static_cast<std::ptrdiff_t>(second),
+                                      light.masked.end(), [](float share) { return share >= fullyMasked; });
     QVERIFY2(masked > 30, qPrintable(QString::number(masked)));
     QVERIFY(std::all_of(light.masked.begin() + static_cast<std::ptrdiff_t>(second), light.masked.end(),
                         [](float share) { return share == 0.0f || share == 1.0f; }));
@@ -282,7 +290,8 @@ class TestMasks : public QObject {
       fitTarget(makeContent(Content::natural, {40, 30}, 2), venueOf(scene), with({all}));
       QFAIL("nothing was said");
     } catch (const Error& error) {
-      QCOMPARE(QString::fromStdString(english(error.summary())), QString("the masks cover the whole picture"));
+      QCOMPARE(QString::fromStdString(english(error.summary())),
+               QString("the masks cover the whole picture"));
     }
   }
 };

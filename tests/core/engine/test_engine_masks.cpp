@@ -57,11 +57,12 @@ class TestEngineMasks : public QObject {
           rendered(*device, engine, frameOf(picture), {true, steps, 1.0f, 0.0f}), expected.projector);
       QVERIFY2(apart <= tolerance, qPrintable(QString("K = %1: %2 codes").arg(steps).arg(apart)));
     }
-    // Nothing corrected: masked all the same.
+    // Nothing corrected: masked all the same. Of light that nobody sees (several devices), the target takes
+    // a's share out of its flood, and content has none of it.
     const Compensation none = Compensator(made.venue, made.inverse).solve(Method::none, target, silent);
     const double apart =
         mostCodesApart(rendered(*device, engine, frameOf(picture), {false, 0, 1.0f, 0.0f}), none.projector);
-    QVERIFY2(apart <= 1.0, qPrintable(QString("%1 codes").arg(apart)));
+    QVERIFY2(apart <= (scene.startsWith("several") ? 2.0 : 1.0), qPrintable(QString("%1 codes").arg(apart)));
   }
 
   void shadowsAndMasksAreOneProduct_data() { everyBackendAndVenue(); }

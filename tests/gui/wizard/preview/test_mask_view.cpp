@@ -66,7 +66,7 @@ class TestMaskView : public QObject {
     key(Qt::Key_Down, 5, Qt::ShiftModifier);
     key(Qt::Key_Left, 7);
     key(Qt::Key_Space);
-    key(Qt::Key_Up);
+    key(Qt::Key_Up, 5);
     key(Qt::Key_Space);
     key(Qt::Key_Backspace);
     key(Qt::Key_Return);

@@ -103,6 +103,16 @@ std::uint64_t bytesOf(const transport::Acquisition& acquisition) {
   return acquisition.transport.bytes() + images * bytesOfPixel * acquisition.transport.cameras().count();
 }
 
+/// How the measurement that is gone on with went. Nobody needs it to measure: what is damaged is begun anew.
+AcquisitionRecord recordOf(const calibration::StageResult& ended) {
+  try {
+    return loadAcquisitionRecord(ended.folder).value_or(AcquisitionRecord());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::format && error.kind() != ErrorKind::disk) throw;
+    return {};
+  }
+}
+
 /// Measured on shots of the journal, as far as there are any, and stored.
 transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig& rig,
                                 const linearization::Linearization& linearization,
@@ -116,7 +126,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   AcquisitionRecord recorded;
   if (const auto ended = folder.find(calibration::Stage::acquisition, inputs)) {
-    recorded = loadAcquisitionRecord(ended->folder).value_or(AcquisitionRecord());
+    recorded = recordOf(*ended);
     if (const auto cost = calibration::resultFrom<calibration::Stage::acquisition>(*ended).cost)
       stage.goOnFrom(*ended, cost->seconds);
   }
@@ -235,11 +245,13 @@ void measureInverse(calibration::CalibrationFolder& folder, const compensation::
   Stopwatch watch;
   const CalibrateSettings settings = settingsOf(folder);
   const compensation::RidgeChoice choice = invert(venue, settings, progress);
-  // The result is how it was made: the ridge, and the trials that chose it.
-  calibration::storeInverse(folder, inverseResultOf(choice, {watch.seconds()}));
+  const double seconds = watch.seconds();
   inverse::WindowSettings chosen = settings.windows;
   chosen.ridge = choice.ridge;
+  // Before the result says that this is done: whoever is killed between the two chooses once more.
   keepWindows(folder, venue, chosen, choice.inverse);
+  // The result is how it was made: the ridge, and the trials that chose it.
+  calibration::storeInverse(folder, inverseResultOf(choice, {seconds}));
 }
 
 }  // namespace relucent::pipeline

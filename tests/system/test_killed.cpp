@@ -81,14 +81,15 @@ QJsonObject timeless(QJsonObject manifest) {
   return manifest;
 }
 
-/// Every file but the manifest, by its name within the calibration.
+/// Every file but the manifest, by its name within the calibration; not when each thing happened, which is
+/// for its charts.
 std::map<QString, QByteArray> filesOf(const QString& calibration) {
   std::map<QString, QByteArray> files;
   QDirIterator walk(calibration, QDir::Files | QDir::Hidden, QDirIterator::Subdirectories);
   while (walk.hasNext()) {
     QString path = walk.next();
     QString name = path.mid(calibration.size() + 1);
-    if (name != "calibration.relucent") files[name] = contentOf(path);
+    if (name != "calibration.relucent" && !name.endsWith("/record.json")) files[name] = contentOf(path);
   }
   return files;
 }

@@ -90,6 +90,7 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
           }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  if (session_.isOpen()) settings_ = session_.settings().clustering;
   connect(&session_, &Session::opened, this, [this] {
     settings_ = session_.settings().clustering;
     computing_.drop();

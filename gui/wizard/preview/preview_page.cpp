@@ -103,6 +103,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   });
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  if (session_.isOpen()) settings_ = session_.settings().content;
   shine_ = addCommand(Icon::projector, [this] { isShining() ? stopShining() : shine(); });
   compare_ = addCommand(Icon::picture, [this] { setShinesCorrected(!shinesCorrected()); });
   connect(&surface_, &SurfacePictures::changed, this, &PreviewPage::surfaceChanged);

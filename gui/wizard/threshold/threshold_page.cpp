@@ -80,10 +80,9 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
+  if (session_.isOpen()) takeSettings();
   connect(&session_, &Session::opened, this, [this] {
-    cut_ = session_.settings().threshold;
-    shareOfPixel_ = cut_.shareOfRowMax > 0.0f;
-    absoluteBefore_ = shareBefore_ = 0.0f;
+    takeSettings();
     forget();
   });
   connect(&session_, &Session::devicesChanged, this, &ThresholdPage::tellStatus);
@@ -104,6 +103,12 @@ void ThresholdPage::enter() {
 bool ThresholdPage::isChanged() const {
   return session_.progress(calibration::Stage::threshold) != calibration::StageProgress::open &&
          !isSame(cut_, session_.settings().threshold);
+}
+
+void ThresholdPage::takeSettings() {
+  cut_ = session_.settings().threshold;
+  shareOfPixel_ = cut_.shareOfRowMax > 0.0f;
+  absoluteBefore_ = shareBefore_ = 0.0f;
 }
 
 void ThresholdPage::adopt() {

@@ -88,6 +88,7 @@ class ThresholdPage : public DevicePage {
   void keepChange() override { keepCut(); }
 
  private:
+  void takeSettings();
   void adopt();
   void forget();
   void lookAtRow();

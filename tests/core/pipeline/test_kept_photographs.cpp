@@ -19,6 +19,7 @@
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/shot_file.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/pipeline/acquisition_record.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/storage.h"
@@ -48,11 +49,12 @@ CalibrateSettings tiny() {
   return settings;
 }
 
-/// Every file by its name within the folder.
+/// Every file by its name within the folder, but when each thing happened.
 std::map<std::string, std::string> contentOf(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = readFile(entry.path());
+    if (entry.is_regular_file() && entry.path().filename() != acquisitionRecordName)
+      files[fs::relative(entry.path(), folder).string()] = readFile(entry.path());
   return files;
 }
 

@@ -143,13 +143,13 @@ class TestClusterPage : public QObject {
   /// Law: what was chosen is taken back, and grouped again as before.
   void theSlidersAreUndone() {
     const std::vector<std::uint32_t> map = page_->result()->map;
-    const double radius = page_->settings().patchRadius;
+    const int most = page_->settings().mostUnknowns;
     ClusteringSettings settings = page_->settings();
-    settings.patchRadius = 3.0;
-    page_->setSettings(settings, "Distance");
+    settings.mostUnknowns = most / 8;
+    page_->setSettings(settings, "Largest cluster");
     QTRY_VERIFY(isExact() && page_->result()->map != map);
     page_->undoStack().undo();
-    QCOMPARE(page_->settings().patchRadius, radius);
+    QCOMPARE(page_->settings().mostUnknowns, most);
     QTRY_VERIFY(isExact() && page_->result()->map == map);
   }
 

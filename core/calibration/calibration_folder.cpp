@@ -9,6 +9,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/leftovers.h"
 #include "relucent/calibration/results_json.h"
 #include "relucent/platform/files.h"
 
@@ -21,14 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* calibrationFormat = "relucent calibration";
-
-/// What a program that was killed in the middle of a write left: never named by a manifest.
-bool isManifestLeftover(const std::string& name) {
-  return name.starts_with(".calibration.part") && name.ends_with(".relucent");
-}
-bool isResultLeftover(const std::string& name) {
-  return name.starts_with(".") && name.find(".part") != std::string::npos;
-}
 
 void removeLeftovers(const fs::path& folder, bool (*isLeftover)(const std::string& name)) {
   std::error_code ignored;

@@ -19,11 +19,15 @@ Json resultsIn(const CalibrationFolder& folder) {
   return Json::parse(readFile(folder.path() / CalibrationFolder::manifestName)).at("results");
 }
 
-bool isHidden(const fs::path& path) {
-  return path.filename().string().starts_with(".");
+}  // namespace
+
+bool isManifestLeftover(const std::string& name) {
+  return name.starts_with(".calibration.part") && name.ends_with(".relucent");
 }
 
-}  // namespace
+bool isResultLeftover(const std::string& name) {
+  return name.starts_with(".") && name.find(".part") != std::string::npos;
+}
 
 std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
   std::set<std::string> named;
@@ -33,7 +37,7 @@ std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.path(), code)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(".calibration.part") && name.ends_with(".relucent")) found.push_back(entry.path());
+    if (isManifestLeftover(name)) found.push_back(entry.path());
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.shotFolder(), code))
     if (isShotLeftover(entry.path())) found.push_back(entry.path());
@@ -41,8 +45,7 @@ std::vector<fs::path> leftovers(const CalibrationFolder& folder) {
     const std::string name = entry.path().filename().string();
     const auto isOfStage = [&](Stage stage) { return name.starts_with(std::string(nameOf(stage)) + "-"); };
     const std::vector<Stage> stages = allValues<Stage>();
-    const bool isPart = isHidden(entry.path()) && name.find(".part") != std::string::npos;
-    if (isPart ||
+    if (isResultLeftover(name) ||
         (std::ranges::any_of(stages, isOfStage) && entry.is_directory(code) && !named.contains(name)))
       found.push_back(entry.path());
   }

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "relucent/calibration/calibration_folder.h"
 
 namespace relucent::calibration {
+
+/// Names of what a program that was killed in the middle of a write left, beside the manifest and among the
+/// results: never named by a manifest.
+bool isManifestLeftover(const std::string& name);
+bool isResultLeftover(const std::string& name);
 
 /// Files that interrupted writes left, and folders of results that no manifest names: nothing reads them.
 /// Opening a calibration for writing clears away most of them. Files and folders.

@@ -1,13 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/acquisition_record.h"
 
-#include <array>
-#include <string_view>
 #include <utility>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
-#include "relucent/calibration/json.h"
+#include "relucent/calibration/enum_json.h"
+
+namespace relucent::sentinels {
+
+// As the record calls them.
+constexpr EnumName<AlarmKind> alarmNames[]{{AlarmKind::flicker, "flicker"},
+                                           {AlarmKind::ambientChanged, "ambient_changed"},
+                                           {AlarmKind::lampChanged, "lamp_changed"},
+                                           {AlarmKind::moved, "moved"},
+                                           {AlarmKind::localChange, "local_change"},
+                                           {AlarmKind::mirroredScreen, "mirrored_screen"},
+                                           {AlarmKind::wrongScreen, "wrong_screen"},
+                                           {AlarmKind::coveredLens, "covered_lens"},
+                                           {AlarmKind::projectorAsleep, "projector_asleep"}};
+constexpr EnumName<RetakeReason> retakeNames[]{{RetakeReason::alarm, "alarm"},
+                                               {RetakeReason::overexposed, "overexposed"},
+                                               {RetakeReason::contradiction, "contradiction"}};
+constexpr EnumNames<AlarmKind> namesOf(AlarmKind) {
+  return {"alarm", alarmNames};
+}
+constexpr EnumNames<RetakeReason> namesOf(RetakeReason) {
+  return {"reason", retakeNames};
+}
+
+}  // namespace relucent::sentinels
 
 namespace relucent::pipeline {
 namespace {
@@ -18,21 +40,6 @@ using calibration::Json;
 using sentinels::AlarmKind;
 using sentinels::RetakeReason;
 
-constexpr std::array<std::pair<AlarmKind, std::string_view>, 9> alarmNames{
-    {{AlarmKind::flicker, "flicker"},
-     {AlarmKind::ambientChanged, "ambient_changed"},
-     {AlarmKind::lampChanged, "lamp_changed"},
-     {AlarmKind::moved, "moved"},
-     {AlarmKind::localChange, "local_change"},
-     {AlarmKind::mirroredScreen, "mirrored_screen"},
-     {AlarmKind::wrongScreen, "wrong_screen"},
-     {AlarmKind::coveredLens, "covered_lens"},
-     {AlarmKind::projectorAsleep, "projector_asleep"}}};
-constexpr std::array<std::pair<RetakeReason, std::string_view>, 3> retakeNames{
-    {{RetakeReason::alarm, "alarm"},
-     {RetakeReason::overexposed, "overexposed"},
-     {RetakeReason::contradiction, "contradiction"}}};
-
 [[noreturn]] void failUnreadableRecord(const std::string& why, const fs::path& file) {
   throw Error(ErrorKind::format,
               RELUCENT_ENGLISH_MESSAGE("acquisition.record-unreadable",
@@ -41,21 +48,6 @@ constexpr std::array<std::pair<RetakeReason, std::string_view>, 3> retakeNames{
               RELUCENT_ENGLISH_MESSAGE("acquisition.record-remove",
                                        "remove that file: what was measured does not need it"),
               file.string());
-}
-
-template <typename Value, std::size_t count>
-std::string nameIn(const std::array<std::pair<Value, std::string_view>, count>& names, Value value) {
-  for (const auto& [entry, name] : names)
-    if (entry == value) return std::string(name);
-  return {};
-}
-
-template <typename Value, std::size_t count>
-Value valueIn(const std::array<std::pair<Value, std::string_view>, count>& names, const std::string& wanted,
-              const fs::path& file) {
-  for (const auto& [value, name] : names)
-    if (name == wanted) return value;
-  failUnreadableRecord(wanted, file);
 }
 
 Json toJson(const AcquisitionRecord::Check& check) {
@@ -69,11 +61,11 @@ Json toJson(const AcquisitionRecord::Check& check) {
             {"lamp", reading.lamp},
             {"lamp_expected", reading.lampExpected},
             {"flicker", reading.flicker}};
-  if (reading.alarm) json["alarm"] = nameIn(alarmNames, *reading.alarm);
+  if (reading.alarm) json["alarm"] = *reading.alarm;
   return json;
 }
 
-AcquisitionRecord::Check checkFrom(const Json& json, const fs::path& file) {
+AcquisitionRecord::Check checkFrom(const Json& json) {
   AcquisitionRecord::Check check;
   check.seconds = json.at("seconds");
   sentinels::Reading& reading = check.reading;
@@ -85,7 +77,7 @@ AcquisitionRecord::Check checkFrom(const Json& json, const fs::path& file) {
   reading.lamp = json.at("lamp");
   reading.lampExpected = json.at("lamp_expected");
   reading.flicker = json.at("flicker");
-  if (json.contains("alarm")) reading.alarm = valueIn(alarmNames, json.at("alarm").get<std::string>(), file);
+  if (json.contains("alarm")) reading.alarm = json.at("alarm").get<AlarmKind>();
   return check;
 }
 
@@ -93,19 +85,18 @@ Json toJson(const AcquisitionRecord::Again& again) {
   Json json{{"seconds", again.seconds},
             {"shot", again.retake.shot},
             {"patterns", again.retake.patterns},
-            {"reason", nameIn(retakeNames, again.retake.reason)}};
-  if (again.retake.alarm) json["alarm"] = nameIn(alarmNames, *again.retake.alarm);
+            {"reason", again.retake.reason}};
+  if (again.retake.alarm) json["alarm"] = *again.retake.alarm;
   return json;
 }
 
-AcquisitionRecord::Again againFrom(const Json& json, const fs::path& file) {
+AcquisitionRecord::Again againFrom(const Json& json) {
   AcquisitionRecord::Again again;
   again.seconds = json.at("seconds");
   again.retake.shot = json.at("shot");
   again.retake.patterns = json.at("patterns");
-  again.retake.reason = valueIn(retakeNames, json.at("reason").get<std::string>(), file);
-  if (json.contains("alarm"))
-    again.retake.alarm = valueIn(alarmNames, json.at("alarm").get<std::string>(), file);
+  again.retake.reason = json.at("reason").get<RetakeReason>();
+  if (json.contains("alarm")) again.retake.alarm = json.at("alarm").get<AlarmKind>();
   return again;
 }
 
@@ -123,16 +114,19 @@ void saveAcquisitionRecord(const AcquisitionRecord& record, const fs::path& fold
 std::optional<AcquisitionRecord> loadAcquisitionRecord(const fs::path& folder) {
   const fs::path file = folder / acquisitionRecordName;
   if (!fs::exists(file)) return std::nullopt;
+  const std::string text = readFile(file);
   try {
-    const Json json = Json::parse(readFile(file));
+    const Json json = Json::parse(text);
     AcquisitionRecord record;
     record.seconds = json.at("seconds");
     record.levels = json.at("levels").get<std::vector<int>>();
-    for (const Json& check : json.at("checks")) record.checks.push_back(checkFrom(check, file));
-    for (const Json& again : json.at("taken_again")) record.again.push_back(againFrom(again, file));
+    for (const Json& check : json.at("checks")) record.checks.push_back(checkFrom(check));
+    for (const Json& again : json.at("taken_again")) record.again.push_back(againFrom(again));
     return record;
   } catch (const Json::exception& cause) {
     failUnreadableRecord(cause.what(), file);
+  } catch (const Error& unknownName) {
+    failUnreadableRecord(unknownName.what(), file);
   }
 }
 

@@ -7,12 +7,13 @@
 #include "relucent/compensation/target.h"
 #include "relucent/inverse/windows.h"
 
-/// The windows' inverse beside a calibration's results, in results/windows.npz: reading it takes a second where
-/// making it takes half a minute. It is no result: whoever does not find it there, or finds that of another
-/// light transport, makes it. There is one, the last that was chosen.
+/// The windows' inverse beside a calibration's results, in results/windows.npz: reading it takes a second
+/// where making it takes half a minute. It is no result: whoever does not find it there, or finds that of
+/// another light transport, makes it. There is one, the last that was chosen.
 namespace relucent::pipeline {
 
-/// Where there is no room for it, it is not kept. Throws: Error{disk} if it cannot be written for another reason.
+/// Where there is no room for it, it is not kept. Throws: Error{disk} if it cannot be written for another
+/// reason.
 void keepWindows(const calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                  const inverse::WindowSettings& settings, const inverse::WindowInverse& windows);
 

@@ -48,10 +48,12 @@ void main() {
   vec4 want = wanted[pixel];
   if (want.w == 0.0) {
 #ifdef CORRECTION
-    back[to] = back[to + 1u] = uvec4(0u);
+    back[to] = uvec4(0u);
+    back[to + 1u] = uvec4(0u);
     unmixed[pixel] = vec4(0.0);
 #else
-    back[to] = back[to + 1u] = uvec2(0u);
+    back[to] = uvec2(0u);
+    back[to + 1u] = uvec2(0u);
 #endif
     return;
   }

@@ -69,8 +69,12 @@ GlBuffer::GlBuffer(std::size_t bytes, const void* data, bool inParts)
             .with(as::megabytes(bytes_)),
         onTheProcessor);
   }
-  if (data == nullptr || bytes < bytes_) clear();
-  if (data != nullptr) write(0, data, bytes);
+  const std::size_t known = data == nullptr ? 0 : bytes;
+  if (known > 0) write(0, data, known);
+  // Not by clear(): with NVIDIA's driver (580.159) what is written next would be cleared as well.
+  const std::vector<char> zeros(std::min(bytes_ - known, std::size_t{1} << 20));
+  for (std::size_t at = known; at < bytes_; at += zeros.size())
+    write(at, zeros.data(), std::min(zeros.size(), bytes_ - at));
 }
 
 GlBuffer::~GlBuffer() {
@@ -105,11 +109,11 @@ void GlBuffer::copyToTexture(GLuint texture, Size size, std::size_t begin) const
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
-void GlBuffer::clear(std::size_t begin, std::size_t bytes) noexcept {
+void GlBuffer::clear() noexcept {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, name_);
-  glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, static_cast<GLintptr>(begin),
-                       static_cast<GLsizeiptr>(bytes), GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+  glClearBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, 0, static_cast<GLsizeiptr>(bytes_), GL_RED_INTEGER,
+                       GL_UNSIGNED_INT, nullptr);
 }
 
 GlProgram::GlProgram(std::string_view source, std::initializer_list<const char*> defines) {

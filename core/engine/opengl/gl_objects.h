@@ -44,8 +44,8 @@ class GlBuffer {
   void read(std::size_t begin, void* data, std::size_t bytes) const noexcept;
   /// Words from byte `begin` on, after all previous writes of shaders, become the pixels of an RGBA8 texture.
   void copyToTexture(GLuint texture, Size size, std::size_t begin) const noexcept;
-  void clear() noexcept { clear(0, bytes_); }
-  void clear(std::size_t begin, std::size_t bytes) noexcept;
+  /// For what shaders write next. Contract: write() does not, see the constructor.
+  void clear() noexcept;
   /// Declares the old content unused, which avoids waiting for shaders that still read it.
   void forget() noexcept { glInvalidateBufferData(name_); }
 

@@ -31,6 +31,7 @@ class OpenGlBackend : public EngineBackend {
   bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
               FrameReport& report) noexcept override;
   bool sharesTextures() const override;
+  /// To textures of its context, which is nobody else's where it is not a host's.
   bool renderToTextures(const ContentFrame& frame, const FrameRequest& request,
                         std::span<const std::uint32_t> textures, FrameReport& report) noexcept override;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/engine/bench/engine_bench.h"
 
+#include <epoxy/gl.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 #include <cstring>
 #include <ctime>
 #include <optional>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
@@ -178,8 +181,51 @@ void timeCpu(Bench& bench, const EngineVenue& engine, EngineContent& content, Si
   }
 }
 
+/// What windows take pictures from that stay on the graphics card: a texture for each projector.
+class PictureTextures {
+ public:
+  PictureTextures(const GlContext& context, const Rasters& projectors)
+      : context_(context), names_(projectors.devices()) {
+    const GlContext::Current current(context_);
+    glGenTextures(static_cast<GLsizei>(names_.size()), names_.data());
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      glBindTexture(GL_TEXTURE_2D, names_[i]);
+      glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, projectors.size(i).width, projectors.size(i).height);
+    }
+  }
+  ~PictureTextures() {
+    const GlContext::Current current(context_);
+    glDeleteTextures(static_cast<GLsizei>(names_.size()), names_.data());
+  }
+  PictureTextures(const PictureTextures&) = delete;
+  PictureTextures& operator=(const PictureTextures&) = delete;
+
+  std::span<const GLuint> names() const { return names_; }
+
+ private:
+  const GlContext& context_;
+  std::vector<GLuint> names_;
+};
+
+/// Frames as the show takes them where windows share the card: content goes up, nothing comes back.
+void timeFramesThatStay(Bench& bench, OpenGlBackend& backend, const GlContext& context,
+                        const EngineVenue& engine, Size size, double transportBytes) {
+  const PictureTextures textures(context, engine.venue.transport.projectors());
+  const NoiseContent content(size);
+  FrameReport report;
+  const auto windows = static_cast<double>(engine.inverse.bytes());
+  for (int steps : {0, 1, 2})
+    bench.time(
+        fmt::format("{}: frame that stays on the card, K = {}", backend.name(), steps),
+        2 * windows + (1 + steps) * transportBytes, [&] {
+          if (!backend.renderToTextures(content.frame(), {true, steps, 1.0f, 0.0f}, textures.names(), report))
+            throwLost();
+        });
+}
+
 void timeOpenGl(Bench& bench, const EngineVenue& engine, EngineContent& content, Size size,
                 std::unique_ptr<GlContext> context) {
+  const GlContext& card = *context;
   OpenGlBackend backend(engine, std::move(context));
   const std::string name(backend.name());
   bench.result.device = name;
@@ -194,6 +240,7 @@ void timeOpenGl(Bench& bench, const EngineVenue& engine, EngineContent& content,
                      [&] { return backend.applyWindows(); });
   bench.timeReported(name + ": step", transport, [&] { return backend.takeStep(1.2f); });
   timeFrames(bench, backend, engine, size, transport);
+  timeFramesThatStay(bench, backend, card, engine, size, transport);
   timeViewer(bench, backend, engine, content, size, transport);
   timeShadow(bench, backend, engine, content, size, transport);
 }

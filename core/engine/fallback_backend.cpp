@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "relucent/base/error.h"
+#include "relucent/engine/agreement.h"
 #include "relucent/engine/cpu_backend.h"
 #include "relucent/engine/opengl/gl_context.h"
 #include "relucent/engine/opengl/opengl_backend.h"
@@ -26,8 +27,12 @@ std::unique_ptr<GlContext> sharedContext(const MakeGlHost& make, const GlContext
 
 }  // namespace
 
-FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify)
-    : backend_(std::move(first)), makeOther_(std::move(makeOther)), notify_(std::move(notify)) {
+FallbackBackend::FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify,
+                                 Prove prove)
+    : backend_(std::move(first)),
+      makeOther_(std::move(makeOther)),
+      notify_(std::move(notify)),
+      prove_(std::move(prove)) {
   require(backend_ != nullptr && makeOther_ != nullptr, "a fallback needs two back ends");
 }
 
@@ -42,6 +47,18 @@ void FallbackBackend::goOver(const Message& why) {
 
 void FallbackBackend::setContent(const EngineContent& content) {
   content_ = &content;
+  change([&content](EngineBackend& backend) { backend.setContent(content); });
+  if (makeOther_ && prove_) proveFirst(content);
+}
+
+void FallbackBackend::proveFirst(const EngineContent& content) {
+  const Prove prove = std::exchange(prove_, nullptr);
+  const std::unique_ptr<EngineBackend> other = makeOther_();
+  other->setContent(content);
+  if (!prove(*backend_, *other, content))
+    return goOver(RELUCENT_ENGLISH_MESSAGE(
+        "engine.wrong-pictures", "its pictures are not those of the processor, a fault of the driver"));
+  // What was shown for the proof is nothing to go on from.
   change([&content](EngineBackend& backend) { backend.setContent(content); });
 }
 
@@ -108,7 +125,11 @@ std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendCho
   if (auto shared = sharedContext(host, *context)) context = std::move(shared);
   try {
     auto openGl = std::make_unique<OpenGlBackend>(engine, std::move(context));
-    return std::make_unique<FallbackBackend>(std::move(openGl), cpu, notify);
+    return std::make_unique<FallbackBackend>(
+        std::move(openGl), cpu, notify,
+        [&engine](EngineBackend& first, EngineBackend& other, const EngineContent& content) {
+          return agree(first, other, engine, content);
+        });
   } catch (const Error& error) {
     if (!automatic) throw;
     if (notify) notify(error.sentence());

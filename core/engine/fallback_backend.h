@@ -33,11 +33,15 @@ class FallbackBackend : public EngineBackend {
   using Make = std::function<std::unique_ptr<EngineBackend>()>;
   /// Called once, on the rendering thread, with a sentence that says what happened.
   using Notify = std::function<void(const Message&)>;
+  /// Whether the first back end makes the pictures that the other makes. Both have the content.
+  using Prove = std::function<bool(EngineBackend& first, EngineBackend& other, const EngineContent& content)>;
 
-  FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify);
+  /// `prove`: asked once, with the first content; where it says no, the other takes over. None: not asked.
+  FallbackBackend(std::unique_ptr<EngineBackend> first, Make makeOther, Notify notify, Prove prove = {});
 
   std::string_view name() const override { return backend_->name(); }
-  /// Also switches if the device cannot hold the content. Throws: as the other back end.
+  /// Also switches if the device cannot hold the content, or its pictures are proven wrong. Throws: as the
+  /// other back end.
   void setContent(const EngineContent& content) override;
   /// The other back end has nothing that was projected last.
   void contentFollowed() override;
@@ -53,6 +57,7 @@ class FallbackBackend : public EngineBackend {
 
  private:
   void goOver(const Message& why);
+  void proveFirst(const EngineContent& content);
   /// Switches if the device cannot.
   template <typename Change>
   void change(const Change& change);
@@ -60,13 +65,15 @@ class FallbackBackend : public EngineBackend {
   std::unique_ptr<EngineBackend> backend_;
   Make makeOther_;  // empty once it was used
   Notify notify_;
+  Prove prove_;  // empty once it was asked
   const EngineContent* content_ = nullptr;
 };
 
-/// The selected back end, with the processor as fallback for a graphics card. `notify` is also called with
-/// the reason why an existing graphics card cannot be used. `host`: a context that shares its textures with
-/// windows; it is taken where it is on the device that would be chosen without. `engine` must outlive it.
-/// Throws: Error{device} if OpenGL was asked for and there is none.
+/// The selected back end, with the processor as fallback for a graphics card, which must agree() with it:
+/// drivers are at fault at times. `notify` is also called with the reason why an existing graphics card
+/// cannot be used. `host`: a context that shares its textures with windows; it is taken where it is on the
+/// device that would be chosen without. `engine` must outlive it. Throws: Error{device} if OpenGL was asked
+/// for and there is none.
 std::unique_ptr<EngineBackend> makeBackend(const EngineVenue& engine, BackendChoice choice,
                                            const FallbackBackend::Notify& notify,
                                            const MakeGlHost& host = {});

@@ -3,6 +3,7 @@
 
 #include "core/engine/engine_backends.h"
 #include "relucent/base/error.h"
+#include "relucent/engine/agreement.h"
 #include "relucent/engine/fallback_backend.h"
 #include "relucent/engine/view_follower.h"
 
@@ -54,6 +55,27 @@ class FailingBackend : public EngineBackend {
   CpuBackend cpu_;
   int frames_;
   bool takesContent_;
+};
+
+/// The processor's pictures, but for the red of some pixels, which is darker.
+class DarkerBackend : public CpuBackend {
+ public:
+  DarkerBackend(const EngineVenue& engine, int codes, int every)
+      : CpuBackend(engine), codes_(codes), every_(static_cast<std::size_t>(every)) {}
+  std::string_view name() const override { return "darker"; }
+  bool render(const ContentFrame& frame, const FrameRequest& request, std::span<std::uint32_t> words,
+              FrameReport& report) noexcept override {
+    if (!CpuBackend::render(frame, request, words, report)) return false;
+    for (std::size_t i = 0; i < words.size(); i += every_) {
+      const int red = codeOf(words[i], 0);
+      words[i] -= static_cast<std::uint32_t>(std::min(red, codes_));
+    }
+    return true;
+  }
+
+ private:
+  int codes_;
+  std::size_t every_;
 };
 
 }  // namespace
@@ -210,6 +232,50 @@ class TestFallbackBackend : public QObject {
     QCOMPARE(told, 1);
     // Rounding to other levels where a value lies between two: see test_backends.
     QVERIFY(mostApart(before, after) <= 1);
+  }
+
+  void picturesAreProven_data() {
+    QTest::addColumn<int>("codes");
+    QTest::addColumn<int>("every");
+    QTest::addColumn<bool>("good");
+    QTest::newRow("the same") << 0 << 1 << true;
+    QTest::newRow("rounded otherwise") << 2 << 1 << true;
+    QTest::newRow("one in five thousand") << 100 << 5000 << true;
+    QTest::newRow("one in a hundred") << 100 << 100 << false;
+    QTest::newRow("all a little") << 5 << 1 << false;
+    QTest::newRow("black") << 255 << 1 << false;
+  }
+  /// Law: what makes other pictures than the processor shows none of them, and one sentence says so.
+  void picturesAreProven() {
+    QFETCH(int, codes);
+    QFETCH(int, every);
+    QFETCH(bool, good);
+    EngineScene made = engineSceneOf("several devices");
+    EngineVenue engine = prepareVenue(made.venue, made.inverse, made.responses, {});
+    Image content = makeContent(Content::natural, {37, 28}, 3);
+    const EngineContent placed = prepareContent(engine, content.size());
+    std::vector<std::string> told;
+    const auto agrees = [&](EngineBackend& a, EngineBackend& b, const EngineContent& c) {
+      return agree(a, b, engine, c);
+    };
+    const auto cpu = [&] { return std::make_unique<CpuBackend>(engine); };
+    FallbackBackend backend(
+        std::make_unique<DarkerBackend>(engine, codes, every), cpu,
+        [&](const Message& sentence) { told.push_back(english(sentence)); }, agrees);
+    for (int times = 0; times < 2; ++times) backend.setContent(placed);
+    QCOMPARE(told.size(), std::size_t{good ? 0u : 1u});
+    QCOMPARE(backend.name() == "darker", good);
+    if (!good) QVERIFY(told[0].starts_with("darker: ") && told[0].find("driver") != std::string::npos);
+    // Law: the proof leaves nothing to go on from.
+    CpuBackend alone(engine);
+    alone.setContent(placed);
+    FrameRequest request;
+    request.fromLast = true;
+    std::vector<std::uint32_t> words(engine.brightest.size()), expected(words.size());
+    FrameReport report;
+    QVERIFY(backend.render(frameOf(content), request, words, report));
+    QVERIFY(alone.render(frameOf(content), request, expected, report));
+    QVERIFY(mostApart(words, expected) <= (good ? codes : 0));
   }
 
   void choice() {

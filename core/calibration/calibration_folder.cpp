@@ -7,6 +7,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/file_name.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/leftovers.h"
@@ -104,12 +105,17 @@ Json readManifest(const fs::path& file) {
                 file.string());
 
   auto isText = [](const Json& value) { return value.is_string(); };
+  // Calibrations come from strangers: what they name lies within them.
   auto isResult = [&](const Json& entry) {
-    return entry.is_object() && isText(entry.value("inputs", Json())) &&
-           isText(entry.value("stored", Json())) && isText(entry.value("folder", Json())) &&
-           entry.contains("values") && entry.value("files", Json()).is_object() &&
-           std::all_of(entry["files"].begin(), entry["files"].end(),
-                       [](const Json& bytes) { return bytes.is_number_unsigned(); });
+    if (!entry.is_object() || !isText(entry.value("inputs", Json())) ||
+        !isText(entry.value("stored", Json())) || !isText(entry.value("folder", Json())) ||
+        !entry.contains("values") || !entry.value("files", Json()).is_object())
+      return false;
+    const auto folder = entry["folder"].get<std::string>();
+    if (!folder.empty() && !isFileName(folder)) return false;
+    for (const auto& [name, bytes] : entry["files"].items())
+      if (!isFileName(name) || !bytes.is_number_unsigned()) return false;
+    return true;
   };
   Json results = manifest.value("results", Json());
   bool whole = isText(manifest.value("software", Json())) && isText(manifest.value("created", Json())) &&

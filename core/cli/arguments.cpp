@@ -70,6 +70,10 @@ class Parser {
     app_.set_version_flag("--version", version, "Print the versions of the program and of its libraries");
     app_.set_help_flag("-h,--help", "Print this help");
     app_.add_flag("--json", json_, "Print one JSON document on standard output and nothing else");
+    app_.add_flag(
+        "--allow-commands", allowCommands_,
+        "Run the programs that the calibration names as its devices, now and from now on; not needed for "
+        "those named here");
     app_.footer(
         "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n"
         "To try it without devices:  relucent-cli calibrate demo --venue corner");
@@ -82,7 +86,7 @@ class Parser {
   Arguments parse(const std::vector<std::string>& arguments) {
     try {
       app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants them so
-      return {make_(), json_};
+      return {make_(), json_, allowCommands_};
     } catch (const CLI::CallForVersion& version) {
       return {PrintText{version.what()}, false};
     } catch (const CLI::Success&) {
@@ -116,7 +120,7 @@ class Parser {
   CLI::App app_{
       "Measures how light travels from a projector to a camera, inverts it, and computes projections\n"
       "that look on any surface as if they fell on a white screen."};
-  bool json_ = false;
+  bool json_ = false, allowCommands_ = false;
   std::function<Command()> make_;
 };
 

@@ -192,7 +192,8 @@ using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calib
 
 struct Arguments {
   Command command;
-  bool json = false;  // one JSON document on standard output and nothing else
+  bool json = false;           // one JSON document on standard output and nothing else
+  bool allowCommands = false;  // those of the calibration, from now on
 };
 
 /// The command line cannot be understood; the sentence says how to write it.

@@ -17,6 +17,7 @@
 #include "relucent/cli/terminal_progress.h"
 #include "relucent/cli/terminal_room.h"
 #include "relucent/cli/texts.h"
+#include "relucent/devices/command/command_consent.h"
 #include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
@@ -316,6 +317,17 @@ int fail(const std::string& sentence, int status) {
   return status;
 }
 
+/// Calibrations come from strangers: programs that they name are run if somebody agreed or named them
+/// himself.
+void askForConsent(const std::vector<std::string>& arguments, bool allowCommands) {
+  devices::askForConsent({devices::usualConsentFile(),
+                          [arguments, allowCommands](const std::string& command) {
+                            return allowCommands || devices::isNamedBy(arguments, command);
+                          },
+                          RELUCENT_ENGLISH_MESSAGE("command.allow-commands",
+                                                   "look at what it does, then give --allow-commands")});
+}
+
 void print(const CommandResult& outcome, bool json) {
   if (json)
     std::cout << outcome.document.dump(2, ' ', false, calibration::Json::error_handler_t::replace) << "\n";
@@ -344,6 +356,7 @@ int runCommandLine(const std::vector<std::string>& arguments) {
     return fail(error.what(), wrongUsage);
   }
 
+  askForConsent(arguments, parsed.allowCommands);
   try {
     CommandResult outcome;
     {

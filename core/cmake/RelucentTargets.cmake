@@ -23,6 +23,12 @@ if(RELUCENT_SANITIZERS)
   target_link_options(relucent_options INTERFACE -fsanitize=${RELUCENT_SANITIZERS})
 endif()
 
+# What users get reads files of strangers: overruns end the program, and where functions are found cannot be changed.
+if(RELUCENT_PACKAGE AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  target_compile_options(relucent_options INTERFACE -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+  target_link_options(relucent_options INTERFACE -Wl,-z,relro,-z,now)
+endif()
+
 # Half of a build is reading the same headers again, so they are read once for all targets of a kind. Not where
 # warnings count: there a source that lacks an include is told so. Tried with GCC.
 if(RELUCENT_WARNINGS_ARE_ERRORS OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

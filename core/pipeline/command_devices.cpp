@@ -2,6 +2,9 @@
 #include "relucent/pipeline/command_devices.h"
 
 #include "relucent/base/error.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/command/command_camera.h"
+#include "relucent/pipeline/screen_devices.h"
 
 namespace relucent::pipeline {
 
@@ -34,6 +37,27 @@ CommandRigSettings withCameras(CommandRigSettings rig,
   rig.camera = cameras.front().size;
   rig.moreCameras.assign(cameras.begin() + 1, cameras.end());
   return rig;
+}
+
+std::vector<std::string> commandsOf(const RigSettings& rig) {
+  std::vector<std::string> commands;
+  const auto addAddressed = [&commands](const std::string& address) {
+    const auto known = devices::cameraRegistry().addressFrom(address);
+    if (known && known->kind == devices::CommandCamera::kind) commands.push_back(known->place);
+  };
+  if (const auto* programs = std::get_if<CommandRigSettings>(&rig)) {
+    for (const CommandRigSettings::Projector& projector : projectorsOf(*programs))
+      commands.push_back(projector.command);
+    for (const CommandRigSettings::Camera& camera : camerasOf(*programs)) {
+      if (camera.address.empty())
+        commands.push_back(camera.command);
+      else
+        addAddressed(camera.address);
+    }
+  }
+  if (const auto* screens = std::get_if<ScreenRigSettings>(&rig))
+    for (const ScreenRigSettings::Camera& camera : camerasOf(*screens)) addAddressed(camera.address);
+  return commands;
 }
 
 std::vector<Message> problemsOfDevices(const CommandRigSettings& rig) {

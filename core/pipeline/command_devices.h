@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "relucent/base/message.h"
@@ -17,7 +18,11 @@ std::vector<CommandRigSettings::Camera> camerasOf(const CommandRigSettings& rig)
 /// Law: withProjectors(rig, projectorsOf(rig)) is rig, and so for cameras.
 CommandRigSettings withProjectors(CommandRigSettings rig,
                                   const std::vector<CommandRigSettings::Projector>& projectors);
-CommandRigSettings withCameras(CommandRigSettings rig, const std::vector<CommandRigSettings::Camera>& cameras);
+CommandRigSettings withCameras(CommandRigSettings rig,
+                               const std::vector<CommandRigSettings::Camera>& cameras);
+
+/// Every command that opening the rig runs on this computer: of projectors, then of cameras.
+std::vector<std::string> commandsOf(const RigSettings& rig);
 
 /// Devices that are named twice: one command for two projectors lights one of them, one for two cameras
 /// photographs one view.

@@ -5,6 +5,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/file_name.h"
 #include "relucent/base/fingerprint.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/image/exr.h"
@@ -24,9 +25,7 @@ fs::path recordOf(const fs::path& calibration, const std::string& key) {
 
 /// A file's name and nothing that leads elsewhere.
 std::string plainName(const std::string& name) {
-  if (const fs::path path(name);
-      path.has_filename() && path.filename() == path && name != "." && name != "..")
-    return name;
+  if (isFileName(name)) return name;
   throw Error(
       ErrorKind::format,
       RELUCENT_ENGLISH_MESSAGE("perfect.file-elsewhere", "'{}' is no name of a file of it").with(name),

@@ -18,6 +18,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/terminal_text.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/devices/command/command_consent.h"
 
 namespace relucent::gui {
 namespace {
@@ -105,6 +106,13 @@ bool asksForNoScreen(int argc, char** argv) {
 }
 
 int runShowCommand(const QStringList& arguments) {
+  std::vector<std::string> words;
+  for (const QString& argument : arguments) words.push_back(argument.toStdString());
+  devices::askForConsent(
+      {devices::usualConsentFile(),
+       [words](const std::string& command) { return devices::isNamedBy(words, command); },
+       RELUCENT_MESSAGE("show.allow-commands",
+                        "look at what it does, then open the venue in the wizard and allow its programs")});
   try {
     return std::visit([](const auto& command) { return run(command); }, parseShowArguments(arguments));
   } catch (const WrongArguments& error) {

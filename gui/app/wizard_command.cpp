@@ -11,6 +11,7 @@
 
 #include "app/wizard_window.h"
 #include "desktop/termination.h"
+#include "relucent/devices/command/command_consent.h"
 #include "relucent/pipeline/versions.h"
 
 namespace relucent::gui {
@@ -45,6 +46,10 @@ int runWizardCommand(int argc, char** argv) {
   // The menu entry's: desktops find icon and name by it.
   QApplication::setDesktopFileName("org.relucent.relucent");
   addPackedFonts();
+  devices::askForConsent(
+      {devices::usualConsentFile(),
+       {},
+       RELUCENT_MESSAGE("wizard.allow-commands", "open the venue anew and allow its programs")});
   QSettings settings;
   QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/venues";
   WizardWindow wizard(settings, cache.toStdString());

@@ -51,7 +51,13 @@ Run runCli(const QStringList& arguments) {
 
 class TestCommands : public QObject {
   Q_OBJECT
+
+  QTemporaryDir home_;
+
  private slots:
+  /// What is agreed to here is nothing that the user of this computer agreed to.
+  void init() { qputenv("XDG_DATA_HOME", home_.path().toUtf8()); }
+
   void calibratesAndCompensates() {
     QTemporaryDir folder;
     QString venue = tool("command-venue");
@@ -160,8 +166,18 @@ class TestCommands : public QObject {
     QVERIFY2(error < 0.12, qPrintable(QString::number(error)));
 
     image::writePng(folder.filePath("grey.png").toStdString(), image::Image(Size{16, 12}, 3, 0.5f), 8);
-    const Run proved = runCli({"prove", calibration, "--image", folder.filePath("grey.png"), "--out",
-                               folder.filePath("proof"), "--json"});
+    // Somebody else's computer: none of its programs runs before he agrees, once.
+    qputenv("XDG_DATA_HOME", folder.filePath("stranger").toUtf8());
+    QStringList prove{
+        "prove", calibration, "--image", folder.filePath("grey.png"), "--out", folder.filePath("proof"),
+        "--json"};
+    QFile::remove(folder.filePath("shown-0.png"));
+    const Run refused = runCli(prove);
+    QCOMPARE(refused.status, 2);
+    QVERIFY2(refused.errors.contains("nobody at this computer has agreed: cp {image} "),
+             refused.errors.constData());
+    QVERIFY(refused.errors.contains("--allow-commands") && !QFile::exists(folder.filePath("shown-0.png")));
+    const Run proved = runCli(prove + QStringList{"--allow-commands"});
     QVERIFY2(proved.status == 0, proved.errors.constData());
     QVERIFY2(QFileInfo(folder.filePath("proof/target-2.png")).size() > 0, proved.output.constData());
   }

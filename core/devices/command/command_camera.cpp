@@ -8,6 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/devices/command/command_consent.h"
 #include "relucent/devices/command/shell_command.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
@@ -113,6 +114,7 @@ std::vector<Message> problems(const CommandCameraSettings& settings) {
 
 CommandCamera::CommandCamera(CommandCameraSettings settings) : settings_(std::move(settings)) {
   require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
+  requireConsent(settings_.command);
   size_ = settings_.size ? *settings_.size
                          : photograph({{"size", 0}, 0, settings_.exposures.shortest}).signal.size();
 }

@@ -34,7 +34,8 @@ class CommandCamera : public rig::Camera {
   /// Of its addresses, "command:./photograph {exposure} {output}".
   static constexpr const char* kind = "command";
 
-  /// Throws: std::logic_error if problems(settings) finds any; as capture() if a first photograph is taken.
+  /// Throws: std::logic_error if problems(settings) finds any; Error{usage} as requireConsent(); as capture()
+  /// if a first photograph is taken.
   explicit CommandCamera(CommandCameraSettings settings);
 
   std::string name() const override { return settings_.name; }

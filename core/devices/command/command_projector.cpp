@@ -2,6 +2,7 @@
 #include "relucent/devices/command/command_projector.h"
 
 #include "relucent/base/error.h"
+#include "relucent/devices/command/command_consent.h"
 #include "relucent/devices/command/shell_command.h"
 #include "relucent/image/picture_files.h"
 
@@ -33,6 +34,7 @@ std::vector<Message> problems(const CommandProjectorSettings& settings) {
 
 CommandProjector::CommandProjector(CommandProjectorSettings settings) : settings_(std::move(settings)) {
   require(problems(settings_).empty(), "{}", fmt::join(problems(settings_), "; "));
+  requireConsent(settings_.command);
 }
 
 void CommandProjector::show(const image::Image& encodedDrive) {

@@ -26,7 +26,7 @@ std::vector<Message> problems(const CommandProjectorSettings& settings);
 /// A projector behind an external program.
 class CommandProjector : public rig::Projector {
  public:
-  /// Throws: std::logic_error if problems(settings) finds any; Error{disk}.
+  /// Throws: std::logic_error if problems(settings) finds any; Error{usage} as requireConsent(); Error{disk}.
   explicit CommandProjector(CommandProjectorSettings settings);
 
   std::string name() const override { return settings_.name; }

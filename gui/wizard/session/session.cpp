@@ -10,6 +10,8 @@
 #include "output/window_projector.h"
 #include "relucent/base/error.h"
 #include "relucent/calibration/results.h"
+#include "relucent/devices/command/command_consent.h"
+#include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/proof_record.h"
@@ -154,6 +156,13 @@ void Session::changeDevices(const std::function<void(calibration::CalibrationFol
 }
 
 void Session::changeRig(const pipeline::RigSettings& rig) {
+  // Whoever types a command agrees to it, and not to those that were there before.
+  const std::vector<std::string> before = pipeline::commandsOf(settings_.rig);
+  std::vector<std::string> typed = pipeline::commandsOf(rig);
+  std::erase_if(typed, [&before](const std::string& command) {
+    return std::find(before.begin(), before.end(), command) != before.end();
+  });
+  devices::giveConsent(typed);
   changeDevices([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeRig(folder, rig); });
 }
 

@@ -6,6 +6,9 @@
 #include <QStandardPaths>
 
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/devices/command/command_consent.h"
+#include "relucent/pipeline/command_devices.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "views/number_text.h"
 #include "wizard/venue/venue_thumbnail.h"
 #include "wizard/venue/venue_tidy.h"
@@ -14,6 +17,21 @@ namespace relucent::gui {
 namespace {
 
 const QString manifestName = calibration::CalibrationFolder::manifestName;
+
+/// The programs that a venue names as its devices. Throws: Error{format, disk}.
+std::vector<std::string> commandsIn(const std::filesystem::path& folder) {
+  return pipeline::commandsOf(pipeline::settingsOf(calibration::CalibrationFolder::open(
+                                                       folder, calibration::CalibrationFolder::Access::read))
+                                  .rig);
+}
+
+/// A stranger's text on one line, that cannot turn or hide what stands beside it.
+QString visibleText(const std::string& text) {
+  QString visible;
+  for (const QChar c : QString::fromStdString(text))
+    visible += c.isPrint() && c.category() != QChar::Other_Format ? c : QChar(0xfffd);
+  return visible;
+}
 
 QString sizeText(Size size) {
   return gui::sizeText(size.width, size.height);
@@ -34,6 +52,8 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
   remove_ = addCommand(Icon::remove, [this] { removeAsked(); });
   keepVenue_ = addCommand(Icon::folder, [] {});
+  allowPrograms_ = addCommand(Icon::play, [this] { openAsked(true); });
+  openWithout_ = addCommand(Icon::folder, [this] { openAsked(false); });
   parent_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/Relucent";
   venues_ = rehearsalVenues();
   setSizes({{{64, 48}, {48, 36}, QT_TR_NOOP("%1, a first look")},
@@ -129,6 +149,8 @@ void VenuePage::updateCommands() {
   changeScreen_->show(tr("Change the screen"));
   remove_->show(tr("Move to the trash"));
   keepVenue_->show(tr("Keep it"));
+  allowPrograms_->show(tr("Allow them"));
+  openWithout_->show(tr("Open without them"));
 }
 
 PageCommand* VenuePage::primary() const {
@@ -233,7 +255,38 @@ void VenuePage::open(const QString& path) {
 
 void VenuePage::openNow(const QString& folder) {
   try {
+    const std::vector<std::string> commands = devices::withoutConsent(commandsIn(folder.toStdString()));
+    if (!commands.empty()) return askForPrograms(folder, commands);
     session_.open(folder.toStdString());
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder.")});
+  }
+}
+
+void VenuePage::askForPrograms(const QString& folder, const std::vector<std::string>& commands) {
+  toOpen_ = folder;
+  programs_ = commands;
+  QStringList lines;
+  for (const std::string& command : commands) lines << visibleText(command);
+  FailureReport question;
+  question.failure.heading = tr("Programs of a venue");
+  question.failure.what = tr("“%1” names programs of its own as projector or camera. They would run on this "
+                             "computer as you, and nobody here has agreed to that yet:")
+                              .arg(QDir(folder).dirName()) +
+                          "\n\n" + lines.join("\n");
+  question.safe =
+      tr("None of them was run. Without them everything that was measured can be looked at and shown.");
+  question.failure.advice = tr("Allow them if you know what they do, or know who made this venue.");
+  question.goOn = allowPrograms_;
+  question.resume = openWithout_;
+  question.isQuestion = true;
+  Q_EMIT failed(question);
+}
+
+void VenuePage::openAsked(bool allowed) {
+  try {
+    if (allowed) devices::giveConsent(programs_);
+    session_.open(toOpen_.toStdString());
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed in that folder.")});
   }
@@ -305,6 +358,8 @@ void VenuePage::beginNow() {
   try {
     QDir().mkpath(parent_);
     bool clear = roomClear_;  // begun, the page starts over
+    // Whoever types a command agrees to it.
+    devices::giveConsent(pipeline::commandsOf(wanted().rig));
     session_.begin(target().toStdString(), wanted(), surprisesWanted());
     session_.setRoomClear(clear);
     network_.clear();

@@ -182,6 +182,9 @@ class VenuePage : public PageModel {
   void removeAsked();
   void begin();
   void openNow(const QString& folder);
+  /// Nobody at this computer has agreed to some of the programs that the venue names as its devices.
+  void askForPrograms(const QString& folder, const std::vector<std::string>& commands);
+  void openAsked(bool allowed);
   void beginNow();
   /// At once, or once somebody has agreed to the end of what is under way.
   void whenNothingEnds(std::function<void()> work);
@@ -194,6 +197,8 @@ class VenuePage : public PageModel {
   RecentVenues recent_;
   VenueKeeping keeping_;
   RecentVenue toRemove_;  // somebody is asked
+  QString toOpen_;        // likewise, and these are its programs
+  std::vector<std::string> programs_;
   VenueScreen openScreen_;
   EndQuestion endQuestion_;
   Mode mode_ = Mode::start;
@@ -213,7 +218,7 @@ class VenuePage : public PageModel {
   bool roomClear_ = false;
   bool named_ = false;  // by the user
   PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
-  PageCommand *remove_, *keepVenue_;  // of a question
+  PageCommand *remove_, *keepVenue_, *allowPrograms_, *openWithout_;  // of a question
 };
 
 }  // namespace relucent::gui

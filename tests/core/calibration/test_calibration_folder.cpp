@@ -114,6 +114,54 @@ class TestCalibrationFolder : public QObject {
     QVERIFY(fs::exists(root_ / "empty/calibration.relucent"));
   }
 
+  /// Law: what a stranger's calibration names lies within it.
+  void nothingLeavesTheFolder_data() {
+    QTest::addColumn<QString>("folder");
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<bool>("opens");
+    QTest::newRow("within") << "acquisition-1"
+                            << "transport.npz" << true;
+    QTest::newRow("without files") << ""
+                                   << "" << true;
+    QTest::newRow("above") << "../../home"
+                           << "transport.npz" << false;
+    QTest::newRow("its own parent") << ".."
+                                    << "transport.npz" << false;
+    QTest::newRow("elsewhere") << "/etc"
+                               << "passwd" << false;
+    QTest::newRow("deeper") << "acquisition-1/more"
+                            << "transport.npz" << false;
+    QTest::newRow("a file above") << "acquisition-1"
+                                  << "../../../.ssh/id" << false;
+    QTest::newRow("a file elsewhere") << "acquisition-1"
+                                      << "/etc/passwd" << false;
+    QTest::newRow("cut short") << "acquisition-1" << QString::fromUtf8("a\0b", 3) << false;
+  }
+  void nothingLeavesTheFolder() {
+    QFETCH(QString, folder);
+    QFETCH(QString, file);
+    QFETCH(bool, opens);
+    Json files = Json::object();
+    if (!file.isEmpty()) files[file.toStdString()] = 1;
+    const Json entry{{"inputs", "x"},
+                     {"stored", ""},
+                     {"folder", folder.toStdString()},
+                     {"values", Json::object()},
+                     {"files", files}};
+    const Json manifest{{"format", "relucent calibration"},
+                        {"version", 1},
+                        {"software", ""},
+                        {"created", ""},
+                        {"rig", Json::object()},
+                        {"settings", Json::object()},
+                        {"results", {{"acquisition", Json::array({entry})}}}};
+    createFolder(root_ / "c");
+    writeFileAtomically(root_ / "c/calibration.relucent", manifest.dump());
+    const auto open = [&] { CalibrationFolder::open(root_ / "c", Access::read); };
+    if (opens) return open();
+    QCOMPARE(kindOf(open), std::optional(ErrorKind::format));
+  }
+
   void openRefuses_data() {
     QTest::addColumn<QByteArray>("manifest");
     QTest::addColumn<int>("kind");

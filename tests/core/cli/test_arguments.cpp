@@ -367,6 +367,9 @@ class TestArguments : public QObject {
   void jsonMayStandAnywhere() {
     QVERIFY(parseArguments(words("--json venues")).json);
     QVERIFY(parseArguments(words("venues --json")).json);
+    QVERIFY(parseArguments(words("verify d --allow-commands")).allowCommands);
+    QVERIFY(parseArguments(words("--allow-commands verify d")).allowCommands);
+    QVERIFY(!parseArguments(words("verify d")).allowCommands);
     QVERIFY(parseArguments(words("evaluate d --json --image a.png")).json);
     QVERIFY(!parseArguments(words("venues")).json);
   }

@@ -160,9 +160,10 @@ class SquarePacker {
   SquarePacker(const TransportMatrix& transport, float tolerance)
       : transport_(transport),
         tolerance_(tolerance),
-        // What T shares is within its own tolerance already. With several projectors it shares for each,
+        // Nothing may be off: T's own groups are what there is. With several projectors it shares for each,
         // rows here for all together.
-        asMeasured_(!transport.groups().empty() && transport.projectors().devices() == 1) {}
+        asMeasured_(tolerance == 0.0f && !transport.groups().empty() &&
+                    transport.projectors().devices() == 1) {}
 
   /// The place's camera pixels with leaves that they share; or, where so many nodes fit in no patch, each
   /// alone.

@@ -92,7 +92,7 @@ struct PackingSettings {
   int patchSide = 64;  // of the squares that patches are made from, camera pixels, at most
   // What a leaf may be off by, as a share of the camera pixel's light, so that others need not be kept; 0:
   // nothing.
-  float tolerance = 0.005f;
+  float tolerance = 0.01f;
 };
 
 /// T for the real-time engine, in a third of its leaves.

@@ -3,28 +3,51 @@
 
 #include <QKeyEvent>
 #include <QWindow>
+#include <utility>
 
 namespace relucent::gui {
+namespace {
 
-HeldKey::HeldKey(Qt::Key key, std::chrono::milliseconds time, QObject* parent) : QObject(parent), key_(key) {
-  time_.setSingleShot(true);
-  time_.setInterval(time);
-  connect(&time_, &QTimer::timeout, this, &HeldKey::held);
+/// Some X servers repeat a held key by letting it go and pressing it again at once, and Qt does not tell: so
+/// long it has to be up to count as let go of.
+constexpr std::chrono::milliseconds certainlyUp{40};
+
+}  // namespace
+
+HeldKey::HeldKey(Qt::Key key, std::chrono::milliseconds time, QObject* parent)
+    : QObject(parent), key_(key), enough_(time) {
+  for (QTimer* timer : {&time_, &release_}) timer->setSingleShot(true);
+  connect(&time_, &QTimer::timeout, this, [this] {
+    // Perhaps it is let go of just now.
+    if (release_.isActive()) return time_.start(certainlyUp);
+    Q_EMIT held();
+  });
+  connect(&release_, &QTimer::timeout, this, &HeldKey::letGo);
 }
 
 void HeldKey::watch(QWindow& window) {
   window.installEventFilter(this);
 }
 
+void HeldKey::letGo() {
+  isDown_ = false;
+  time_.stop();
+  release_.stop();
+}
+
 /// Others get every event, too.
 bool HeldKey::eventFilter(QObject*, QEvent* event) {
   // Whoever lets it go at another window is not heard of here.
-  if (event->type() == QEvent::FocusOut || event->type() == QEvent::Hide) time_.stop();
+  if (event->type() == QEvent::FocusOut || event->type() == QEvent::Hide) letGo();
   if (event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) return false;
   const auto* key = static_cast<const QKeyEvent*>(event);
-  // A held key is repeated: let go and pressed again, as far as events tell.
   if (key->key() != key_ || key->isAutoRepeat()) return false;
-  event->type() == QEvent::KeyPress ? time_.start() : time_.stop();
+  if (event->type() == QEvent::KeyRelease) {
+    release_.start(certainlyUp);
+    return false;
+  }
+  release_.stop();
+  if (!std::exchange(isDown_, true)) time_.start(enough_);
   return false;
 }
 

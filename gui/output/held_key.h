@@ -28,8 +28,12 @@ class HeldKey : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void letGo();
+
   Qt::Key key_;
-  QTimer time_;
+  std::chrono::milliseconds enough_;
+  bool isDown_ = false;
+  QTimer time_, release_;
 };
 
 }  // namespace relucent::gui

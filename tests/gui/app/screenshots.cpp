@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// screenshots DIR CALIBRATION|VENUE [CACHE]: every page of the wizard in both themes, at 960x540, 1366x768
-// and 1920x1080, from a finished calibration, which is changed: give it a copy; or the name of a simulated
-// venue, which is measured first. `finished`: without measuring another one. Of a calibration with several
-// views, these too. To be run on an X server of its own:
+// screenshots DIR CALIBRATION|VENUE [CACHE]: every page of the wizard in both themes, at those of 960x540,
+// 1366x768 and 1920x1080 that the screen has room for (see $QT_SCALE_FACTOR), from a finished calibration,
+// which is changed: give it a copy; or the name of a simulated venue, which is measured first. `finished`:
+// without measuring another one. Of a calibration with several views, these too. To be run on an X server of
+// its own:
 //   OPERATOR_SCREEN=1920x1080 tests/support/with-two-screens build/dev/bin/screenshots DIR dome4
 #include <QApplication>
 #include <QDialog>
@@ -82,9 +83,18 @@ class Photographs {
   }
 
  private:
+  /// Logical pixels: those of usual screens that this one has room for, and its own.
+  static QList<QSize> sizes() {
+    const QSize screen = QGuiApplication::primaryScreen()->size();
+    QList<QSize> all{{960, 540}, {1366, 768}, {1920, 1080}};
+    all.removeIf([screen](QSize size) { return screen.boundedTo(size) != size; });
+    if (!all.contains(screen)) all << screen;
+    return all;
+  }
+
   void take(const QString& page, QWidget& window) {
     for (auto [look, name] : {std::pair(Look::dark, "dark"), std::pair(Look::light, "light")})
-      for (QSize size : {QSize(960, 540), QSize(1366, 768), QSize(1920, 1080)}) {
+      for (QSize size : sizes()) {
         Theme::instance().apply(look);
         window.resize(size);
         QCoreApplication::processEvents();

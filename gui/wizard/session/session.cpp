@@ -71,28 +71,32 @@ void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   surprises_ = nullptr;
-  adopt(folder);
+  adopt(std::move(folder));
 }
 
 void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& settings,
                     const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
   surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
-  adopt(folder);
+  adopt(std::move(folder));
 }
 
 void Session::putRight() {
   if (surprises_) surprises_->putRight();
 }
 
-void Session::adopt(const calibration::CalibrationFolder& folder) {
-  path_ = fs::absolute(folder.path()).lexically_normal();
-  if (path_.filename().empty()) path_ = path_.parent_path();
+void Session::adopt(calibration::CalibrationFolder given) {
+  {
+    // Let go of before others are told: a page that is opened with it may write to it at once.
+    const calibration::CalibrationFolder folder = std::move(given);
+    path_ = fs::absolute(folder.path()).lexically_normal();
+    if (path_.filename().empty()) path_ = path_.parent_path();
+    look(folder);
+  }
   acquisition_ = nullptr;
   acquired_.clear();
   live_->resume();  // work that still ends must not stand still for ever
   live_ = std::make_shared<LiveRig>();
-  look(folder);
   roomClear_ = false;
   roomLight_.reset();
   slowDown();

@@ -319,7 +319,7 @@ class Session : public QObject {
   void change(const std::function<void(calibration::CalibrationFolder&)>& write);
   /// The same with the devices closed meanwhile and opened again.
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
-  void adopt(const calibration::CalibrationFolder& folder);
+  void adopt(calibration::CalibrationFolder given);
   void slowDown();
   void makeDevices();
   void takeBackDevices();

@@ -116,7 +116,10 @@ QString VenuePage::subtitle() const {
 }
 
 StepStatus VenuePage::status() const {
-  if (!session_.isOpen()) return {StepState::open, mode_ == Mode::start ? QString() : tr("Setting up")};
+  const bool isAnother = mode_ != Mode::start && mode_ != Mode::screen;
+  if (!session_.isOpen()) return {StepState::open, isAnother ? tr("Setting up") : QString()};
+  // The rest of the rail is of the one that is open.
+  if (isAnother) return {StepState::done, tr("Setting up another")};
   if (session_.projectors() > 1 || session_.cameras() > 1) {
     const QString projectors = tr("%n projector(s)", nullptr, static_cast<int>(session_.projectors()));
     const QString cameras = tr("%n camera(s)", nullptr, static_cast<int>(session_.cameras()));

@@ -49,6 +49,32 @@ class TestWizard : public QObject {
     session_ = std::make_unique<Session>(std::filesystem::path(folder_.filePath("cache").toStdString()));
   }
 
+  /// Law: whoever is told that a venue is open may write to it at once, begun or opened again.
+  void aVenueThatIsOpenMayBeWrittenTo() {
+    const std::filesystem::path path(folder_.filePath("written").toStdString());
+    int written = 0;
+    connect(session_.get(), &Session::opened, this, [&] {
+      CalibrationFolder::open(path, CalibrationFolder::Access::write);
+      ++written;
+    });
+    session_->begin(path, CalibrateSettings());
+    session_->open(path);
+    QCOMPARE(written, 2);
+  }
+
+  /// Law: while another venue is set up, its step says so; the rest of the rail is of the one that is open.
+  void theRailTellsAVenueFromTheOneThatIsSetUp() {
+    VenuePage page(*session_, RecentVenues(*settings_));
+    page.setMode(VenuePage::Mode::devices);
+    QCOMPARE(page.status().result, QString("Setting up"));
+    session_->begin(folder_.filePath("open").toStdString(), CalibrateSettings());
+    const QString open = page.status().result;
+    page.setMode(VenuePage::Mode::rehearse);
+    QVERIFY(page.status().state == StepState::done && page.status().result == "Setting up another");
+    QVERIFY(page.goBack());
+    QCOMPARE(page.status().result, open);
+  }
+
   void aStepOpensWhenAllBeforeItHaveAResult() {
     Wizard wizard(*session_);
     std::array<ScriptedPage, 4> pages;

@@ -55,7 +55,8 @@ Prediction compared(CameraStack camera, const Target& target, const Rasters& cam
 }
 
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation) {
-  CameraStack camera = venue.transport.apply(compensation.projector);
+  const transport::TransportMatrix& transport = venue.uncut ? *venue.uncut : venue.transport;
+  CameraStack camera = transport.apply(compensation.projector);
   parallelFor(0, camera.size(), 4096, [&](std::size_t i) { camera[i] += venue.black[i]; });
   Prediction prediction = compared(std::move(camera), target, venue.transport.cameras());
   prediction.clipped = compensation.clipped;

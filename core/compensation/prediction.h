@@ -30,8 +30,9 @@ struct Prediction {
 /// Shapes: `camera` and `target` of `cameras`. Content that covers no pixel has a mean of 0.
 Prediction compared(CameraStack camera, const Target& target, const Rasters& cameras);
 
-/// The preview of a compensation, assuming that T is exact.
-/// Shapes: `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
+/// The preview of a compensation, assuming that T is exact: all of it that was measured, where the venue
+/// keeps that (MeasuredVenue::uncut), so that light which a threshold left out counts against it. Shapes:
+/// `compensation` and `target` of the venue. Content that covers no pixel has a mean of 0.
 Prediction predict(const MeasuredVenue& venue, const Target& target, const Compensation& compensation);
 
 }  // namespace relucent::compensation

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct MeasuredVenue {
   CameraMask direct{};
   /// Where the content of the first camera's view lies in the others', see viewMap(). Empty: in none.
   ViewMap views{};
+  /// T as it was measured, by which predict() judges what a threshold costs. Null: `transport`, of which
+  /// nothing is cut, or which is believed.
+  std::shared_ptr<const transport::TransportMatrix> uncut{};
 };
 
 /// Per pixel of all cameras: usable, and directly lit.

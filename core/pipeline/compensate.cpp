@@ -121,7 +121,7 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = loadCalibration(folder, loading);
+  MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);
   const compensation::MeasuredVenue& venue = measured.venue;
 
   compensation::Target target = fitTarget(content, venue, withMasks(settings.target, folder));

@@ -129,7 +129,7 @@ WrittenFiles exportCalibration(const fs::path& path, const ExportSettings& setti
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = loadCalibration(folder, loading);
+  MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);
 
   WrittenFiles written;
   Progress writing = progress.part(0.6, RELUCENT_MESSAGE("stage.writing", "Writing"));

@@ -17,7 +17,9 @@
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
-MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress) {
+namespace {
+
+MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   auto linearization = calibration::currentResultOf(folder, calibration::Stage::linearization);
   auto acquisition = calibration::currentResultOf(folder, calibration::Stage::acquisition);
@@ -37,8 +39,17 @@ MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folde
   progress.report(0.7);
   measured.acquisition = figuresOf(stored);
   measured.venue = measuredVenueOf(stored, settings.threshold);
+  if (held == Held::allMeasured && !transport::cutsNothing(settings.threshold))
+    measured.venue.uncut = std::make_shared<const transport::TransportMatrix>(
+        transport::rescaledToFloodlight(stored.transport, stored.flood));
   progress.report(1.0);
   return measured;
+}
+
+}  // namespace
+
+MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress) {
+  return read(folder, Held::whatIsLeft, progress);
 }
 
 CameraMask usablePixels(const transport::Acquisition& acquisition) {
@@ -94,15 +105,14 @@ namespace {
 std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
   std::array<std::uint64_t, fixedParts> connections{};
   const transport::NodeLayout& layout = transport.layout();
-  parallelChunks(0, transport.cameras().count(), fixedParts,
-                 [&](std::size_t part, std::size_t first, std::size_t last) {
-                   for (std::size_t row = first; row < last; ++row) {
-                     const transport::LeafRow leaves = transport.row(row);
-                     for (std::uint32_t column : leaves.columns())
-                       connections[part] +=
-                           static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
-                   }
-                 });
+  parallelChunks(
+      0, transport.cameras().count(), fixedParts, [&](std::size_t part, std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) {
+          const transport::LeafRow leaves = transport.row(row);
+          for (std::uint32_t column : leaves.columns())
+            connections[part] += static_cast<std::uint64_t>(layout.block(layout.node(column)).count());
+        }
+      });
   return std::reduce(connections.begin(), connections.end());
 }
 
@@ -170,10 +180,11 @@ calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choi
   return result;
 }
 
-MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress) {
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress,
+                                    Held held) {
   Progress reading =
       progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = loadMeasurements(folder, reading);
+  MeasuredCalibration measured = read(folder, held, reading);
   Progress inverting = progress.part(
       0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
   CalibrateSettings settings = settingsOf(folder);

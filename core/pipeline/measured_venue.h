@@ -60,9 +60,13 @@ calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choi
 /// Reads a finished calibration, all but the inverse. Throws: as loadCalibration().
 MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress);
 
+/// Where a threshold cuts T: only what it leaves is held, or all that was measured besides, for predictions.
+enum class Held { whatIsLeft, allMeasured };
+
 /// Reads a finished calibration. The inverse operator is read where it is kept, else made again.
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
-MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress);
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress,
+                                    Held held = Held::whatIsLeft);
 
 /// What the stages found and cost, as calibrate() returns it; without peak memory.
 CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const MeasuredCalibration& measured);

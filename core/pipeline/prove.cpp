@@ -235,7 +235,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
   Progress loading =
       progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = loadCalibration(folder, loading);
+  MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);
   Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.preparing-devices", "Preparing the devices"));
   const transport::TransportMatrix& transport = measured.venue.transport;
   rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);

@@ -36,7 +36,7 @@ void chooseInverse(const std::filesystem::path& path, Progress& progress) {
 void make(PreviewEngine& engine, const std::filesystem::path& path, Progress& progress) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
-  engine.measured = pipeline::loadCalibration(folder, progress);
+  engine.measured = pipeline::loadCalibration(folder, progress, pipeline::Held::allMeasured);
   compensation::CompensatorSettings settings;
   settings.clustering = pipeline::settingsOf(folder).clustering;
   engine.compensator.emplace(engine.measured.venue, engine.measured.inverse, settings);

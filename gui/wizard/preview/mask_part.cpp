@@ -4,6 +4,7 @@
 #include <QListWidget>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <cmath>
 
@@ -99,7 +100,11 @@ QWidget* maskPart(PreviewPage& page) {
                            2 * list->frameWidth());
     draw->setChecked(editing.isDrawing());
     draw->setEnabled(page.preview() != nullptr);
+    draw->setText(editing.isDrawing() ? PreviewPage::tr("Stop drawing") : PreviewPage::tr("Draw a mask"));
+    const bool begins = editing.isDrawing() && how->isHidden();
     how->setVisible(editing.isDrawing());
+    // Once all have their places.
+    if (begins) QTimer::singleShot(0, how, [how] { bringIntoSight(how); });
     problem->setVisible(!editing.problem().isEmpty());
     problem->setText(editing.problem());
     const bool isShaped = editing.isDrawing() || editing.chosen().has_value();

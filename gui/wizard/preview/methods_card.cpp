@@ -3,6 +3,7 @@
 
 #include <QHeaderView>
 #include <QTableWidget>
+#include <algorithm>
 #include <cmath>
 
 #include "theme/theme.h"
@@ -48,7 +49,11 @@ QString decibelsText(double decibels) {
   return PreviewPage::tr("%1 dB").arg(decimalText(decibels, 1));
 }
 
-QString noteOf(compensation::Method method) {
+}  // namespace
+
+QString noteOf(compensation::Method method, const std::vector<MethodPreview>& rows) {
+  const auto own = std::ranges::find(rows, method, &MethodPreview::method);
+  const auto isBetterThanOwn = [own](const MethodPreview& row) { return row.psnr > own->psnr; };
   switch (method) {
     case compensation::Method::mix:
       return PreviewPage::tr("blind to bounces");
@@ -57,13 +62,14 @@ QString noteOf(compensation::Method method) {
     case compensation::Method::refined:
       return PreviewPage::tr("recommended");
     case compensation::Method::optimum:
-      return PreviewPage::tr("limit of this venue");
+      // What is seen is weighed as an eye does, which more decibels need not follow.
+      return own != rows.end() && std::ranges::any_of(rows, isBetterThanOwn)
+                 ? PreviewPage::tr("errors weighed as an eye does")
+                 : PreviewPage::tr("limit of this venue");
     default:
       return {};
   }
 }
-
-}  // namespace
 
 MethodsCard::MethodsCard(PreviewPage& page, QWidget* parent)
     : Card(PreviewPage::tr("Methods"), parent), page_(page) {
@@ -143,7 +149,7 @@ void MethodsCard::refresh() {
                              ? PreviewPage::tr("%1 ms").arg(std::lround(1000.0 * method.seconds))
                              : PreviewPage::tr("%1 s").arg(decimalText(method.seconds, 1));
     QStringList cells{methodName(method.method),
-                      noteOf(method.method),
+                      noteOf(method.method, rows),
                       isolated(QString::fromUtf8("ΔE %1").arg(decimalText(method.deltaE, 1))),
                       time,
                       decibelsText(method.psnr),

@@ -8,6 +8,9 @@ namespace relucent::gui {
 
 class MethodsTable;
 
+/// What is said beside a method, among `rows` that are compared.
+QString noteOf(compensation::Method method, const std::vector<MethodPreview>& rows);
+
 /// What each method makes of the content; the one that is clicked is used. Where there is little height, it
 /// is the picture's, and the comparison is unfolded by a button.
 class MethodsCard : public Card {

@@ -197,6 +197,10 @@ class PreviewStage : public QWidget {
   void refresh() {
     showMasks();
     place_->setWrong(!page_.problem().isEmpty());
+    // Where nothing is going to come, why.
+    for (Shown kind : {picture, reachable, difference, uncertainty})
+      views_[kind]->setEmptyText(page_.problem().isEmpty() ? PreviewPage::tr("Preparing the preview")
+                                                           : page_.problem());
     place_->setCorners(page_.corners());
     const auto& preview = page_.preview();
     offer(contradiction, page_.cameras() > 1);

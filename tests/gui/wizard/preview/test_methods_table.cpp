@@ -26,9 +26,10 @@ class TestMethodsTable : public QObject {
     return page_->isReady() && page_->preview() && !page_->isComputing() && page_->table().size() == 5;
   }
   /// The row of the method in use.
-  MethodPreview chosenRow() const {
-    const auto row = std::ranges::find(page_->table(), page_->settings().method, &MethodPreview::method);
-    return row == page_->table().end() ? MethodPreview() : *row;
+  MethodPreview chosenRow() const { return chosenIn(page_->table()); }
+  MethodPreview chosenIn(const std::vector<MethodPreview>& rows) const {
+    const auto row = std::ranges::find(rows, page_->settings().method, &MethodPreview::method);
+    return row == rows.end() ? MethodPreview() : *row;
   }
 
  private slots:
@@ -63,6 +64,8 @@ class TestMethodsTable : public QObject {
     pipeline::CalibrateSettings settings = session().settings();
     apply(settings);
     const bool isMeasuredAnew = settings.acquisition.seed != session().settings().acquisition.seed;
+    const bool isCut = settings.threshold.shareOfRowMax > session().settings().threshold.shareOfRowMax;
+    const MethodPreview uncut = chosenIn(before);
     session().changeSettings(settings);
     if (isMeasuredAnew) {
       QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
@@ -73,8 +76,24 @@ class TestMethodsTable : public QObject {
     QVERIFY(page_->table().empty());
     QTRY_VERIFY_WITH_TIMEOUT(isComplete(), patience);
     QCOMPARE(chosenRow().deltaE, page_->preview()->deltaEMean);
+    // Light that the solve does not know of shines all the same: half of the strongest is far too much to
+    // cut.
+    if (isCut)
+      QVERIFY2(chosenRow().psnr < uncut.psnr - 1.0,
+               qPrintable(QString("%1 dB, %2 dB uncut").arg(chosenRow().psnr).arg(uncut.psnr)));
     const auto isSame = [](const MethodPreview& a, const MethodPreview& b) { return a.deltaE == b.deltaE; };
     QVERIFY(!std::ranges::equal(page_->table(), before, isSame));
+  }
+
+  /// Law: nothing that another method exceeds is called a limit.
+  void aLimitIsNotExceeded() {
+    using compensation::Method;
+    const auto note = [](double refined, double optimum) {
+      return noteOf(Method::optimum,
+                    {{Method::mix, 20.0}, {Method::refined, refined}, {Method::optimum, optimum}});
+    };
+    QCOMPARE(note(33.0, 34.0), QString("limit of this venue"));
+    QVERIFY(!note(34.0, 33.0).contains("limit"));
   }
 
   /// Law: another method is another row, not another table.

@@ -76,6 +76,16 @@ class TestPreviewMasks : public QObject {
     page_.reset();
   }
 
+  void drawingSaysHowItIsDoneAndEnded() {
+    auto* draw = part<QPushButton>("draw-mask");
+    draw->click();
+    QVERIFY(page_->masks().isDrawing() && !part<QWidget>("how-to-draw")->isHidden());
+    QCOMPARE(draw->text(), QString("Stop drawing"));
+    draw->click();
+    QVERIFY(!page_->masks().isDrawing() && part<QWidget>("how-to-draw")->isHidden());
+    QCOMPARE(draw->text(), QString("Draw a mask"));
+  }
+
   void aMaskDarkensItsPlaceAndIsTakenBack() {
     const auto before = page_->preview();
     const double light = lightInside();

@@ -124,10 +124,10 @@ void OutputProof::start(Work work, Job::Work job) {
   Q_EMIT changed();
 }
 
-void OutputProof::photograph(const QString& picture) {
+void OutputProof::photograph(const QString& picture, const Canvas& canvas) {
   if (!isPossible()) return;
   found_ = std::make_shared<Found>();
-  start(Work::photograph, [found = found_, work = workOf(session_), picture,
+  start(Work::photograph, [found = found_, work = workOf(session_), picture, canvas,
                            content = session_.settings().content, measured = measurementOf(session_),
                            shownFrom = session_.shownFrom()](Progress& progress) {
     pipeline::ProveSettings settings;
@@ -135,6 +135,7 @@ void OutputProof::photograph(const QString& picture) {
     settings.image = pictureFile(picture, settings.out);
     settings.method = content.method;
     settings.target = targetOf(content);
+    settings.canvas = {{canvas.size.width(), canvas.size.height()}, canvas.fit};
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     Progress proving = progress.part(

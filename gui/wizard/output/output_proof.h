@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "content/canvas.h"
 #include "jobs/job.h"
 #include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/prove.h"
@@ -75,8 +76,8 @@ class OutputProof : public QObject {
   /// Where it looks as it did, the camera was pushed back: what was found before that holds no more.
   void cameraPushedBack();
 
-  /// `picture`: a file or resource.
-  void photograph(const QString& picture);
+  /// `picture`, a file or resource, as a show has it on that canvas: perfected, if it is.
+  void photograph(const QString& picture, const Canvas& canvas);
   void checkDrift();
   /// Makes the calibration fit what the venue has become; `picture`, a file or resource, proves it.
   void startRepair(const QString& picture);

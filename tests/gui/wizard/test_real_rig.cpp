@@ -393,7 +393,7 @@ class TestRealRig : public QObject {
       weighted.content.views[0].weight = first;
       weighted.content.views[1].weight = second;
       session.changeSettings(weighted);
-      proof.photograph(QString::fromStdString(picture().string()));
+      proof.photograph(QString::fromStdString(picture().string()), Canvas());
       if (!QTest::qWaitFor([&] { return proof.work() == OutputProof::Work::none; }, 60000) ||
           !proof.proof() || proof.isOutOfDate())
         return ProveResult();

@@ -156,7 +156,16 @@ class TestWhatPlays : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!perfecting.isRunning(), patience);
     QVERIFY(perfecting.outcome() && perfecting.outcome()->kept);
     QVERIFY(perfecting.photographs() > 1);
+    const std::vector<pipeline::PictureError> told = perfecting.outcome()->after.views;
     QTRY_VERIFY_WITH_TIMEOUT(perfecting.known().has_value(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(plays(true), patience);
+    // What is proved is what plays, and measured as what perfecting told of it.
+    page_->verify();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().proof() && isIdle(), patience);
+    QVERIFY(page_->proof().proof()->figures.perfected);
+    const double measured = page_->proof().proof()->figures.after.measured.deltaE;
+    QVERIFY2(std::abs(measured - told.front().deltaE) < 0.1 * told.front().deltaE,
+             qPrintable(QString("%1, %2 was told").arg(measured).arg(told.front().deltaE)));
     QTRY_VERIFY_WITH_TIMEOUT(plays(true), patience);
     // Another white is another picture.
     change([](pipeline::CalibrateSettings& s) { s.content.blackLift = 0.1; });

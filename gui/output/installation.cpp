@@ -151,6 +151,16 @@ bool isInstalled(Start start, const QString& config, const QString& argument) {
   return QString::fromUtf8(file.readAll()).contains(' ' + word);
 }
 
+QString installedValue(Start start, const QString& config, const QString& option) {
+  QFile file(fileOf(start, config));
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  const QString text = QString::fromUtf8(file.readAll());
+  const QString before =
+      ' ' + (start == Start::service ? systemdWord(option, false) : desktopWord(option)) + " \"";
+  const qsizetype begin = text.indexOf(before);
+  return begin < 0 ? QString() : text.mid(begin + before.size()).section('"', 0, 0);
+}
+
 void moveInstalled(Start start, const QString& config, const QString& from, const QString& to) {
   QFile file(fileOf(start, config));
   if (!file.open(QIODevice::ReadOnly)) return;

@@ -30,6 +30,10 @@ bool isInstalled(Start start, const QString& config);
 /// Whether one is installed with this argument, the folder of a venue.
 bool isInstalled(Start start, const QString& config, const QString& argument);
 
+/// What follows an option of the one that is installed; nothing where it has none. Of values without signs
+/// that are quoted, like a time.
+QString installedValue(Start start, const QString& config, const QString& option);
+
 /// Where the one that is installed names a folder, or what lies within, it names that of `to` from now on.
 /// Nothing where there is none. Atomic. Throws: as install().
 void moveInstalled(Start start, const QString& config, const QString& from, const QString& to);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/output/nights_part.h"
 
+#include <QHBoxLayout>
+#include <QLocale>
 #include <QVBoxLayout>
 
 #include "jobs/failure.h"
@@ -16,6 +18,21 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(labelOf(tr("Every night"), "section"));
+  auto* row = new QHBoxLayout;
+  QLabel* when = labelOf(tr("Look after the picture"), "note");
+  row->addWidget(when, 1);
+  row->addWidget(when_ = new QComboBox);
+  when_->setObjectName("night-time");
+  when_->setAccessibleName(when->text());
+  when_->addItem(tr("never"), QTime());
+  constexpr int darkHours = 8;
+  for (int hour = 0; hour < darkHours; ++hour)
+    when_->addItem(tr("at %1").arg(QLocale().toString(QTime(hour, 0), QLocale::ShortFormat)), QTime(hour, 0));
+  column->addLayout(row);
+  connect(when_, &QComboBox::activated, &page_,
+          [this](int index) { page_.setNightAt(when_->itemData(index).toTime()); });
+  for (auto signal : {&OutputPage::settingsChanged, &OutputPage::resultChanged})
+    connect(&page_, signal, this, &NightsPart::showTime);
   last_ = new Remark;
   last_->setObjectName("nights-remark");
   column->addWidget(last_);
@@ -26,7 +43,17 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   connect(open_, &QPushButton::clicked, this, &NightsPart::open);
   connect(&page_.session(), &Session::opened, this, &NightsPart::reload);
   connect(&Theme::instance(), &Theme::changed, this, &NightsPart::reload);
+  showTime();
   reload();
+}
+
+void NightsPart::showTime() {
+  const QTime at = page_.nightAt();
+  // By hand a show can have been installed with any other.
+  if (when_->findData(at) < 0)
+    when_->addItem(tr("at %1").arg(QLocale().toString(at, QLocale::ShortFormat)), at);
+  when_->setCurrentIndex(when_->findData(at));
+  when_->setEnabled(page_.isInstallable());
 }
 
 void NightsPart::showEvent(QShowEvent* event) {
@@ -51,7 +78,7 @@ void NightsPart::reload() {
     return last_->show(
         Remark::Kind::watch, tr("There was no night yet"),
         tr("A show can look after the picture by itself at night: it checks, repairs, perfects "
-           "and proves, and tells here what came of it. Help (F1) says how it is started so."));
+           "and proves, and tells here what came of it. Its camera has to stay where it is."));
   const pipeline::NightRecord& night = nights_.back();
   const bool isAlarm = !night.alarm.empty(), isLeftOut = !night.skipped.empty();
   last_->show(isAlarm     ? Remark::Kind::warning

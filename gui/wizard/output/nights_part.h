@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QComboBox>
 #include <QPushButton>
 #include <QWidget>
 #include <vector>
@@ -12,7 +13,8 @@ namespace relucent::gui {
 
 class OutputPage;
 
-/// What the nights of this venue came to: the last one, and all in a dialog (NightsDialog).
+/// When an installed show looks after the picture every night, and what the nights of this venue came to: the
+/// last one, and all in a dialog (NightsDialog).
 class NightsPart : public QWidget {
   Q_OBJECT
 
@@ -25,11 +27,13 @@ class NightsPart : public QWidget {
 
  private:
   void reload();
+  void showTime();
   void open();
 
   OutputPage& page_;
   std::vector<pipeline::NightRecord> nights_;
   Remark* last_;
+  QComboBox* when_;
   QPushButton* open_;
 };
 

@@ -19,6 +19,8 @@
 namespace relucent::gui {
 namespace {
 
+constexpr const char* nightFormat = "HH:mm";  // of --night
+
 double movedPixels(const sentinels::Movement& moved) {
   return std::hypot(moved.x, moved.y);
 }
@@ -54,6 +56,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     projection_.mirrorProjector(projector());
     wished_.clear();
     reportFile_.clear();
+    nightAt_ = {};
     listScreens();
     detectInstalledShow();
     preferred_ = QString::fromStdString(session_.settings().content.picture);
@@ -384,7 +387,9 @@ void OutputPage::whileClosed(const std::function<void()>& work) {
 
 void OutputPage::verify() {
   // What plays now: once the output is closed nothing does.
-  if (mayProve()) whileClosed([this, picture = pictureToProve()] { proof_.photograph(picture); });
+  if (!mayProve()) return;
+  whileClosed(
+      [this, picture = pictureToProve(), canvas = canvasOfPicture()] { proof_.photograph(picture, canvas); });
 }
 
 void OutputPage::repair() {
@@ -464,10 +469,12 @@ void OutputPage::detectInstalledShow() {
   const QString venue = QString::fromStdString(session_.path().string());
   installed_ = InstalledShow::none;
   for (Start start : {Start::service, Start::autostart}) {
-    if (session_.isOpen() && gui::isInstalled(start, config_, venue))
+    if (session_.isOpen() && gui::isInstalled(start, config_, venue)) {
       installed_ = InstalledShow::thisVenues;
-    else if (installed_ == InstalledShow::none && gui::isInstalled(start, config_))
+      nightAt_ = QTime::fromString(installedValue(start, config_, "--night"), nightFormat);
+    } else if (installed_ == InstalledShow::none && gui::isInstalled(start, config_)) {
       installed_ = InstalledShow::anotherVenues;
+    }
   }
   tellResult();
 }
@@ -479,6 +486,7 @@ QStringList OutputPage::showArguments() const {
                         "--content", playlist_.file(),
                         "--canvas",  QString("%1x%2").arg(canvas.size.width()).arg(canvas.size.height()),
                         "--log",     QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)};
+  if (nightAt_.isValid()) arguments << "--night" << nightAt_.toString(nightFormat);
   // One for each projector, or by their sizes.
   QStringList connectors;
   for (const auto& screen : chosen_)
@@ -489,8 +497,16 @@ QStringList OutputPage::showArguments() const {
   return arguments;
 }
 
+void OutputPage::setNightAt(QTime time) {
+  if (std::exchange(nightAt_, time) == time) return;
+  if (isInstalled())
+    install();
+  else
+    tellSettings();
+}
+
 void OutputPage::install() {
-  if (!isInstallable()) return;
+  if (!isInstallable() || playlist_.isEmpty()) return detectInstalledShow();
   try {
     playlist_.save();
     // Where systemd does not run the session, the desktop starts it.

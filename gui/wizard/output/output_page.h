@@ -125,6 +125,10 @@ class OutputPage : public DevicePage {
   bool isInstallable() const { return !session_.isSimulated(); }
   /// Keeps the playlist and makes the show start at log-in, in place of one that did.
   void install();
+  /// When the installed show looks after the picture every night, see show_nights.h; not valid: never.
+  QTime nightAt() const { return nightAt_; }
+  /// Of an installed show at once.
+  void setNightAt(QTime time);
   /// Whichever starts at log-in does so no more.
   /// Asks first: it may be another venue's, and that of tonight.
   void askToRemoveInstalled();
@@ -185,6 +189,7 @@ class OutputPage : public DevicePage {
   QString preferred_;                               // Preview's picture
   QString config_;
   InstalledShow installed_ = InstalledShow::none;
+  QTime nightAt_;
   QString reportFile_;
 };
 

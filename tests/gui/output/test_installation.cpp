@@ -95,6 +95,8 @@ class TestInstallation : public QObject {
     QVERIFY(isInstalled(start, config.path(), venue));
     QVERIFY(!isInstalled(start, config.path(), "/venues/Chapel"));
     QVERIFY(!isInstalled(start, config.path(), venue + " 2"));
+    QCOMPARE(installedValue(start, config.path(), "--content"), QString("list"));
+    QCOMPARE(installedValue(start, config.path(), "--night"), QString());
   }
 
   void everyPathArrivesAsItIs_data() {

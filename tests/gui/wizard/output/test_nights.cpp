@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What Output tells of the nights. On two screens, see tests/support/with-two-screens.
+#include <QComboBox>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <fstream>
@@ -7,6 +8,7 @@
 
 #include "gui/wizard/output/night_history.h"
 #include "gui/wizard/simulated_session.h"
+#include "output/installation.h"
 #include "wizard/output/nights_dialog.h"
 #include "wizard/output/nights_part.h"
 #include "wizard/output/output_page.h"
@@ -93,6 +95,36 @@ class TestNights : public QObject {
     QVERIFY(chart->accessibleDescription() != ofColours && chart->accessibleDescription().contains("dB"));
     QTest::keyClick(&dialog, Qt::Key_Escape);
     QVERIFY(!dialog.isVisible());
+  }
+
+  /// Law: what is chosen is in the installed show at once, and is found there again.
+  void anInstalledShowIsToldWhenToLookAfterThePicture() {
+    SimulatedSession own;
+    QTemporaryDir config;
+    OutputPage page(own.session);
+    page.setConfigFolder(config.path());
+    NightsPart part(page);
+    auto* when = part.findChild<QComboBox*>("night-time");
+    QVERIFY(!when->isEnabled() || !own.session.isOpen());
+    own.begin(scriptedVenue("true {image}", "true {exposure} {output}"));
+    QVERIFY(when->isEnabled() && !page.nightAt().isValid());
+    const auto installed = [&config] {
+      const QString service = installedValue(Start::service, config.path(), "--night");
+      return service.isEmpty() ? installedValue(Start::autostart, config.path(), "--night") : service;
+    };
+    page.install();
+    QVERIFY(page.isInstalled() && installed().isEmpty());
+    when->setCurrentIndex(when->findData(QTime(3, 0)));
+    Q_EMIT when->activated(when->currentIndex());
+    QCOMPARE(installed(), QString("03:00"));
+    OutputPage again(own.session);
+    again.setConfigFolder(config.path());
+    QCOMPARE(again.nightAt(), QTime(3, 0));
+    // Without anything to play nothing is installed anew.
+    again.setNightAt({});
+    QCOMPARE(again.nightAt(), QTime(3, 0));
+    page.setNightAt({});
+    QVERIFY(page.isInstalled() && installed().isEmpty());
   }
 
   void thePageTellsOfTheLastNight() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "relucent/calibration/results.h"
 #include "relucent/transport/cut_estimate.h"
 #include "relucent/transport/noise_cut.h"
 #include "views/number_text.h"
@@ -77,7 +78,15 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
           },
           [this](const Failure& failure) {
             Q_EMIT failed({failure, {}});
-          }) {
+          }),
+      lightening_(
+          [this](Floodlights read) {
+            if (read.first != floodlights_.first) return;
+            floodlights_ = std::move(read);
+            tellResult();
+          },
+          // The whole measurement, which is read as well, tells what is wrong.
+          [](const Failure&) {}) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   if (session_.isOpen()) takeSettings();
@@ -88,7 +97,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
   connect(&session_, &Session::devicesChanged, this, &ThresholdPage::tellStatus);
   for (auto signal : {&Session::stepsChanged, &Session::acquisitionChanged})
     connect(&session_, signal, this, [this] {
-      if (isLookedAt_) session_.wantAcquisition();
+      if (isLookedAt_) wantMeasurement();
       adopt();
       tellAll();
     });
@@ -97,7 +106,18 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
 
 void ThresholdPage::enter() {
   isLookedAt_ = true;
+  wantMeasurement();
+}
+
+void ThresholdPage::wantMeasurement() {
   session_.wantAcquisition();
+  if (session_.measurement() == floodlights_.first) return;
+  floodlights_ = {session_.measurement(), nullptr};
+  if (floodlights_.first.empty()) return;
+  lightening_.ask([name = floodlights_.first,
+                   stored = *session_.result(calibration::Stage::acquisition)]() -> Floodlights {
+    return {name, std::make_shared<const std::vector<image::Image>>(calibration::loadFlood(stored))};
+  });
 }
 
 bool ThresholdPage::isChanged() const {

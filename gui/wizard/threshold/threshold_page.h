@@ -33,6 +33,9 @@ class ThresholdPage : public DevicePage {
   void leave() override { isLookedAt_ = false; }
 
   std::shared_ptr<const transport::Acquisition> acquisition() const { return session_.acquisition(); }
+  /// The surface in full light, in every camera's view, of the measurement that is used; there long before
+  /// acquisition(). Null: not read yet.
+  std::shared_ptr<const std::vector<image::Image>> floodlights() const { return floodlights_.second; }
   /// Of everything that was measured; none while it is being read.
   const std::optional<transport::TransportStatistics>& whole() const { return whole_; }
   /// Of what the cut leaves; follows the cut. At first as the histogram of the whole has it, where that
@@ -89,6 +92,7 @@ class ThresholdPage : public DevicePage {
 
  private:
   void takeSettings();
+  void wantMeasurement();
   void adopt();
   void forget();
   void lookAtRow();
@@ -108,7 +112,11 @@ class ThresholdPage : public DevicePage {
   void change(const QString& what, const Choice& after);
   void take(const Choice& choice);
 
+  /// With the measurement's name.
+  using Floodlights = std::pair<std::string, std::shared_ptr<const std::vector<image::Image>>>;
+
   PageCommand *accept_, *goOnMeasuring_;
+  Floodlights floodlights_;
   std::shared_ptr<const transport::Acquisition> adopted_;
   transport::ThresholdSettings cut_;
   bool shareOfPixel_ = false, isLookedAt_ = false;
@@ -125,6 +133,7 @@ class ThresholdPage : public DevicePage {
   Latest<std::shared_ptr<const transport::PixelFootprint>> looking_;
   Latest<std::shared_ptr<const std::vector<float>>> lighting_;
   Latest<std::shared_ptr<const transport::MatrixPictures>> picturing_;
+  Latest<Floodlights> lightening_;
 };
 
 }  // namespace relucent::gui

@@ -92,10 +92,11 @@ class DeviceViews : public Card {
   void refresh() {
     bool otherCamera = std::exchange(camera_, model_.camera()) != model_.camera();
     bool otherProjector = std::exchange(projector_, model_.projector()) != model_.projector();
-    if (model_.acquisition() != shown_ || otherCamera) {
-      shown_ = model_.acquisition();
-      if (shown_) {
-        image::Image flood = image::imageFromStack(shown_->flood, shown_->transport.cameras(), camera_);
+    shown_ = model_.acquisition();
+    if (model_.floodlights() != floodlights_ || otherCamera) {
+      floodlights_ = model_.floodlights();
+      if (floodlights_ && camera_ < floodlights_->size()) {
+        const image::Image& flood = (*floodlights_)[camera_];
         flood_->setPicture(pictureOf(flood, pipeline::displayWhite(flood)));
       } else {
         flood_->setPicture({});
@@ -138,6 +139,7 @@ class DeviceViews : public Card {
   ThresholdPage& model_;
   MapView *flood_, *print_;
   std::shared_ptr<const transport::Acquisition> shown_;
+  std::shared_ptr<const std::vector<image::Image>> floodlights_;
   std::shared_ptr<const transport::PixelFootprint> footprint_;
   std::shared_ptr<const std::vector<float>> lit_;
   std::size_t camera_ = 0, projector_ = 0;

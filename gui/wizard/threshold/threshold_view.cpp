@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "theme/controls.h"
+#include "theme/folding_rows.h"
 #include "theme/theme.h"
 #include "views/cut_histogram.h"
 #include "views/number_text.h"
@@ -85,17 +86,12 @@ class LeavesUndoToThePage : public QObject {
 
 QWidget* stageOf(ThresholdPage& model) {
   auto* stage = new QWidget;
-  auto* column = new QVBoxLayout(stage);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(space::gap);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(space::gap);
+  auto* rows = new FoldingRows(stage);
   constexpr int leastPicture = 250,
                 leastHistogram = 190;  // of their cards; where that is too much, it scrolls
-  row->addWidget(deviceCard(model), 10);
-  row->addWidget(matrixCard(model), 11);
-  for (int i : {0, 1}) row->itemAt(i)->widget()->setMinimumHeight(leastPicture);
-  column->addLayout(row, 5);
+  QWidget *device = deviceCard(model), *matrix = matrixCard(model);
+  for (QWidget* picture : {device, matrix}) picture->setMinimumHeight(leastPicture);
+  rows->addRow({device, matrix}, 5);
   auto* card = new Card(ThresholdPage::tr("How much light flows through each connection"));
   card->setSubtitle(ThresholdPage::tr("drag the cut, or use the arrow keys"));
   auto* histogram = new CutHistogram({1e-6, 1.0, true, {}}, ThresholdPage::tr("Connections"));
@@ -103,7 +99,7 @@ QWidget* stageOf(ThresholdPage& model) {
   histogram->setAccessibleName(ThresholdPage::tr("Cut"));
   card->body()->addWidget(histogram, 1);
   card->setMinimumHeight(leastHistogram);
-  column->addWidget(card, 4);
+  rows->addRow({card}, 4);
   QObject::connect(histogram, &CutHistogram::cutMoved, &model, &ThresholdPage::setAbsolute);
   auto refresh = [&model, histogram] {
     if (!model.whole()) {

@@ -97,6 +97,23 @@ class TestLeavingPages : public QObject {
     session_.reset();
   }
 
+  /// Law: the surface is seen before T is read, which takes long, and also where T cannot be read.
+  void theSurfaceIsSeenWithoutT() {
+    const std::filesystem::path path = session_->path();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+      if (entry.path().filename() == "transport.npz") std::filesystem::remove(entry.path());
+    Session session(std::filesystem::path(folder_->filePath("cache").toStdString()));
+    session.open(path);
+    ThresholdPage page(session);
+    QVERIFY(!page.floodlights());
+    page.enter();
+    QTRY_VERIFY(page.floodlights());
+    QVERIFY(!page.acquisition());
+    const Acquisition whole = measured();
+    QCOMPARE(page.floodlights()->size(), whole.transport.cameras().devices());
+    QCOMPARE(page.floodlights()->front(), image::imageFromStack(whole.flood, whole.transport.cameras(), 0));
+  }
+
   void whatIsNotChangedIsNotKeptAnew() {
     const std::string stored = session_->result(Stage::threshold)->stored;
     for (std::size_t page : {threshold, cluster, after}) wizard_->go(page);

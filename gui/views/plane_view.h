@@ -100,7 +100,12 @@ class PlaneView : public QWidget {
   void refreshWords();
   void paintWords(QPainter& painter);
   void paintMarks(QPainter& painter);
-  void paintPick(QPainter& painter);
+  void paintCrossOfPick(QPainter& painter);
+  void paintPickReadout(QPainter& painter);
+  void paintTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
+                bool rightAligned = false);
+  std::optional<QPointF> placeOfPick() const;
+  QRectF roomForTag(const QString& text) const;
   void paintScaleBar(QPainter& painter);
 
   ViewLink own_;

@@ -11,11 +11,32 @@
 #include "views/view_tag.h"
 
 namespace relucent::gui {
-void PlaneView::paintPick(QPainter& painter) {
-  std::optional<QPoint> pick = link_->pick();
-  if (!pick || !QRect(QPoint(), planeSize()).contains(*pick)) return;
-  QPointF place = widgetFromPicture(QPointF(*pick) + QPointF(0.5, 0.5));
-  if (!frame().contains(place)) return;
+
+std::optional<QPointF> PlaneView::placeOfPick() const {
+  const std::optional<QPoint> pick = link_->pick();
+  if (!pick || !QRect(QPoint(), planeSize()).contains(*pick)) return std::nullopt;
+  const QPointF place = widgetFromPicture(QPointF(*pick) + QPointF(0.5, 0.5));
+  return frame().contains(place) ? std::optional(place) : std::nullopt;
+}
+
+/// On the plane where that is wide enough, else anywhere in the view: words are never cut.
+QRectF PlaneView::roomForTag(const QString& text) const {
+  constexpr double margins = 4.0;
+  return frame().width() >= tagSize(text).width() + margins ? frame() : QRectF(rect());
+}
+
+void PlaneView::paintTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
+                         bool rightAligned) {
+  painter.save();
+  painter.setClipRect(roomForTag(text), Qt::IntersectClip);
+  drawTag(painter, topLeft, text, colour, rightAligned);
+  painter.restore();
+}
+
+void PlaneView::paintCrossOfPick(QPainter& painter) {
+  const std::optional<QPointF> at = placeOfPick();
+  if (!at) return;
+  const QPointF place = *at;
   for (auto [colour, width] : {std::pair(darkColours().picture, 4.0), std::pair(darkColours().accent, 2.0)}) {
     painter.setPen(QPen(colour, width));
     painter.setBrush(Qt::NoBrush);
@@ -23,22 +44,27 @@ void PlaneView::paintPick(QPainter& painter) {
     for (QPointF step : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
       painter.drawLine(place + 7.0 * step, place + 15.0 * step);
   }
-  if (!readout_) return;
-  QString text = readout_(*pick);
+}
+
+void PlaneView::paintPickReadout(QPainter& painter) {
+  const std::optional<QPointF> at = placeOfPick();
+  if (!at || !readout_) return;
+  const QString text = readout_(*link_->pick());
   if (text.isEmpty()) return;
-  bool right = place.x() > frame().center().x();
+  const QPointF place = *at;
+  const QRectF room = roomForTag(text);
+  bool right = place.x() > room.center().x();
   const QSizeF size = tagSize(text);
-  bool above = place.y() > frame().top() + size.height() + 24.0;
+  bool above = place.y() > room.top() + size.height() + 24.0;
   std::vector<QPointF> places;
   for (auto [toLeft, upwards] : {std::pair(right, above), std::pair(right, !above), std::pair(!right, above),
                                  std::pair(!right, !above)}) {
     QPointF corner(toLeft ? place.x() - size.width() - 12.0 : place.x() + 12.0,
                    upwards ? place.y() - size.height() - 20.0 : place.y() + 20.0);
-    corner.setX(
-        std::clamp(corner.x(), frame().left(), std::max(frame().left(), frame().right() - size.width())));
-    if (places.empty() || frame().contains(QRectF(corner, size))) places.push_back(corner);
+    corner.setX(std::clamp(corner.x(), room.left(), std::max(room.left(), room.right() - size.width())));
+    if (places.empty() || room.contains(QRectF(corner, size))) places.push_back(corner);
   }
-  drawTag(painter, tagBox(size, places, keptFree()).topLeft(), text, darkColours().text);
+  paintTag(painter, tagBox(size, places, keptFree()).topLeft(), text, darkColours().text);
 }
 
 void PlaneView::paintScaleBar(QPainter& painter) {
@@ -85,17 +111,18 @@ void PlaneView::paintMarks(QPainter& painter) {
   painter.save();
   painter.setClipRect(frame(), Qt::IntersectClip);
   if (scaleBar_) paintScaleBar(painter);
-  paintPick(painter);
+  paintCrossOfPick(painter);
+  painter.restore();
+  paintPickReadout(painter);
   if (!badge_.isEmpty())
-    drawTag(painter, frame().topLeft() + QPointF(12.0, 12.0), badge_, darkColours().amber);
+    paintTag(painter, frame().topLeft() + QPointF(12.0, 12.0), badge_, darkColours().amber);
   if (!caption_.isEmpty())
-    drawTag(painter, frame().bottomLeft() + QPointF(12.0, -12.0 - tagSize(caption_).height()), caption_,
-            darkColours().text);
+    paintTag(painter, frame().bottomLeft() + QPointF(12.0, -12.0 - tagSize(caption_).height()), caption_,
+             darkColours().text);
   if (hovered_ && readout_ && hovered_ != link_->pick())
     if (QString text = readout_(*hovered_); !text.isEmpty())
-      drawTag(painter, frame().bottomRight() - QPointF(12.0, 12.0 + tagSize(text).height()), text,
-              darkColours().text, true);
-  painter.restore();
+      paintTag(painter, frame().bottomRight() - QPointF(12.0, 12.0 + tagSize(text).height()), text,
+               darkColours().text, true);
 }
 
 }  // namespace relucent::gui

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "theme/tokens.h"
+#include "views/view_tag.h"
 #include "views/vtk_view.h"
 
 using namespace relucent;
@@ -45,6 +46,34 @@ class TestMapView : public QObject {
   }
 
  private slots:
+  /// Law: words about a pick are whole, also where the picture is narrower than they are.
+  void wordsAreNotCutByANarrowPicture_data() {
+    QTest::addColumn<QPoint>("pick");
+    QTest::newRow("in the middle") << QPoint(1, 30);
+    QTest::newRow("at the left") << QPoint(0, 0);
+    QTest::newRow("at the right") << QPoint(2, 59);
+  }
+  void wordsAreNotCutByANarrowPicture() {
+    QFETCH(QPoint, pick);
+    OpenedView view;
+    open(view);
+    view.setPicture(numbered({3, 60}));  // 15 pixels wide here
+    const QString words = "camera 12, 34\nprojector 5, 67";
+    view.setReadout([words](QPoint) { return words; });
+    const QImage before = view.grab().toImage();
+    view.link().setPick(pick);
+    const QImage after = view.grab().toImage();
+    int first = after.width(), last = -1;
+    for (int x = 0; x < after.width(); ++x)
+      for (int y = 0; y < after.height(); ++y)
+        if (after.pixel(x, y) != before.pixel(x, y)) {
+          first = std::min(first, x);
+          last = std::max(last, x);
+        }
+    QVERIFY2((last - first + 1) / view.devicePixelRatioF() >= tagSize(words).width() - 1.0,
+             qPrintable(QString("%1 to %2").arg(first).arg(last)));
+  }
+
   void everyPixelIsWhereItBelongs_data() {
     QTest::addColumn<QSize>("picture");
     QTest::addColumn<double>("zoom");

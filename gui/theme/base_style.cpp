@@ -14,4 +14,9 @@ void BaseStyle::drawItemText(QPainter* painter, const QRect& rectangle, int flag
   QProxyStyle::drawItemText(painter, rectangle, flags, palette, enabled, text, role);
 }
 
+int BaseStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                         QStyleHintReturn* more) const {
+  return hint == SH_EtchDisabledText ? 0 : QProxyStyle::styleHint(hint, option, widget, more);
+}
+
 }  // namespace relucent::gui

@@ -3,6 +3,7 @@
 
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 #include "theme/accessible_role.h"
 #include "theme/theme.h"
@@ -56,6 +57,10 @@ QSize Readout::sizeHint() const {
   return QSizeF(std::max({widthOf(value_), small.horizontalAdvance(what_), 64.0}) + 4.0,
                 large.height() + small.height())
       .toSize();
+}
+
+QSize Readout::minimumSizeHint() const {
+  return {std::max(64, static_cast<int>(std::ceil(widthOf(value_))) + 4), sizeHint().height()};
 }
 
 void Readout::paintEvent(QPaintEvent*) {

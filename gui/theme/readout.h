@@ -14,7 +14,8 @@ class Readout : public QWidget {
   void setValue(const QString& value, bool warning = false);
   QString value() const { return value_; }
   QSize sizeHint() const override;
-  QSize minimumSizeHint() const override { return {64, sizeHint().height()}; }
+  /// Its figure in full; the caption may end in an ellipsis.
+  QSize minimumSizeHint() const override;
 
  protected:
   void paintEvent(QPaintEvent* event) override;

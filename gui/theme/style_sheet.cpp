@@ -51,6 +51,7 @@ QPushButton[role="flat"]:focus { border: 2px solid {text}; padding: 0 11px; }
 QPushButton[role="reason"] { background: transparent; border: 1px solid transparent; padding: 0 4px; color: {secondary};
   font-weight: 400; text-align: left; }
 QPushButton[role="reason"]:focus { border: 2px solid {text}; padding: 0 3px; }
+QPushButton::menu-indicator { subcontrol-origin: border; subcontrol-position: center right; width: 8px; right: 4px; }
 QToolButton { background: transparent; border: 1px solid transparent; border-radius: 6px; padding: 5px; }
 QToolButton:hover { background: {raised}; }
 QToolButton:focus { border: 2px solid {text}; padding: 4px; }

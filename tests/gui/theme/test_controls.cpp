@@ -2,10 +2,14 @@
 // Texts that somebody typed are shown as they are; choices have room or fold.
 #include "theme/controls.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QSignalSpy>
 #include <QTextDocumentFragment>
 #include <QtTest>
+
+#include "theme/readout.h"
+#include "theme/theme.h"
 
 using namespace relucent::gui;
 
@@ -13,6 +17,22 @@ class TestControls : public QObject {
   Q_OBJECT
 
  private slots:
+  /// Law: a figure is never cut, however little room its caption has.
+  void aReadoutShowsItsFigure() {
+    Readout readout("milliseconds");
+    const int usual = readout.minimumSizeHint().width();
+    readout.setValue("239,7 ms");
+    QVERIFY(readout.minimumSizeHint().width() >
+            QFontMetrics(typeOf(type::readout, QFont::DemiBold)).horizontalAdvance("239,7 ms"));
+    QVERIFY(readout.minimumSizeHint().width() > usual);
+  }
+
+  /// Law: what cannot be chosen is fainter than what can, not drawn twice.
+  void disabledWordsAreNotEtched() {
+    Theme::instance().apply(Look::dark);
+    QCOMPARE(QApplication::style()->styleHint(QStyle::SH_EtchDisabledText), 0);
+  }
+
   /// Law: no label, nor its tooltip, takes a user's words for rich text.
   void usersWordsAreNoRichText_data() {
     QTest::addColumn<QString>("text");

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "theme/controls.h"
@@ -77,22 +76,25 @@ class TileGrid : public QWidget {
     int across = mostAcross;
     while (across > 1 && widthOf(across) > width()) --across;
     if (across != across_) arrange(across);
+    // All equally wide, whatever their words would like.
+    for (int column = 0; column < mostAcross; ++column)
+      grid_->setColumnMinimumWidth(column,
+                                   column < across ? (width() - (across - 1) * space::gap) / across : 0);
   }
 
  private:
   static constexpr int mostAcross = 4;
 
+  /// All are equally wide.
   int widthOf(int across) const {
-    std::vector<int> columns(static_cast<std::size_t>(across), 0);
-    for (std::size_t i = 0; i < tiles_.size(); ++i) {
-      int& column = columns[i % columns.size()];
-      column = std::max(column, tiles_[i]->minimumSizeHint().width());
-    }
-    return std::accumulate(columns.begin(), columns.end(), (across - 1) * space::gap);
+    int widest = 0;
+    for (const QWidget* tile : tiles_) widest = std::max(widest, tile->minimumSizeHint().width());
+    return across * widest + (across - 1) * space::gap;
   }
   void arrange(int across) {
     across_ = across;
     for (QWidget* tile : tiles_) grid_->removeWidget(tile);
+    for (int column = 0; column < mostAcross; ++column) grid_->setColumnStretch(column, column < across);
     for (int i = 0; i < static_cast<int>(tiles_.size()); ++i)
       grid_->addWidget(tiles_[static_cast<std::size_t>(i)], i / across, i % across);
   }

@@ -215,12 +215,12 @@ class CameraTile : public QFrame {
     for (std::size_t i = 0; i < overlaps.size(); ++i) {
       if (!(overlaps[i] > 0.0005)) continue;
       words << CameraPage::tr("%n projector(s): %1", nullptr, static_cast<int>(i + 1))
-                   .arg(percentText(overlaps[i]))
-                   .replace(QChar(' '), QChar(QChar::Nbsp));  // lines break between entries
+                   .arg(percentText(overlaps[i]));
       coloured << QString::fromUtf8("<span style=\"color:%1\">■</span>&nbsp;%2")
                       .arg(overlapColour(i + 1, overlaps.size()).name(), words.back().toHtmlEscaped());
     }
-    legend_->setText(coloured.join(QString::fromUtf8(" &nbsp; ")));
+    // Below each other: in some languages lines would break within entries.
+    legend_->setText(coloured.join("<br>"));
     legend_->setAccessibleName(words.join(QString::fromUtf8(", ")));
     legend_->setVisible(!words.isEmpty());
     view_->setAccessibleDescription(words.join(QString::fromUtf8(", ")));

@@ -270,15 +270,18 @@ QWidget* inspectorOf(ClusterPage& model) {
     normal->setVisible(false);
     if (!result) return;
     const clustering::ClusteringStatistics& s = result->statistics;
+    // Of nothing there are no shares.
+    const bool isNone = result->sizes.empty();
+    const auto shown = [isNone](const QString& value) { return isNone ? QString::fromUtf8("–") : value; };
     normal->setVisible(result->exact && s.errorMedian >= usualError.first &&
                        s.errorMedian <= usualError.second);
     clusters->setValue(countText(result->sizes.size()));
-    cut->setValue(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap)));
-    kept->setValue(percentText(s.keptLight));
+    cut->setValue(shown(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap))));
+    kept->setValue(shown(percentText(s.keptLight)));
     // Of the map before, until its own are known.
     const char* style = result->exact ? "strong" : "note";
-    error->setValue(result->error.empty() ? QString() : percentText(s.errorMedian), style);
-    most->setValue(result->error.empty() ? QString() : percentText(s.errorP95), style);
+    error->setValue(result->error.empty() ? QString() : shown(percentText(s.errorMedian)), style);
+    most->setValue(result->error.empty() ? QString() : shown(percentText(s.errorP95)), style);
     double joined =
         s.litProjectorPixels > 0 ? s.largestBeforeCap / static_cast<double>(s.litProjectorPixels) : 0.0;
     percolated->setVisible(joined > 0.2);

@@ -46,7 +46,7 @@ FailureReport EndQuestion::question() {
     safe << tr("Playlist and results are on the disk. Open the output again to play the show again.");
   }
   FailureReport question;
-  question.isQuestion = true;
+  question.isQuestion = question.endsWork = true;
   question.failure.what = ends.join('\n');
   question.safe = safe.join('\n');
   if (now.measurement && now.show) {

@@ -58,7 +58,10 @@ FailureDialog::FailureDialog(const FailureReport& report, const QString& page, Q
     column->addWidget(labelOf(title, "strong"));
     column->addWidget(labelOf(text));
   };
-  part(report.isQuestion ? tr("What it ends") : tr("What happened"), report.failure.what);
+  part(report.endsWork     ? tr("What it ends")
+       : report.isQuestion ? tr("What happens")
+                           : tr("What happened"),
+       report.failure.what);
   part(tr("What is safe"), report.safe);
   part(tr("What to do"), report.failure.advice);
   column->addSpacing(16);

@@ -57,6 +57,7 @@ struct FailureReport {
   bool isPutRight = false;        // what happened is over, and only the answer is missing
   /// Where it goes, nobody has to be told or asked any more; nullptr: that does not happen.
   QPointer<QObject> reason{};
+  bool endsWork = false;  // a question: what happens is that work ends
 };
 
 /// A page without widgets: all that it knows and can do. The frame (rail, action bar, banner) asks for the

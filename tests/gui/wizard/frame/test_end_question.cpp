@@ -46,7 +46,7 @@ class TestEndQuestion : public QObject {
         continue;
       }
       QCOMPARE(ended, 0);
-      QVERIFY(asked && asked->isQuestion && !asked->safe.isEmpty());
+      QVERIFY(asked && asked->isQuestion && asked->endsWork && !asked->safe.isEmpty());
       QCOMPARE(asked->failure.heading, heading);
       QCOMPARE(asked->failure.what.contains("Acquire"), measures);
       QCOMPARE(asked->failure.what.contains("show"), plays);

@@ -119,7 +119,8 @@ class TestVenueKeeping : public QObject {
     connect(page_.get(), &PageModel::failed, this, [&](const FailureReport& report) { asked << report; });
     page_->askToRemove(venue);
     QCOMPARE(asked.size(), 1);
-    QVERIFY(asked.front().isQuestion && asked.front().failure.what.contains("Old chapel"));
+    QVERIFY(asked.front().isQuestion && !asked.front().endsWork);
+    QVERIFY(asked.front().failure.what.contains("Old chapel"));
     asked.front().resume->trigger();
     QVERIFY(QFile::exists(venue.folder));
     page_->askToRemove(venue);

@@ -4489,6 +4489,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>تم التغيير: يُطبَّق بمجرد المتابعة.</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>ما قيس أخشن من أن يُجمَّع. تابع القياس.</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>لا ضوء قوي بما يكفي للتجميع.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4584,6 +4592,10 @@
     <message>
         <source>What it ends</source>
         <translation>ما الذي ينتهي</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>ما الذي يحدث</translation>
     </message>
 </context>
 <context>
@@ -5229,8 +5241,20 @@ projector %2</source>
         <translation>كل شيء على ما يرام، ⁨%1⁩</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>يمكن للعرض أن يعتني بالصورة بنفسه ليلًا: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة. المساعدة (F1) تبيّن كيف يُشغَّل هكذا.</translation>
+        <source>Look after the picture</source>
+        <translation>اعتنِ بالصورة</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>أبدًا</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>عند %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>يمكن للعرض أن يعتني بالصورة بنفسه ليلًا: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة. على كاميرته أن تبقى في مكانها.</translation>
     </message>
 </context>
 <context>
@@ -6825,6 +6849,14 @@ projector %2</source>
     <message>
         <source>Remove the mask</source>
         <translation>أزل القناع</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>أوقف الرسم</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>أخطاء موزونة كما تراها العين</translation>
     </message>
 </context>
 <context>
@@ -8499,6 +8531,10 @@ projector %2</source>
     <message>
         <source>Remove…</source>
         <translation>إزالة…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>إعداد موقع آخر</translation>
     </message>
 </context>
 <context>

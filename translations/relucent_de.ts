@@ -4373,6 +4373,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Geändert: Es gilt, sobald Sie weitergehen.</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>Was gemessen wurde, ist zu grob, um Cluster zu bilden. Messen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>Kein Licht ist stark genug, um Cluster zu bilden.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4469,12 +4477,16 @@
         <source>What it ends</source>
         <translation>Was endet</translation>
     </message>
+    <message>
+        <source>What happens</source>
+        <translation>Was geschieht</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::FlashConsent</name>
     <message>
         <source>The projector shows patterns that change as quickly as the devices can, perhaps more than 3 times a second.</source>
-        <translation>Der Projektor zeigt Muster, die so schnell wechseln, wie die Geräte es können, vielleicht öfter als 3-mal je Sekunde.</translation>
+        <translation>Der Projektor zeigt Muster, die so schnell wechseln, wie die Geräte es können, vielleicht öfter als 3‑mal je Sekunde.</translation>
     </message>
     <message>
         <source>The room is clear</source>
@@ -5089,8 +5101,20 @@ Projektor %2</translation>
         <translation>Alles ist gut, %1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>Eine Show kann nachts selbst für das Bild sorgen: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam. Die Hilfe (F1) sagt, wie sie so gestartet wird.</translation>
+        <source>Look after the picture</source>
+        <translation>Für das Bild sorgen</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>nie</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>um %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>Eine Show kann nachts selbst für das Bild sorgen: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam. Ihre Kamera muss stehen bleiben, wo sie ist.</translation>
     </message>
 </context>
 <context>
@@ -6673,6 +6697,14 @@ Projektor %2</translation>
     <message>
         <source>Remove the mask</source>
         <translation>Maske entfernen</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>Zeichnen beenden</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>Fehler, wie das Auge sie wiegt</translation>
     </message>
 </context>
 <context>
@@ -8299,6 +8331,10 @@ Projektor %2</translation>
     <message>
         <source>Remove…</source>
         <translation>Entfernen…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>Ein anderer wird eingerichtet</translation>
     </message>
 </context>
 <context>

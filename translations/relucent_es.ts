@@ -4373,6 +4373,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Cambiado: se aplica en cuanto continúe.</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>Lo medido es demasiado basto para agrupar. Siga midiendo.</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>Ninguna luz es lo bastante fuerte para agrupar.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4468,6 +4476,10 @@
     <message>
         <source>What it ends</source>
         <translation>Qué termina</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>Qué ocurre</translation>
     </message>
 </context>
 <context>
@@ -5089,8 +5101,20 @@ proyector %2</translation>
         <translation>Todo va bien, %1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>Un show puede cuidar por sí solo de la imagen de noche: comprueba, repara, perfecciona y prueba, y dice aquí el resultado. La ayuda (F1) dice cómo se inicia así.</translation>
+        <source>Look after the picture</source>
+        <translation>Cuidar de la imagen</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>nunca</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>a las %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>Un show puede cuidar por sí solo de la imagen de noche: comprueba, repara, perfecciona y prueba, y dice aquí el resultado. Su cámara debe quedarse donde está.</translation>
     </message>
 </context>
 <context>
@@ -6673,6 +6697,14 @@ proyector %2</translation>
     <message>
         <source>Remove the mask</source>
         <translation>Quitar la máscara</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>Dejar de dibujar</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>errores pesados como lo hace el ojo</translation>
     </message>
 </context>
 <context>
@@ -8299,6 +8331,10 @@ proyector %2</translation>
     <message>
         <source>Remove…</source>
         <translation>Quitar…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>Se prepara otro</translation>
     </message>
 </context>
 <context>

@@ -4373,6 +4373,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Modifié&#xa0;: appliqué dès que vous continuez.</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>La mesure est trop grossière pour former des groupes. Continuez la mesure.</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>Aucune lumière n’est assez forte pour former des groupes.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4468,6 +4476,10 @@
     <message>
         <source>What it ends</source>
         <translation>Ce que cela arrête</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>Ce qui se passe</translation>
     </message>
 </context>
 <context>
@@ -5089,8 +5101,20 @@ projecteur %2</translation>
         <translation>Tout va bien, %1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>Une diffusion peut prendre soin de l’image toute seule la nuit&#xa0;: elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. L’aide (F1) dit comment la lancer ainsi.</translation>
+        <source>Look after the picture</source>
+        <translation>Prendre soin de l’image</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>jamais</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>à %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>Une diffusion peut prendre soin de l’image toute seule la nuit&#xa0;: elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. Sa caméra doit rester où elle est.</translation>
     </message>
 </context>
 <context>
@@ -6673,6 +6697,14 @@ projecteur %2</translation>
     <message>
         <source>Remove the mask</source>
         <translation>Supprimer le masque</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>Arrêter de dessiner</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>erreurs pesées comme par l’œil</translation>
     </message>
 </context>
 <context>
@@ -8299,6 +8331,10 @@ projecteur %2</translation>
     <message>
         <source>Remove…</source>
         <translation>Supprimer…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>Un autre est en préparation</translation>
     </message>
 </context>
 <context>

@@ -4373,6 +4373,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Modificato: si applica appena si prosegue.</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>Ciò che è misurato è troppo grossolano per formare gruppi. Continuare la misura.</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>Nessuna luce è abbastanza forte per formare gruppi.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4468,6 +4476,10 @@
     <message>
         <source>What it ends</source>
         <translation>Che cosa termina</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>Che cosa accade</translation>
     </message>
 </context>
 <context>
@@ -5089,8 +5101,20 @@ proiettore %2</translation>
         <translation>Tutto bene, %1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>Uno show può prendersi cura da solo dell’immagine di notte: controlla, ripara, perfeziona e dimostra, e dice qui l’esito. La guida (F1) dice come avviarlo così.</translation>
+        <source>Look after the picture</source>
+        <translation>Curare l’immagine</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>mai</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>alle %1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>Uno show può prendersi cura da solo dell’immagine di notte: controlla, ripara, perfeziona e dimostra, e dice qui l’esito. La sua telecamera deve restare dov’è.</translation>
     </message>
 </context>
 <context>
@@ -6673,6 +6697,14 @@ proiettore %2</translation>
     <message>
         <source>Remove the mask</source>
         <translation>Rimuovi la maschera</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>Termina il disegno</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>errori pesati come fa l’occhio</translation>
     </message>
 </context>
 <context>
@@ -8299,6 +8331,10 @@ proiettore %2</translation>
     <message>
         <source>Remove…</source>
         <translation>Rimuovi…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>Se ne configura un altro</translation>
     </message>
 </context>
 <context>

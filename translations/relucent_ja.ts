@@ -4344,6 +4344,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>変更済み：次へ進むと適用されます。</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>測定が粗すぎて、グループに分けられません。測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>グループに分けられるほど強い光がありません。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4439,6 +4447,10 @@
     <message>
         <source>What it ends</source>
         <translation>終了するもの</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>起きること</translation>
     </message>
 </context>
 <context>
@@ -5054,8 +5066,20 @@ projector %2</source>
         <translation>問題ありません、%1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>ショーは夜間に自分で映像を手入れできます：確認し、修復し、仕上げ、検証して、結果をここに示します。その始め方はヘルプ（F1）にあります。</translation>
+        <source>Look after the picture</source>
+        <translation>映像の手入れ</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>しない</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>%1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>ショーは夜間に自分で映像を手入れできます：確認し、修復し、仕上げ、検証して、結果をここに示します。カメラはそのままの位置に置いてください。</translation>
     </message>
 </context>
 <context>
@@ -6635,6 +6659,14 @@ projector %2</source>
     <message>
         <source>Remove the mask</source>
         <translation>マスクを削除</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>描画を終える</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>目の感じ方で誤差を重み付け</translation>
     </message>
 </context>
 <context>
@@ -8249,6 +8281,10 @@ projector %2</source>
     <message>
         <source>Remove…</source>
         <translation>削除…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>別の会場を設定中</translation>
     </message>
 </context>
 <context>

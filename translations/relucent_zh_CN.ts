@@ -4344,6 +4344,14 @@
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>已更改：继续后即生效。</translation>
     </message>
+    <message>
+        <source>What was measured is too coarse to group. Go on measuring.</source>
+        <translation>测量过于粗略，无法分组。请继续测量。</translation>
+    </message>
+    <message>
+        <source>No light is strong enough to group.</source>
+        <translation>没有足够强的光可以分组。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CornerView</name>
@@ -4439,6 +4447,10 @@
     <message>
         <source>What it ends</source>
         <translation>将会结束</translation>
+    </message>
+    <message>
+        <source>What happens</source>
+        <translation>将会发生什么</translation>
     </message>
 </context>
 <context>
@@ -5054,8 +5066,20 @@ projector %2</source>
         <translation>一切正常，%1</translation>
     </message>
     <message>
-        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Help (F1) says how it is started so.</source>
-        <translation>节目可在夜间自行维护画面：检查、修复、完善并验证，并在此说明结果。启动方法见帮助（F1）。</translation>
+        <source>Look after the picture</source>
+        <translation>维护画面</translation>
+    </message>
+    <message>
+        <source>never</source>
+        <translation>从不</translation>
+    </message>
+    <message>
+        <source>at %1</source>
+        <translation>%1</translation>
+    </message>
+    <message>
+        <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
+        <translation>节目可在夜间自行维护画面：检查、修复、完善并验证，并在此说明结果。其相机必须留在原位。</translation>
     </message>
 </context>
 <context>
@@ -6635,6 +6659,14 @@ projector %2</source>
     <message>
         <source>Remove the mask</source>
         <translation>删除遮罩</translation>
+    </message>
+    <message>
+        <source>Stop drawing</source>
+        <translation>停止绘制</translation>
+    </message>
+    <message>
+        <source>errors weighed as an eye does</source>
+        <translation>误差按人眼加权</translation>
     </message>
 </context>
 <context>
@@ -8249,6 +8281,10 @@ projector %2</source>
     <message>
         <source>Remove…</source>
         <translation>移除…</translation>
+    </message>
+    <message>
+        <source>Setting up another</source>
+        <translation>正在设置另一个</translation>
     </message>
 </context>
 <context>

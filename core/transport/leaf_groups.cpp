@@ -93,4 +93,21 @@ LeafGroups LeafGroups::without(const std::vector<std::uint8_t>& pixels) const {
   return result;
 }
 
+LeafGroups LeafGroups::filtered(const std::vector<std::uint8_t>& keep) const {
+  return {projectors_, leaves_.filtered(keep), parent_, groupOf_};
+}
+
+std::size_t LeafGroups::seen(const std::vector<std::uint8_t>& marked) const {
+  std::vector<std::size_t> within(count());  // of a group and those around it, which come first
+  for (std::size_t group = 0; group < count(); ++group) {
+    for (std::size_t leaf = leaves_.rowBegin(group); leaf < leaves_.rowBegin(group + 1); ++leaf)
+      within[group] += marked[leaf] != 0 ? 1 : 0;
+    if (parent_[group] != none) within[group] += within[parent_[group]];
+  }
+  std::size_t sum = 0;
+  for (const std::uint32_t group : groupOf_)
+    if (group != none) sum += within[group];
+  return sum;
+}
+
 }  // namespace relucent::transport

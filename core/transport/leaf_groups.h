@@ -55,6 +55,11 @@ class LeafGroups {
   /// Pixels that are marked are in no group any more.  Shape: a mark for each pixel.
   LeafGroups without(const std::vector<std::uint8_t>& pixels) const;
 
+  /// With those leaves alone that are marked.  Shape: a mark for each of leaves().
+  LeafGroups filtered(const std::vector<std::uint8_t>& keep) const;
+  /// How many of those that are marked camera pixels see, all pixels together.
+  std::size_t seen(const std::vector<std::uint8_t>& marked) const;
+
   bool operator==(const LeafGroups&) const = default;
 
  private:

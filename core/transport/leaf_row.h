@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,22 @@ class LeafRow {
   BlockSize sizeOf(std::size_t entry) const;
   /// Contract: colours are shared. The row as it is, groups and all.
   SharedColourRow shared() const;
+  /// Calls visit(entry, leaf) for every entry that is not the pixel's own; `leaf` as the groups' leaves
+  /// count. Contract: `groups` and `projectors` are those that the row was made with.
+  template <typename Visit>
+  void visitShared(const LeafGroups& groups, std::size_t projectors, Visit visit) const {
+    const BlockSparse& leaves = groups.leaves();
+    for (std::size_t projector = 0; !groups.empty() && projector < projectors; ++projector)
+      for (std::uint32_t group = groups.groupOf(row_, projector); group != LeafGroups::none;
+           group = groups.parent(group))
+        for (std::size_t leaf = leaves.rowBegin(group); leaf < leaves.rowBegin(group + 1); ++leaf) {
+          auto entry = static_cast<std::size_t>(std::ranges::lower_bound(column_, leaves.column(leaf)) -
+                                                column_.begin());
+          // The pixel may have one of its own there, too.
+          while (factor_[entry] != leaves.factor(leaf)) ++entry;
+          visit(entry, leaf);
+        }
+  }
 
  private:
   const BlockSparse* own_;

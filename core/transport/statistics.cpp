@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/transport/statistics.h"
+#include "relucent/transport/shared_fate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/transport/shared_fate.h"
 
 namespace relucent::transport {
 namespace {
@@ -53,6 +55,23 @@ NodeTable::NodeTable(const NodeLayout& layout) : pixels(layout.count()), parent(
   });
 }
 
+namespace {
+
+/// Of what filtered() makes. `leaves`: that camera pixels keep; `stays`: those that they share, see
+/// SharedFate.
+std::uint64_t bytesAfterCut(const TransportMatrix& transport, std::uint64_t leaves,
+                            const std::vector<std::uint8_t>& stays) {
+  const BlockSparse& own = transport.ownLeaves();
+  const LeafGroups& groups = transport.groups();
+  const std::uint64_t ofTheirOwn = leaves - groups.seen(stays);
+  const std::uint64_t bytes = own.bytes() + (ofTheirOwn - own.blocks()) * own.bytesOfBlock();
+  const auto shared = static_cast<std::uint64_t>(std::ranges::count(stays, 1));
+  if (shared == 0) return bytes;
+  return bytes + groups.bytes() - (stays.size() - shared) * groups.leaves().bytesOfBlock();
+}
+
+}  // namespace
+
 TransportStatistics statisticsOf(const TransportMatrix& transport, const ThresholdSettings& settings) {
   std::vector<float> limit = thresholdLimits(transport, settings);
   NodeTable nodes(transport.layout());
@@ -62,10 +81,14 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     double all = 0.0;
   };
   std::vector<Part> sums(fixedParts);
+  const bool isCut = !cutsNothing(settings);
+  SharedFate fate(transport.groups());
   parallelChunks(0, limit.size(), fixedParts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     Part& sum = sums[part];
+    std::vector<std::uint8_t> keep;
     for (std::size_t row = begin; row < end; ++row) {
       const LeafRow leaves = transport.row(row);
+      keep.assign(leaves.size(), 0);
       for (std::size_t entry = 0; entry < leaves.size(); ++entry) {
         BlockSize size = leaves.sizeOf(entry);
         float pixels = nodes.pixels[leaves.column(entry)];
@@ -73,6 +96,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
         auto energy = static_cast<double>(size.sum);
         sum.all += energy;
         if (strength < limit[row]) continue;
+        keep[entry] = 1;
         ++sum.kept.leaves;
         sum.kept.connections += static_cast<std::uint64_t>(pixels);
         sum.kept.energy += energy;
@@ -81,6 +105,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
         ++sum.kept.histogram.leaves[bin];
         sum.kept.histogram.energy[bin] += energy;
       }
+      if (isCut) fate.look(leaves, keep, transport.projectors().devices());
     }
   });
 
@@ -97,10 +122,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     }
   }
   if (all > 0.0) result.energyKept = result.energy / all;
-  const BlockSparse& own = transport.ownLeaves();
-  // What is cut has no groups.
-  result.bytes = cutsNothing(settings) ? transport.bytes()
-                                       : own.bytes() + (result.leaves - own.blocks()) * own.bytesOfBlock();
+  result.bytes = isCut ? bytesAfterCut(transport, result.leaves, fate.staying()) : transport.bytes();
   return result;
 }
 

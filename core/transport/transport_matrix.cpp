@@ -6,6 +6,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
 #include "relucent/transport/shared_colours.h"
+#include "relucent/transport/shared_fate.h"
 
 namespace relucent::transport {
 
@@ -73,7 +74,7 @@ TransportMatrix TransportMatrix::flattened() const {
 }
 
 TransportMatrix TransportMatrix::filtered(const KeepLeaves& keep) const {
-  if (!groups_.empty()) return flattened().filtered(keep);
+  if (!groups_.empty()) return filteredSharing(keep);
   std::vector<std::uint8_t> kept(own_.blocks());
   parallelChunks(0, own_.rows(), 64, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<std::uint8_t> ofRow;
@@ -85,6 +86,41 @@ TransportMatrix TransportMatrix::filtered(const KeepLeaves& keep) const {
     }
   });
   return {cameras_, projectors(), own_.filtered(kept)};
+}
+
+TransportMatrix TransportMatrix::filteredSharing(const KeepLeaves& keep) const {
+  const std::size_t pixels = own_.rows(), devices = projectors().devices();
+  std::vector<std::vector<std::uint8_t>> kept(pixels);
+  SharedFate fate(groups_);
+  parallelChunks(0, pixels, 64, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      const LeafRow leaves = row(pixel);
+      kept[pixel].assign(leaves.size(), 0);
+      keep(pixel, leaves, kept[pixel]);
+      fate.look(leaves, kept[pixel], devices);
+    }
+  });
+  const std::vector<std::uint8_t> stays = fate.staying();
+
+  SharedColourWriter writer(own_.columns(), pixels, *own_.sharedColours(), own_.blocks());
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    const LeafRow leaves = row(pixel);
+    leaves.visitShared(groups_, devices, [&](std::size_t entry, std::size_t leaf) {
+      if (stays[leaf] != 0) kept[pixel][entry] = 0;
+    });
+    const SharedColourRow all = leaves.shared();
+    SharedColourRow own;
+    own.mixing = all.mixing;
+    for (std::size_t entry = 0; entry < all.column.size(); ++entry) {
+      if (kept[pixel][entry] == 0) continue;
+      own.column.push_back(all.column[entry]);
+      own.factor.push_back(all.factor[entry]);
+    }
+    writer.add(own);
+    std::vector<std::uint8_t>().swap(kept[pixel]);
+  }
+  if (std::ranges::find(stays, 1) == stays.end()) return {cameras_, projectors(), writer.build()};
+  return {cameras_, projectors(), writer.build(), groups_.filtered(stays)};
 }
 
 TransportMatrix TransportMatrix::withRowsScaled(const Stack& factor) const {

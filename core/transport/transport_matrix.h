@@ -47,7 +47,8 @@ class TransportMatrix {
   /// Marks the leaves of a camera pixel that stay. Called from several threads.
   using KeepLeaves =
       std::function<void(std::size_t pixel, const LeafRow& leaves, std::vector<std::uint8_t>& keep)>;
-  /// Without groups, since pixels may keep unlike leaves.
+  /// A shared leaf that every camera pixel keeps which sees it stays shared; else those that keep it have it
+  /// for themselves.
   TransportMatrix filtered(const KeepLeaves& keep) const;
   /// Row r times the factor of each camera channel.
   TransportMatrix withRowsScaled(const Stack& factor) const;
@@ -68,6 +69,8 @@ class TransportMatrix {
   std::vector<ColourBlock> rowSums() const;
 
  private:
+  TransportMatrix filteredSharing(const KeepLeaves& keep) const;
+
   Rasters cameras_;
   NodeLayout layout_;
   BlockSparse own_;

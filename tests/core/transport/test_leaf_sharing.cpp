@@ -4,6 +4,7 @@
 #include <QtTest>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/transport/expanded.h"
@@ -263,6 +264,27 @@ class TestLeafSharing : public QObject {
     QVERIFY(bright.groups().empty());
     QCOMPARE(statisticsOf(t, cut).leaves, static_cast<std::uint64_t>(bright.storedLeaves()));
     QVERIFY(mostApart(bright.floodlight(), t.floodlight()) <= 1e-4f * largestOf(t.floodlight()));
+  }
+
+  /// Law: a cut that drops nothing takes no more memory; what is left of others takes no more than if nothing
+  /// had been shared, and what is announced of memory is what it takes.
+  void whatIsCutStaysShared_data() { addScenes(); }
+  void whatIsCutStaysShared() {
+    QFETCH(int, scene);
+    const TransportMatrix t = shared(made(scenes()[static_cast<std::size_t>(scene)]));
+    const auto bytesOf = [&](const TransportMatrix& of, const ThresholdSettings& cut) {
+      return thresholded(of, cut, t.floodlight()).bytes();
+    };
+    ThresholdSettings nothing, some;
+    nothing.absolute = std::numeric_limits<float>::min();
+    QCOMPARE(bytesOf(t, nothing), t.bytes());
+    for (const double energyKept : {0.999, 0.99, 0.9, 0.5}) {
+      some.energyKept = energyKept;
+      QCOMPARE(static_cast<std::uint64_t>(bytesOf(t, some)), statisticsOf(t, some).bytes);
+      const std::size_t groups =
+          t.groups().bytes() - t.groups().leaves().blocks() * t.groups().leaves().bytesOfBlock();
+      QVERIFY(bytesOf(t, some) <= bytesOf(t.flattened(), some) + groups);
+    }
   }
 
   /// What sees nothing is not given its neighbours' leaves, and noise keeps its sum.

@@ -22,7 +22,9 @@ std::optional<QPointF> PlaneView::placeOfPick() const {
 /// On the plane where that is wide enough, else anywhere in the view: words are never cut.
 QRectF PlaneView::roomForTag(const QString& text) const {
   constexpr double margins = 4.0;
-  return frame().width() >= tagSize(text).width() + margins ? frame() : QRectF(rect());
+  const QSizeF needed = tagSize(text) + QSizeF(margins, margins);
+  const bool isRoomy = frame().width() >= needed.width() && frame().height() >= needed.height();
+  return isRoomy ? frame() : QRectF(rect());
 }
 
 void PlaneView::paintTag(QPainter& painter, QPointF topLeft, const QString& text, const QColor& colour,
@@ -62,8 +64,13 @@ void PlaneView::paintPickReadout(QPainter& painter) {
     QPointF corner(toLeft ? place.x() - size.width() - 12.0 : place.x() + 12.0,
                    upwards ? place.y() - size.height() - 20.0 : place.y() + 20.0);
     corner.setX(std::clamp(corner.x(), room.left(), std::max(room.left(), room.right() - size.width())));
-    if (places.empty() || room.contains(QRectF(corner, size))) places.push_back(corner);
+    if (room.contains(QRectF(corner, size))) places.push_back(corner);
   }
+  // Beside or over the pick rather than cut.
+  if (places.empty())
+    places.emplace_back(
+        std::clamp(place.x() + 12.0, room.left(), std::max(room.left(), room.right() - size.width())),
+        std::clamp(place.y() + 20.0, room.top(), std::max(room.top(), room.bottom() - size.height())));
   paintTag(painter, tagBox(size, places, keptFree()).topLeft(), text, darkColours().text);
 }
 

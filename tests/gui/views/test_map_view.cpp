@@ -30,6 +30,16 @@ class OpenedView : public MapView {
   using MapView::vtk;
 };
 
+/// With a picture that fills a part of it only.
+class FramedView : public MapView {
+ public:
+  explicit FramedView(QRectF frame) : frame_(frame) {}
+  QRectF frame() const override { return frame_; }
+
+ private:
+  QRectF frame_;
+};
+
 }  // namespace
 
 class TestMapView : public QObject {
@@ -46,32 +56,34 @@ class TestMapView : public QObject {
   }
 
  private slots:
-  /// Law: words about a pick are whole, also where the picture is narrower than they are.
-  void wordsAreNotCutByANarrowPicture_data() {
+  /// Law: words about a pick are whole, also where the picture is narrower or lower than they are.
+  void wordsAreNotCutByASmallPicture_data() {
+    QTest::addColumn<QRectF>("frame");
     QTest::addColumn<QPoint>("pick");
-    QTest::newRow("in the middle") << QPoint(1, 30);
-    QTest::newRow("at the left") << QPoint(0, 0);
-    QTest::newRow("at the right") << QPoint(2, 59);
+    for (auto [name, frame] : {std::pair("narrow", QRectF(190, 20, 20, 260)),
+                               {"low", QRectF(20, 140, 360, 30)},
+                               {"at the lower edge", QRectF(20, 260, 360, 30)}})
+      for (QPoint pick : {QPoint(0, 0), QPoint(5, 4), QPoint(9, 9)})
+        QTest::addRow("%s, %d", name, pick.x()) << frame << pick;
   }
-  void wordsAreNotCutByANarrowPicture() {
+  void wordsAreNotCutByASmallPicture() {
+    QFETCH(QRectF, frame);
     QFETCH(QPoint, pick);
-    OpenedView view;
+    FramedView view(frame);
     open(view);
-    view.setPicture(numbered({3, 60}));  // 15 pixels wide here
-    const QString words = "camera 12, 34\nprojector 5, 67";
+    view.setPicture(numbered({10, 10}));
+    const QString words = "camera 12, 34\nprojector 5, 67\n0.0123";
     view.setReadout([words](QPoint) { return words; });
     const QImage before = view.grab().toImage();
     view.link().setPick(pick);
     const QImage after = view.grab().toImage();
-    int first = after.width(), last = -1;
-    for (int x = 0; x < after.width(); ++x)
-      for (int y = 0; y < after.height(); ++y)
-        if (after.pixel(x, y) != before.pixel(x, y)) {
-          first = std::min(first, x);
-          last = std::max(last, x);
-        }
-    QVERIFY2((last - first + 1) / view.devicePixelRatioF() >= tagSize(words).width() - 1.0,
-             qPrintable(QString("%1 to %2").arg(first).arg(last)));
+    QRect changed;
+    for (int y = 0; y < after.height(); ++y)
+      for (int x = 0; x < after.width(); ++x)
+        if (after.pixel(x, y) != before.pixel(x, y)) changed |= QRect(x, y, 1, 1);
+    const QSizeF seen = QSizeF(changed.size()) / view.devicePixelRatioF(), needed = tagSize(words);
+    QVERIFY2(seen.width() >= needed.width() - 1.0 && seen.height() >= needed.height() - 1.0,
+             qPrintable(QString("%1 x %2").arg(seen.width()).arg(seen.height())));
   }
 
   void everyPixelIsWhereItBelongs_data() {

@@ -230,6 +230,13 @@ void CalibrationFolder::setSettings(Json settings) {
   replaceManifest(std::move(manifest));
 }
 
+void CalibrationFolder::readAs(Json settings) {
+  require(access_ == Access::read, "the calibration {} is open for writing", path_.string());
+  Json manifest = *manifest_;
+  manifest["settings"] = std::move(settings);
+  manifest_ = std::make_shared<const Json>(std::move(manifest));
+}
+
 void CalibrationFolder::setRig(Json rig) {
   Json manifest = *manifest_;
   manifest["rig"] = std::move(rig);

@@ -60,6 +60,9 @@ class CalibrationFolder {
   const Json& settings() const;
   /// What later runs are asked for. Results stay; those that no longer fit become stale by themselves.
   void setSettings(Json settings);
+  /// From now on this object reads as if these were the settings; nothing is written. For what looks at a
+  /// calibration by another choice than the present one. Contract: it is open for reading.
+  void readAs(Json settings);
   /// Other devices. Results stay; all of them become stale by themselves.
   void setRig(Json rig);
   /// The program that made this calibration, and when (ISO 8601, UTC).

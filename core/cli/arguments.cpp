@@ -56,6 +56,8 @@ constexpr Subcommand subcommands[] = {
     {"difference", "Show how two pictures differ, with enhanced contrast", addDifferenceOptions},
     {"report", "Write one HTML file about a calibration", addReportOptions},
     {"tidy", "Free the disk of what calibrations do not need", addTidyOptions},
+    {"sets", "List, save, use, rename or remove the sets of a calibration: for the day, for the night",
+     addSetsOptions},
     {"masks", "Show or change the parts of a venue that are not to be lit", addMasksOptions},
     {"projectors", "Ask projectors on the network, find them, and tell a calibration of them",
      addProjectorsOptions},

@@ -143,6 +143,21 @@ struct Tidy {
   std::vector<std::filesystem::path> calibrations;
   pipeline::TidySettings settings;
 };
+/// Sets of a calibration: listed, or one of them saved, used, renamed or removed.
+enum class SetAction { list, save, use, rename, remove };
+inline constexpr EnumName<SetAction> setActionNames[]{{SetAction::list, "list"},
+                                                      {SetAction::save, "save"},
+                                                      {SetAction::use, "use"},
+                                                      {SetAction::rename, "rename"},
+                                                      {SetAction::remove, "remove"}};
+constexpr EnumNames<SetAction> namesOf(SetAction) {
+  return {"action", setActionNames};
+}
+struct Sets {
+  std::filesystem::path calibration;
+  SetAction action = SetAction::list;
+  std::vector<std::string> names;  // that the action takes: none, one, or rename's two
+};
 /// Masks of a calibration: shown, replaced or written.
 struct Masks {
   std::filesystem::path calibration;
@@ -188,7 +203,7 @@ struct Bench {
 };
 using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
                              Repair, TendNight, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export,
-                             Relight, Separate, Difference, Report, Tidy, Masks, Projectors, Bench>;
+                             Relight, Separate, Difference, Report, Tidy, Masks, Sets, Projectors, Bench>;
 
 struct Arguments {
   Command command;

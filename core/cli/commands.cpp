@@ -19,6 +19,7 @@
 #include "relucent/cli/texts.h"
 #include "relucent/devices/command/command_consent.h"
 #include "relucent/pipeline/masks_file.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/acquisition_chart.h"
@@ -132,7 +133,8 @@ struct Executor {
     refuse(problems(settings.canvas));
     settings.images = stillsOf(command.content);
     if (command.forget)
-      return outcomeOf(pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas));
+      return outcomeOf(
+          pipeline::forgetPerfected(command.calibration, settings.images, settings.canvas, settings.set));
     refuse(problems(settings));
     settings.rig = rehearsedRig(command.calibration, command.changes);
     const pipeline::PerfectResult result =
@@ -224,6 +226,31 @@ struct Executor {
     const std::vector<compensation::Mask> masks = pipeline::settingsOf(folder).content.masks;
     if (!command.exported.empty()) pipeline::writeMasks(command.exported, masks);
     return {{{"masks", pipeline::masksToJson(masks)}}, textOf(masks)};
+  }
+
+  CommandResult operator()(const Sets& command) const {
+    using calibration::CalibrationFolder;
+    CalibrationFolder folder = CalibrationFolder::open(
+        command.calibration, command.action == SetAction::list ? CalibrationFolder::Access::read
+                                                               : CalibrationFolder::Access::write);
+    switch (command.action) {
+      case SetAction::list:
+        break;
+      case SetAction::save:
+        pipeline::saveSet(folder, command.names.at(0));
+        break;
+      case SetAction::use:
+        pipeline::useSet(folder, command.names.at(0));
+        break;
+      case SetAction::rename:
+        pipeline::renameSet(folder, command.names.at(0), command.names.at(1));
+        break;
+      case SetAction::remove:
+        pipeline::removeSet(folder, command.names.at(0));
+        break;
+    }
+    const pipeline::TargetSets sets = pipeline::setsOf(folder);
+    return {pipeline::toJson(sets), textOf(sets)};
   }
 
   CommandResult operator()(const Projectors& command) const {

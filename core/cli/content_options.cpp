@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -117,7 +118,8 @@ std::optional<double> readBlackLift(const std::string& text) {
   return share;
 }
 
-void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
+void addTarget(CLI::App* sub, compensation::TargetSettings& target, std::string& set) {
+  const std::vector<CLI::Option*> before = sub->get_options();
   sub->add_option_function<std::vector<double>>(
          "--corners",
          [&target](const std::vector<double>& v) {
@@ -150,6 +152,10 @@ void addTarget(CLI::App* sub, compensation::TargetSettings& target) {
       ->type_name("CLIPPING");
   addViews(sub, target);
   addMasks(sub, target.masks, "without either, those of the calibration");
+  std::vector<CLI::Option*> own;
+  for (CLI::Option* option : sub->get_options())
+    if (std::ranges::count(before, option) == 0) own.push_back(option);
+  addSet(sub, set, "All of this as a set of the calibration has it, see the sets command", own);
 }
 
 void addImageAndMethod(CLI::App* sub, std::filesystem::path& image, compensation::Method& method) {
@@ -172,7 +178,7 @@ std::function<Command()> addCompensateOptions(CLI::App* sub) {
   sub->add_option("--out", settings.out, "Folder for pattern.png, pattern.exr, target.exr, predicted.exr")
       ->type_name("DIR")
       ->required();
-  addTarget(sub, settings.target);
+  addTarget(sub, settings.target, settings.set);
   return [command] { return Command(*command); };
 }
 
@@ -187,7 +193,7 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
   sub->add_option("--out", settings.out, "Folder for the photographs, before and after, and comparison.png")
       ->type_name("DIR")
       ->required();
-  addTarget(sub, settings.target);
+  addTarget(sub, settings.target, settings.set);
   addChanges(sub, command->changes);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };
@@ -199,6 +205,7 @@ std::function<Command()> addPerfectOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration");
   CLI::Option* content =
       addStills(sub, command->content, settings.canvas, settings.photographs, "are perfected");
+  addSet(sub, settings.set, "Shown as this set of the calibration has it; default: the one in use");
   sub->add_flag("--forget", command->forget,
                 "Show these pictures as before; without --content all of them. Takes no photographs");
   addChanges(sub, command->changes);
@@ -237,7 +244,7 @@ std::function<Command()> addEvaluateOptions(CLI::App* sub) {
   sub->add_option("--film", command->settings.walk.film,
                   "Folder for what all views see meanwhile, side by side, as numbered pictures")
       ->type_name("DIR");
-  addTarget(sub, command->settings.target);
+  addTarget(sub, command->settings.target, command->settings.set);
   addChanges(sub, command->changes);
   addCache(sub, command->cache);
   return [command] { return Command(*command); };

@@ -154,6 +154,10 @@ std::function<Command()> addDifferenceOptions(CLI::App* sub);
 std::function<Command()> addReportOptions(CLI::App* sub);
 std::function<Command()> addTidyOptions(CLI::App* sub);
 std::function<Command()> addMasksOptions(CLI::App* sub);
+std::function<Command()> addSetsOptions(CLI::App* sub);
+/// --set: in place of the options of `others`, which say the same one by one.
+CLI::Option* addSet(CLI::App* sub, std::string& set, const char* what,
+                    const std::vector<CLI::Option*>& others = {});
 /// --mask and --masks: what the command line says of masks, none if nothing.
 void addMasks(CLI::App* sub, std::optional<std::vector<compensation::Mask>>& masks, const char* otherwise);
 std::function<Command()> addProjectorsOptions(CLI::App* sub);

@@ -31,6 +31,7 @@ std::function<Command()> addNightOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration");
   CLI::Option* content =
       addStills(sub, command->content, settings.canvas, settings.photographs, "are perfected");
+  addSet(sub, settings.set, "Shown as this set of the calibration has it; default: the one in use");
   CLI::Option* alarm =
       sub->add_option("--alarm", settings.alarmCommand,
                       "Command that tells somebody when there is an alarm, once for each: {sentence} becomes "

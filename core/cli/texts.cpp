@@ -328,6 +328,21 @@ std::string textOf(const std::vector<compensation::Mask>& masks) {
   return text;
 }
 
+std::string textOf(const pipeline::TargetSets& sets) {
+  if (sets.all.empty()) return "There are no sets: what is shown, and how, has no name.\n";
+  std::string text;
+  for (std::size_t i = 0; i < sets.all.size(); ++i) {
+    const pipeline::ContentSettings& content = sets.all[i].content;
+    const std::size_t masks = content.masks.size();
+    text +=
+        fmt::format("{} {}: {}, brightness {}, {:.3g} % may be too dark, {}{}\n", i == sets.inUse ? '*' : ' ',
+                    sets.all[i].name, nameOf(content.method), nameOf(content.brightness),
+                    content.reachablePercentile, content.corners ? "placed by hand" : "placed by itself",
+                    masks == 0 ? "" : fmt::format(", {} mask{}", masks, masks == 1 ? "" : "s"));
+  }
+  return text + "The set marked * is in use.\n";
+}
+
 std::string textOf(const pipeline::TidyResult& result) {
   const auto part = [](const pipeline::DiskShare& share, std::string_view what) {
     return share.files == 0 ? std::string()

@@ -18,6 +18,7 @@
 #include "relucent/pipeline/repair.h"
 #include "relucent/pipeline/scale_bench.h"
 #include "relucent/pipeline/separate.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
 #include "relucent/pipeline/written_files.h"
@@ -42,6 +43,7 @@ std::string textOf(const pipeline::SeparateResult& result);
 std::string textOf(const pipeline::DifferenceResult& result);
 std::string textOf(const pipeline::TidyResult& result);
 std::string textOf(const std::vector<compensation::Mask>& masks);
+std::string textOf(const pipeline::TargetSets& sets);
 std::string textOf(const pipeline::BenchResult& result);
 std::string textOf(const pipeline::InverseBenchResult& result);
 std::string textOf(const pipeline::AcquisitionBenchResult& result);

@@ -47,6 +47,8 @@ std::function<Command()> addExportOptions(CLI::App* sub) {
       ->type_name("DIR");
   addSize(sub, "--canvas", command->settings.canvas, "Pixels of the content that a media server plays")
       ->default_str("1920x1080");
+  addSet(sub, command->settings.set,
+         "The maps of media servers as this set of the calibration has it; default: the one in use");
   return [command] {
     for (const Message& problem : problems(command->settings))
       throw WrongUsage(english(problem) +

@@ -15,10 +15,10 @@
 #include "relucent/image/colour_map.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
-#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/pictures.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/sets.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -117,14 +117,13 @@ CompensateResult compensate(const fs::path& path, const CompensateSettings& sett
         RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
   image::Image content = image::readLinearContent(settings.image);
 
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  const calibration::CalibrationFolder folder = openWithSet(path, settings.set);
   Progress loading =
       progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);
   const compensation::MeasuredVenue& venue = measured.venue;
 
-  compensation::Target target = fitTarget(content, venue, withMasks(settings.target, folder));
+  compensation::Target target = fitTarget(content, venue, targetIn(folder, settings.set, settings.target));
   compensation::CompensatorSettings compensatorSettings;
   compensatorSettings.optimum = compensation::defaultsOf(settings.solver);
   compensation::Compensator compensator(venue, measured.inverse, compensatorSettings);

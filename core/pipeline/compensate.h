@@ -22,6 +22,7 @@ struct CompensateSettings {
       compensation::SolverSettings::Algorithm::fista;  // of `optimum`
   compensation::TargetSettings target;
   std::filesystem::path out;  // folder; created; files of the same names are replaced
+  std::string set{};          // whose target takes the place of `target`, see sets.h; empty: none's
 };
 std::vector<Message> problems(const CompensateSettings& settings);
 

@@ -18,10 +18,10 @@
 #include "relucent/pipeline/evaluation.h"
 #include "relucent/pipeline/judge.h"
 #include "relucent/pipeline/mask_score.h"
-#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/perfecting_loop.h"
 #include "relucent/pipeline/projection.h"
 #include "relucent/pipeline/projection_photographs.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/standard_images.h"
 
 namespace relucent::pipeline {
@@ -327,15 +327,14 @@ EvaluateResult evaluate(const fs::path& path, const EvaluateSettings& settings, 
     throw Error(
         ErrorKind::input, found.front(),
         RELUCENT_ENGLISH_MESSAGE("settings.change-and-start-again", "change that setting and start again"));
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  const calibration::CalibrationFolder folder = openWithSet(path, settings.set);
   Progress loading =
       progress.part(0.2, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading);
   if (settings.rig) measured.rig = *settings.rig;
   Progress evaluating = progress.part(0.8, RELUCENT_MESSAGE("stage.evaluating", "Evaluating"));
   EvaluateSettings masked = settings;
-  masked.target = withMasks(settings.target, folder);
+  masked.target = targetIn(folder, settings.set, settings.target);
   return evaluated(measured, masked, cache, evaluating).result;
 }
 

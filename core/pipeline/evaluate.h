@@ -34,6 +34,7 @@ struct EvaluateSettings {
   /// The venue as it has become since it was measured; none: the calibration's own.
   std::optional<RigSettings> rig{};
   WalkSettings walk{};  // a viewer who walks past the cameras, by the first image
+  std::string set{};    // whose target takes the place of `target`, see sets.h; empty: none's
 };
 std::vector<Message> problems(const EvaluateSettings& settings);
 

@@ -18,6 +18,7 @@
 #include "relucent/mapping/mpcdi.h"
 #include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/transport/files.h"
@@ -125,8 +126,7 @@ WrittenFiles exportCalibration(const fs::path& path, const ExportSettings& setti
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("calibration.name-something-to-export",
                                          "name at least one thing to export"));
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  const calibration::CalibrationFolder folder = openWithSet(path, settings.set);
   Progress loading =
       progress.part(0.4, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);

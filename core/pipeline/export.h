@@ -20,6 +20,7 @@ struct ExportSettings {
   std::filesystem::path playerMaps;  // the same as plain pictures, and colour tables; empty: not wanted
   Size canvas{1920, 1080};           // pixels of the content that media servers play
   std::uint64_t mostBytes = std::uint64_t{2} << 30;  // of `transport`, see expandedToPixels()
+  std::string set{};  // of which media servers' maps are, see sets.h; empty: the one in use
 };
 std::vector<Message> problems(const ExportSettings& settings);
 

@@ -8,6 +8,7 @@
 #include "relucent/base/utc.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/kept_photographs.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -49,7 +50,7 @@ void requireFinished(const fs::path& path) {
 std::vector<fs::path> unperfected(const fs::path& folder, const NightSettings& settings) {
   const auto isKept = [&](const fs::path& image) {
     try {
-      return isPerfected(folder, image, settings.canvas);
+      return isPerfected(folder, image, settings.canvas, settings.set);
     } catch (const Error&) {
       return false;
     }
@@ -133,6 +134,7 @@ class Night {
     settings.canvas = settings_.canvas;
     settings.photographs = settings_.photographs;
     settings.rig = settings_.rig;
+    settings.set = settings_.set;
     Progress part = progress.part(
         0.3, RELUCENT_MESSAGE("stage.perfecting", "Correcting the picture by photographs of itself"));
     const PerfectResult result =
@@ -144,14 +146,13 @@ class Night {
   }
 
   void prove(Progress& progress) {
-    const ContentSettings content = settingsOf(calibration::CalibrationFolder::open(
-                                                   folder_, calibration::CalibrationFolder::Access::read))
-                                        .content;
+    const ContentSettings content = settingsOf(openWithSet(folder_, settings_.set)).content;
     ProveSettings settings;
     settings.image = proved_.empty() ? standardPicture(folder_) : proved_;
     settings.canvas = settings_.canvas;
     settings.method = content.method;
     settings.target = targetOf(content);
+    settings.set = settings_.set;
     settings.out = folder_ / "night";
     settings.rig = settings_.rig;
     Progress part = progress.part(

@@ -19,6 +19,7 @@ struct NightSettings {
   int photographs = 6;                        // of each still at most, before the last two
   std::optional<RigSettings> rig;             // none: the calibration's own; others must have its sizes
   std::string alarmCommand{};                 // tells of an alarm, see closeNight(); empty: nobody is told
+  std::string set{};                          // as which stills are shown, see sets.h; empty: the one in use
 };
 std::vector<Message> problems(const NightSettings& settings);
 

@@ -13,6 +13,7 @@
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -33,7 +34,7 @@ void requireReachable(const compensation::Target& target, const fs::path& image)
 class Perfecter {
  public:
   Perfecter(const fs::path& path, const PerfectSettings& settings, RigSource source, Progress& progress)
-      : folder_(calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read)),
+      : folder_(openWithSet(path, settings.set)),
         settings_(settings),
         chosen_(settingsOf(folder_)),
         source_(std::move(source)) {
@@ -173,31 +174,33 @@ bool isPerfect(const PerfectResult& result) {
   });
 }
 
-bool isPerfected(const fs::path& path, const fs::path& image, const compensation::ContentCanvas& canvas) {
-  const calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+bool isPerfected(const fs::path& path, const fs::path& image, const compensation::ContentCanvas& canvas,
+                 const std::string& set) {
+  const calibration::CalibrationFolder folder = openWithSet(path, set);
   return findPerfected(path, perfectedKeyOf(folder, image, image::readLinearContent(image).size(), canvas))
       .has_value();
 }
 
 bool isOutOfDate(const PerfectedPicture& picture, const calibration::CalibrationFolder& folder) {
-  if (!picture.shownFrom.empty() && picture.shownFrom != fingerprintOfShown(folder)) return true;
+  const std::vector<std::string> shown = fingerprintsOfSets(folder);
+  if (!picture.shownFrom.empty() && std::ranges::count(shown, picture.shownFrom) == 0) return true;
   std::error_code code;
   // A name that depends on where somebody was then may be another file's now.
   const fs::path file(picture.picture);
   if (!picture.canvas || !file.is_absolute() || !fs::is_regular_file(file, code)) return false;
   try {
     const Size size = image::readLinearContent(file).size();
-    return perfectedKeyOf(folder, file, size, *picture.canvas) != picture.key;
+    const std::string content = compensation::contentIdentity(readFile(file), size, *picture.canvas);
+    return std::ranges::none_of(
+        shown, [&](const std::string& from) { return perfectedKey(from, content) == picture.key; });
   } catch (const Error&) {
     return false;  // nobody knows what it is
   }
 }
 
 ForgottenPictures forgetPerfected(const fs::path& path, const std::vector<fs::path>& images,
-                                  const compensation::ContentCanvas& canvas) {
-  const calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+                                  const compensation::ContentCanvas& canvas, const std::string& set) {
+  const calibration::CalibrationFolder folder = openWithSet(path, set);
   std::vector<std::string> keys;
   for (const fs::path& image : images)
     keys.push_back(perfectedKeyOf(folder, image, image::readLinearContent(image).size(), canvas));

@@ -20,6 +20,7 @@ struct PerfectSettings {
   compensation::ContentCanvas canvas;         // that the show puts them on
   int photographs = 6;                        // of each at most, before the last two
   std::optional<RigSettings> rig;             // none: the calibration's own; others must have its sizes
+  std::string set{};                          // as which they are shown, see sets.h; empty: the one in use
 };
 std::vector<Message> problems(const PerfectSettings& settings);
 
@@ -63,21 +64,24 @@ PerfectResult perfectPictures(const std::filesystem::path& folder, const Perfect
 PerfectResult perfectPictures(const std::filesystem::path& folder, const PerfectSettings& settings,
                               rig::Rig& rig, const PerfectingObserver& observer, Progress& progress);
 
-/// Whether a still is kept perfected as it is shown now. Throws: Error{disk, format}.
+/// Whether a still is kept perfected as a set shows it now; empty: the one in use.
+/// Throws: Error{disk, format}.
 bool isPerfected(const std::filesystem::path& folder, const std::filesystem::path& image,
-                 const compensation::ContentCanvas& canvas);
+                 const compensation::ContentCanvas& canvas, const std::string& set = {});
 
-/// Whether no show of this calibration finds it any more: something else is measured or chosen now, or its
-/// file has become another picture. One whose file is away for now is not out of date. Throws: Error{disk}.
+/// Whether no show of this calibration finds it any more, by whichever set: something else is measured or
+/// chosen now, or its file has become another picture. One whose file is away for now is not out of date.
+/// Throws: Error{disk}.
 bool isOutOfDate(const PerfectedPicture& picture, const calibration::CalibrationFolder& folder);
 
 struct ForgottenPictures {
   std::vector<std::string> pictures;  // as they were named
 };
-/// These pictures are shown as T has them again; none named: all of the calibration.
+/// These pictures are shown as T has them again, by that set; none named: all of the calibration and of all
+/// sets.
 /// Throws: Error{input} if there is no calibration; Error{disk}.
 ForgottenPictures forgetPerfected(const std::filesystem::path& folder,
                                   const std::vector<std::filesystem::path>& images,
-                                  const compensation::ContentCanvas& canvas);
+                                  const compensation::ContentCanvas& canvas, const std::string& set = {});
 
 }  // namespace relucent::pipeline

@@ -49,17 +49,6 @@ ProvedView viewFrom(const calibration::Json& json) {
           json.at("reachable").get<double>(), movementFrom(json)};
 }
 
-calibration::Json toJson(const ContentSettings& content) {
-  CalibrateSettings settings;
-  settings.content = content;
-  return {{"content", stagesToJson(settings).at("content")}};
-}
-ContentSettings contentFrom(const calibration::Json& json) {
-  CalibrateSettings settings;
-  stagesFromJson(json, settings);
-  return settings.content;
-}
-
 }  // namespace
 
 std::string fingerprintOfCorrection(const calibration::CalibrationFolder& folder) {
@@ -78,10 +67,15 @@ std::string fingerprintOfCorrection(const calibration::CalibrationFolder& folder
   return Fingerprint().add(read.dump()).hex();
 }
 
-std::string fingerprintOfShown(const calibration::CalibrationFolder& folder) {
-  ContentSettings content = settingsOf(folder).content;
+std::string fingerprintOfShown(const calibration::CalibrationFolder& folder, const ContentSettings& shown) {
+  ContentSettings content = shown;
   content.picture.clear();
-  return Fingerprint().add(fingerprintOfCorrection(folder)).add(toJson(content).dump()).hex();
+  const calibration::Json json{{"content", contentToJson(content)}};
+  return Fingerprint().add(fingerprintOfCorrection(folder)).add(json.dump()).hex();
+}
+
+std::string fingerprintOfShown(const calibration::CalibrationFolder& folder) {
+  return fingerprintOfShown(folder, settingsOf(folder).content);
 }
 
 bool isOfShown(const ProofRecord& record, const calibration::CalibrationFolder& folder) {
@@ -92,7 +86,7 @@ void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
   calibration::Json json{{"taken", record.taken},
                          {"measurement", record.measurement},
                          {"shown_from", record.shownFrom},
-                         {"settings", toJson(record.content)},
+                         {"settings", {{"content", contentToJson(record.content)}}},
                          {"method", record.figures.method},
                          {"before", toJson(record.figures.before)},
                          {"after", toJson(record.figures.after)},
@@ -110,7 +104,7 @@ std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
     record.taken = json.at("taken").get<std::string>();
     record.measurement = json.at("measurement").get<std::string>();
     record.shownFrom = json.value("shown_from", std::string());
-    record.content = contentFrom(json.at("settings"));
+    record.content = contentFromJson(json.at("settings").at("content"));
     record.figures.method = json.at("method").get<compensation::Method>();
     record.figures.before = projectionFrom(json.at("before"));
     record.figures.after = projectionFrom(json.at("after"));

@@ -29,6 +29,8 @@ std::string fingerprintOfCorrection(const calibration::CalibrationFolder& folder
 /// With another one a photograph says nothing of what is shown now, and a show that was opened before does
 /// not show it.
 std::string fingerprintOfShown(const calibration::CalibrationFolder& folder);
+/// The same of content that is shown so there, whatever the calibration's is now.
+std::string fingerprintOfShown(const calibration::CalibrationFolder& folder, const ContentSettings& shown);
 
 /// Whether the photograph was taken of what is shown now; records of earlier versions are taken at their
 /// word.

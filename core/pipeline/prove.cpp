@@ -17,10 +17,10 @@
 #include "relucent/photography/photographer.h"
 #include "relucent/pipeline/aim.h"
 #include "relucent/pipeline/devices.h"
-#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/perfected.h"
 #include "relucent/pipeline/projection.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/reduction/reduction.h"
 
@@ -231,8 +231,7 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   image::Image content = image::readLinearContent(settings.image);
   const Size picture = content.size();
   if (settings.canvas) content = compensation::onCanvas(content, *settings.canvas);
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
+  const calibration::CalibrationFolder folder = openWithSet(path, settings.set);
   Progress loading =
       progress.part(0.3, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
   MeasuredCalibration measured = loadCalibration(folder, loading, Held::allMeasured);
@@ -240,7 +239,8 @@ ProveResult proved(const fs::path& path, const ProveSettings& settings, RigSourc
   const transport::TransportMatrix& transport = measured.venue.transport;
   rig::Rig& rig = source.open(settings.rig.value_or(measured.rig), transport, folder, opening);
 
-  compensation::Target target = fitTarget(content, measured.venue, withMasks(settings.target, folder));
+  compensation::Target target =
+      fitTarget(content, measured.venue, targetIn(folder, settings.set, settings.target));
   compensation::CompensatorSettings solver;
   solver.clustering = settingsOf(folder).clustering;
   compensation::Compensator compensator(measured.venue, measured.inverse, solver);

@@ -28,6 +28,7 @@ struct ProveSettings {
   /// That a show puts the content on: what it shows of it is proved, perfected if the picture is
   /// (perfected.h). None: the content alone, by `method`.
   std::optional<compensation::ContentCanvas> canvas{};
+  std::string set{};  // whose target takes the place of `target`, see sets.h; empty: none's
 };
 std::vector<Message> problems(const ProveSettings& settings);
 

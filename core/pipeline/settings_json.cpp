@@ -456,4 +456,16 @@ void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings) 
   }
 }
 
+calibration::Json contentToJson(const ContentSettings& content) {
+  CalibrateSettings settings;
+  settings.content = content;
+  return stagesToJson(settings).at("content");
+}
+
+ContentSettings contentFromJson(const calibration::Json& json) {
+  CalibrateSettings settings;
+  stagesFromJson({{"content", json}}, settings);
+  return settings.content;
+}
+
 }  // namespace relucent::pipeline

@@ -22,6 +22,11 @@ calibration::Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
 void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings);
 
+/// What is shown and how, alone.
+calibration::Json contentToJson(const ContentSettings& content);
+/// Throws: Error{format}.
+ContentSettings contentFromJson(const calibration::Json& json);
+
 /// How the cameras are reduced, one object a camera.
 calibration::Json reductionsToJson(const std::vector<reduction::Reduction>& reductions);
 /// Throws: Error{format}, also for what reductionTo() would never make.

@@ -256,6 +256,18 @@ class TestArguments : public QObject {
     for (const char* wrong : {"1,2,3", "0.1,0.2,", "a", "0:0,0,1,0,1,1", "1,2,3,4,5,6 7", "2:"})
       QVERIFY_THROWS_EXCEPTION(WrongUsage, parseArguments({"masks", "d", "--mask", wrong}));
 
+    QVERIFY(parsed<cli::Sets>("sets d").action == SetAction::list);
+    const auto renamed = parsed<cli::Sets>("sets d rename day dawn");
+    QVERIFY(renamed.action == SetAction::rename);
+    QVERIFY((renamed.names == std::vector<std::string>{"day", "dawn"}));
+    for (const char* wrong :
+         {"sets d save", "sets d use a b", "sets d rename a", "sets d foo", "sets d list a"})
+      QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<cli::Sets>(wrong));
+    QCOMPARE(parsed<Compensate>("compensate d --image a.png --out o --set night").settings.set,
+             std::string("night"));
+    // A set says all that they say.
+    QVERIFY_THROWS_EXCEPTION(WrongUsage, parsed<Evaluate>("evaluate d --set night --brightness region"));
+
     Evaluate evaluate =
         parsed<Evaluate>("evaluate d --image a.png --image b.exr --method mix --method refined");
     QCOMPARE(evaluate.settings.images.size(), std::size_t{2});

@@ -64,10 +64,10 @@ void CpuBackend::placeContent(const ContentFrame& frame, const FrameRequest& req
   ContentTarget target;
   std::copy_n(mixing.data(), target.mixing.size(), target.mixing.begin());
   target.offset = white * lift;
-  target.unreachable = unreachableWeightOf(engine_.settings.target);
-  if (engine_.settings.target.objective == compensation::Objective::seen && white > 0.0f)
+  target.unreachable = unreachableWeightOf(content_->target);
+  if (content_->target.objective == compensation::Objective::seen && white > 0.0f)
     target.perWhite = 1.0f / white;
-  target.sharedLoss = compensation::sharedLoss(engine_.settings.target.clipping);
+  target.sharedLoss = compensation::sharedLoss(content_->target.clipping);
   target.known = known_.data();
   target.unmix = windows_.unmix;
   target.wanted = wanted_.data();

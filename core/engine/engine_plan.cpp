@@ -94,11 +94,19 @@ CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free,
 }
 
 EngineContent prepareContent(const EngineVenue& engine, Size content) {
+  return prepareContent(engine, content, engine.settings.target);
+}
+
+EngineContent prepareContent(const EngineVenue& engine, Size content,
+                             const compensation::TargetSettings& wanted) {
   require(!content.empty(), "content of {}x{} pixels", content.width, content.height);
+  const std::vector<Message> wrong = problems(wanted);
+  require(wrong.empty(), "target settings: {}", fmt::join(wrong, "; "));
   const compensation::MeasuredVenue& venue = engine.venue;
   // Where content goes and how bright its white is does not depend on what it shows.
-  compensation::Target target = fitTarget(image::Image(content, 3), venue, engine.settings.target);
+  compensation::Target target = fitTarget(image::Image(content, 3), venue, wanted);
   EngineContent result;
+  result.target = wanted;
   result.corners = target.corners;
   result.white = target.white[0];
   result.blackLift = static_cast<float>(target.blackLift);

@@ -67,6 +67,8 @@ struct EngineContent {
   // Of masks alone, see compensation::maskedLight(); both empty: there are none.
   std::vector<float> kept;    // per projector pixel: a
   std::vector<float> masked;  // per camera pixel: s
+  // Which error of it the steps make small, and how it is held to what can be had.
+  compensation::TargetSettings target{};
 
   /// 1 - s of a camera pixel: what is wanted there, and its weight, are that much of what they were.
   float unmaskedShare(std::size_t pixel) const { return masked.empty() ? 1.0f : 1.0f - masked[pixel]; }
@@ -84,8 +86,11 @@ struct EngineContent {
 CameraStack missingLight(const EngineVenue& engine, const ProjectorMask& free,
                          const std::vector<float>& available);
 
-/// Prepares content of a size, placed as fitTarget() places it.
-/// Throws: as fitTarget().
+/// Prepares content of a size, placed as fitTarget() places it: by the venue's settings, or by another target
+/// in their place, so that one venue shows several in turn (EngineBackend::setContent()).
+/// Throws: as fitTarget(); std::logic_error for a wrong target.
 EngineContent prepareContent(const EngineVenue& engine, Size content);
+EngineContent prepareContent(const EngineVenue& engine, Size content,
+                             const compensation::TargetSettings& target);
 
 }  // namespace relucent::engine

@@ -34,7 +34,7 @@ ViewFollower::ViewFollower(const EngineVenue& engine, const EngineContent& conte
   target_.placements = content.placements;
   target_.masked = content.masked;
   for (std::size_t view = 0; view < content.viewWeight.size(); ++view)
-    shows_.push_back(white_.isPossible(view, engine.settings.target.reachablePercentile));
+    shows_.push_back(white_.isPossible(view, content.target.reachablePercentile));
 }
 
 const ViewFollower::Lit& ViewFollower::litFor(const std::vector<bool>& views) {
@@ -73,7 +73,7 @@ void ViewFollower::follow(std::span<const double> weights, EngineContent& conten
     asked.push_back(content.viewWeight.back() > 0.0f);
   }
   target_.viewWeight = content.viewWeight;
-  content.white = white_.at(content.viewWeight, engine_.settings.target.reachablePercentile);
+  content.white = white_.at(content.viewWeight, content.target.reachablePercentile);
   for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
     const std::size_t begin = cameras.offset(camera), end = begin + cameras.size(camera).count();
     parallelFor(begin, end, 16384, [&](std::size_t i) {

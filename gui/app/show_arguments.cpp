@@ -10,6 +10,7 @@
 #include "content/content_address.h"
 #include "output/night_schedule.h"
 #include "relucent/compensation/content_identity.h"
+#include "relucent/pipeline/sets.h"
 #include "remote/controller_template.h"
 
 namespace relucent::gui {
@@ -118,6 +119,16 @@ const QCommandLineOption installAutostart("install-autostart",
 const QCommandLineOption removeService("remove-service", "Remove the systemd unit.");
 const QCommandLineOption removeAutostart("remove-autostart", "Remove the desktop's autostart entry.");
 
+const QCommandLineOption set("set",
+                             "As which set of the calibration content is shown at first: relucent-cli sets. "
+                             "Default: as the playlist's times say, or the one in use.",
+                             "NAME");
+const QCommandLineOption setAtTime(
+    "set-at",
+    "From this time of the day on as that set, within some seconds and without "
+    "a dark frame; once for each, in place of the playlist's.",
+    "HH:MM=NAME");
+
 /// Everything that was said, with paths from the root.
 QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettings& settings) {
   QStringList again{"show",      fromRoot(parser.positionalArguments()[1]),
@@ -125,9 +136,10 @@ QStringList repeatedArguments(const QCommandLineParser& parser, const ShowSettin
                     "--log",     fromRoot(settings.folder)};
   for (const QString& connector : settings.displays) again << "--screen" << connector;
   for (const QString& position : parser.values(cameraPosition)) again << "--camera-position" << position;
+  for (const QString& time : parser.values(setAtTime)) again << "--set-at" << time;
   for (const QCommandLineOption& option :
        {schedule, night, alarm, canvas, brightness, backend, osc, oscAddress, oscFeedback, statusPage,
-        statusAddress, powerOffAfter, watch})
+        statusAddress, powerOffAfter, watch, set})
     if (parser.isSet(option)) again << "--" + option.names().first() << parser.value(option);
   for (const QCommandLineOption& option : {loop, adaptive, switchProjectors, closeShutter, fillShadows})
     if (parser.isSet(option)) again << "--" + option.names().first();
@@ -223,6 +235,25 @@ void readNight(const QCommandLineParser& parser, ShowSettings& settings) {
   settings.alarmCommand = parser.value(alarm).toStdString();
 }
 
+void readSets(const QCommandLineParser& parser, ShowSettings& settings) {
+  if (parser.isSet(set)) {
+    settings.set = parser.value(set).toStdString();
+    if (const Message wrong = pipeline::problemOfSetName(settings.set); !wrong.empty())
+      throw WrongArguments("--set: " + english(wrong));
+  }
+  if (!parser.isSet(setAtTime)) return;
+  settings.content.sets.clear();
+  for (const QString& text : parser.values(setAtTime)) {
+    const std::optional<SetTime> time = setTimeFrom(text);
+    if (!time)
+      throw WrongArguments(
+          QString("'%1' is no time of a set: write HH:MM=NAME, as 18:00=night").arg(text).toStdString());
+    settings.content.sets.append(*time);
+  }
+  if (const std::vector<Message> wrong = problems(settings.content.sets); !wrong.empty())
+    throw WrongArguments(english(wrong.front()));
+}
+
 ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder) {
   if (!parser.isSet(content)) throw WrongArguments("nothing to play; name it with --content");
   ShowSettings settings;
@@ -242,6 +273,7 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   settings.calibration = parser.positionalArguments()[1].toStdString();
   settings.content = contentOf(parser.value(content));
   settings.content.loop = settings.content.loop || parser.isSet(loop);
+  readSets(parser, settings);
   settings.displays = parser.values(display);
   settings.adaptiveRange = parser.isSet(adaptive);
   if (parser.isSet(brightness)) {
@@ -306,6 +338,8 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
                      closeShutter,
                      watch,
                      fillShadows,
+                     set,
+                     setAtTime,
                      log,
                      installService,
                      installAutostart,

@@ -17,8 +17,8 @@
 #include "output/show.h"
 #include "relucent/base/error.h"
 #include "relucent/base/terminal_text.h"
-#include "relucent/calibration/calibration_folder.h"
 #include "relucent/devices/command/command_consent.h"
+#include "relucent/pipeline/sets.h"
 
 namespace relucent::gui {
 namespace {
@@ -56,11 +56,11 @@ int run(const PlayShow& play) {
         RELUCENT_ENGLISH_MESSAGE("show.tell-projectors",
                                  "tell it: relucent-cli projectors --calibration {} --pjlink HOST")
             .with(settings.calibration.string()));
-  Show show(settings, [settings](const std::function<void(const QString&)>& warn) {
+  Show show(settings, [settings](const std::function<void(const QString&)>& warn, const std::string& set) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         RendererSettings{settings.calibration, settings.canvas, settings.adaptiveRange, settings.brightness,
-                         settings.backend, settings.cameras, settings.fillsShadows},
+                         settings.backend, settings.cameras, settings.fillsShadows, set},
         quiet, [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
         [] {
           SharedGl* shared = SharedGl::instance();
@@ -80,8 +80,7 @@ int run(const PlayShow& play) {
 
 int run(const InstallShow& wanted) {
   // Now is when somebody is there to mend it.
-  calibration::CalibrationFolder::open(wanted.settings.calibration,
-                                       calibration::CalibrationFolder::Access::read);
+  pipeline::openWithSet(wanted.settings.calibration, wanted.settings.set);
   QString file = install(wanted.start, config(), QCoreApplication::applicationFilePath(), wanted.arguments);
   return say(QString("Wrote %1: the show starts at the next log-in.\n").arg(file) +
              (wanted.start == Start::service

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QFuture>
+#include <QThreadPool>
 #include <QtConcurrentRun>
 #include <new>
 #include <utility>
@@ -16,11 +17,11 @@ namespace relucent::gui {
 template <typename Value>
 using Outcome = std::variant<Value, Error>;
 
-/// Starts work() on a thread of Qt's pool.
+/// Starts work() on a thread of a pool: Qt's, whose threads are as many as there are cores, if none is given.
 template <typename Work>
-auto startedInBackground(Work work) {
+auto startedInBackground(Work work, QThreadPool* pool = QThreadPool::globalInstance()) {
   using Value = decltype(work());
-  return QtConcurrent::run([work = std::move(work)]() -> Outcome<Value> {
+  return QtConcurrent::run(pool, [work = std::move(work)]() -> Outcome<Value> {
     try {
       return work();
     } catch (const Error& error) {

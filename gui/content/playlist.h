@@ -13,6 +13,7 @@
 #include "content/canvas.h"
 #include "content/content_source.h"
 #include "content/outcome.h"
+#include "content/set_times.h"
 #include "relucent/base/message.h"
 
 namespace relucent::gui {
@@ -22,6 +23,7 @@ struct PlaylistItem {
   QString path;           // a picture, a film, a folder of numbered pictures, or a chart, see ContentAddress
   double seconds = 10.0;  // duration of a still picture
   double picturesPerSecond = 25.0;  // of a folder
+  QString set{};  // of the calibration, as which it and all after it are shown; empty: as before
 
   bool operator==(const PlaylistItem&) const = default;
 };
@@ -30,6 +32,7 @@ struct PlaylistSettings {
   QList<PlaylistItem> items;
   double fadeSeconds = 1.0;  // of the cross-fade from one to the next; at most half of the shorter one
   bool loop = true;
+  QList<SetTime> sets{};  // as which set of the calibration all is shown when; none: as the one in use
 
   bool operator==(const PlaylistSettings&) const = default;
 };

@@ -14,7 +14,8 @@
 namespace relucent::gui {
 namespace {
 
-constexpr int version = 1;
+/// Lists without sets are written as the first version, which older programs read.
+constexpr int version = 2, versionWithoutSets = 1;
 
 bool isFile(const QString& path) {
   return addressOf(path).kind == ContentAddress::Kind::file;
@@ -50,6 +51,7 @@ std::vector<Message> problems(const PlaylistSettings& settings) {
                                                "{}: a film has more than 0 and at most 240 pictures a second")
                           .with(shownPath(item.path).toStdString()));
   }
+  for (const Message& problem : problems(settings.sets)) found.push_back(problem);
   return found;
 }
 
@@ -80,7 +82,13 @@ PlaylistSettings readPlaylist(const QString& file) {
       item.path = isFile(path) ? QDir::cleanPath(folder.absoluteFilePath(path)) : path;
     item.seconds = entry["seconds"].toDouble(item.seconds);
     item.picturesPerSecond = entry["pictures_per_second"].toDouble(item.picturesPerSecond);
+    item.set = entry["set"].toString();
     settings.items.append(item);
+  }
+  for (const QJsonValue& value : object["sets"].toArray()) {
+    const QJsonObject entry = value.toObject();
+    settings.sets.append(
+        {QTime::fromString(entry["from"].toString(), setTimeFormat), entry["set"].toString()});
   }
   if (std::vector<Message> wrong = problems(settings); !wrong.empty()) refuse(file, wrong.front());
   return settings;
@@ -88,15 +96,23 @@ PlaylistSettings readPlaylist(const QString& file) {
 
 void savePlaylist(const QString& file, const PlaylistSettings& settings) {
   QDir folder = QFileInfo(file).absoluteDir();
-  QJsonArray items;
-  for (const PlaylistItem& item : settings.items)
-    items.append(QJsonObject{{"path", isFile(item.path) ? folder.relativeFilePath(item.path) : item.path},
-                             {"seconds", item.seconds},
-                             {"pictures_per_second", item.picturesPerSecond}});
-  QJsonObject object{{"version", version},
+  QJsonArray items, sets;
+  bool namesSets = !settings.sets.isEmpty();
+  for (const PlaylistItem& item : settings.items) {
+    QJsonObject entry{{"path", isFile(item.path) ? folder.relativeFilePath(item.path) : item.path},
+                      {"seconds", item.seconds},
+                      {"pictures_per_second", item.picturesPerSecond}};
+    if (!item.set.isEmpty()) entry["set"] = item.set;
+    namesSets = namesSets || !item.set.isEmpty();
+    items.append(entry);
+  }
+  for (const SetTime& time : settings.sets)
+    sets.append(QJsonObject{{"from", time.from.toString(setTimeFormat)}, {"set", time.set}});
+  QJsonObject object{{"version", namesSets ? version : versionWithoutSets},
                      {"loop", settings.loop},
                      {"fade_seconds", settings.fadeSeconds},
                      {"items", items}};
+  if (!sets.isEmpty()) object["sets"] = sets;
   writeFileAtomically(file.toStdString(), QJsonDocument(object).toJson().toStdString());
 }
 

@@ -8,8 +8,10 @@
 #include "output/drive_pictures.h"
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
-#include "relucent/calibration/calibration_folder.h"
+#include "relucent/base/tbb.h"
+
 #include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::gui {
@@ -33,6 +35,10 @@ std::vector<compensation::Position> positionsOf(const std::vector<compensation::
   return positions;
 }
 
+Size canvasSize(const Canvas& canvas) {
+  return {canvas.size.width(), canvas.size.height()};
+}
+
 void checkCount(const std::vector<compensation::Position>& positions, std::size_t cameras) {
   if (positions.empty() || positions.size() == cameras) return;
   throw Error(ErrorKind::input,
@@ -47,42 +53,81 @@ void checkCount(const std::vector<compensation::Position>& positions, std::size_
 
 EngineRenderer::EngineRenderer(const RendererSettings& wanted, Progress& progress,
                                const engine::FallbackBackend::Notify& notify, const engine::MakeGlHost& host)
-    : canvas_(wanted.canvas) {
-  calibration::CalibrationFolder folder =
-      calibration::CalibrationFolder::open(wanted.calibration, calibration::CalibrationFolder::Access::read);
+    : settings_(wanted), notify_(notify) {
+  const calibration::CalibrationFolder folder = pipeline::openWithSet(wanted.calibration, wanted.set);
   calibration_ = pipeline::loadCalibration(folder, progress);
-  engine::EngineSettings settings;
-  pipeline::CalibrateSettings chosen = pipeline::settingsOf(folder);
-  settings.target = targetOf(chosen.content);
-  if (wanted.brightness) settings.target.brightness = *wanted.brightness;
-  // Both at once would brighten twice.
-  if (wanted.adaptiveRange) settings.target.brightness = compensation::Brightness::even;
+  correctedFrom_ = pipeline::fingerprintOfCorrection(folder);
+  const engine::EngineSettings settings = settingsOf(pipeline::settingsOf(folder).content);
   venue_.emplace(engine::prepareVenue(calibration_.venue, calibration_.inverse,
                                       calibration_.linearization.projectors, settings));
-  content_ = engine::prepareContent(*venue_, {canvas_.size.width(), canvas_.size.height()});
-  backend_ = engine::makeBackend(*venue_, wanted.backend, notify, host);
-  backend_->setContent(*content_);
-  if (wanted.adaptiveRange) range_.emplace(*venue_, *content_);
-  if (settings.target.brightness != compensation::Brightness::even)
-    whites_.emplace(*venue_, *content_, settings.target.brightness);
   const std::size_t views = calibration_.venue.transport.cameras().devices();
   checkCount(wanted.cameras, views);
   if (views > 1)
     cameras_ = wanted.cameras.empty() ? positionsOf(settings.target.views, views) : wanted.cameras;
-  for (std::size_t view = 0; view < views; ++view)
-    home_.push_back(view < settings.target.views.size() ? settings.target.views[view].weight : 1.0);
-  rest_.assign(content_->viewWeight.begin(), content_->viewWeight.end());
-  if (!cameras_.empty()) follower_.emplace(*venue_, *content_);
-  if (wanted.fillsShadows) shadows_.emplace(*venue_);
-  const compensation::Method method = chosen.content.method;
-  // A range that follows the content is the engine's.
-  if (!wanted.adaptiveRange || method != compensation::Method::refined)
-    still_ = std::make_unique<StillSolver>(calibration_, settings.target, chosen.clustering, method);
-  if (still_ && settings.target.brightness == chosen.content.brightness)
-    perfected_.emplace(wanted.calibration, pipeline::fingerprintOfShown(folder),
-                       calibration_.venue.transport.projectors(), notify);
+  set_ = setOf(folder);
+  set_->name = wanted.set;
+  backend_ = engine::makeBackend(*venue_, wanted.backend, notify, host);
+  backend_->setContent(set_->content);
   words_.resize(calibration_.venue.transport.projectors().count());
   cards_ = CardPictures(EngineRenderer::projectors());
+}
+
+engine::EngineSettings EngineRenderer::settingsOf(const pipeline::ContentSettings& content) const {
+  engine::EngineSettings settings;
+  settings.target = targetOf(content);
+  if (settings_.brightness) settings.target.brightness = *settings_.brightness;
+  // Both at once would brighten twice.
+  if (settings_.adaptiveRange) settings.target.brightness = compensation::Brightness::even;
+  return settings;
+}
+
+std::shared_ptr<EngineRenderer::Set> EngineRenderer::setOf(
+    const calibration::CalibrationFolder& folder) const {
+  const pipeline::CalibrateSettings chosen = pipeline::settingsOf(folder);
+  const compensation::TargetSettings target = settingsOf(chosen.content).target;
+  auto set = std::make_shared<Set>();
+  set->shownFrom = pipeline::fingerprintOfShown(folder);
+  set->content = engine::prepareContent(*venue_, canvasSize(settings_.canvas), target);
+  if (settings_.adaptiveRange) set->range.emplace(*venue_, set->content);
+  if (target.brightness != compensation::Brightness::even)
+    set->whites.emplace(*venue_, set->content, target.brightness);
+  for (std::size_t view = 0; view < calibration_.venue.transport.cameras().devices(); ++view)
+    set->home.push_back(view < target.views.size() ? target.views[view].weight : 1.0);
+  set->rest.assign(set->content.viewWeight.begin(), set->content.viewWeight.end());
+  if (!cameras_.empty()) set->follower.emplace(*venue_, set->content);
+  if (settings_.fillsShadows) set->shadows.emplace(*venue_);
+  const compensation::Method method = chosen.content.method;
+  // A range that follows the content is the engine's.
+  if (!settings_.adaptiveRange || method != compensation::Method::refined)
+    set->still = std::make_unique<StillSolver>(calibration_, target, chosen.clustering, method);
+  const bool isOfThis = pipeline::fingerprintOfCorrection(folder) == correctedFrom_;
+  if (set->still && isOfThis && target.brightness == chosen.content.brightness)
+    set->perfected.emplace(settings_.calibration, set->shownFrom, calibration_.venue.transport.projectors(),
+                           notify_);
+  return set;
+}
+
+std::shared_ptr<PreparedSet> EngineRenderer::prepare(const std::string& name) {
+  std::shared_ptr<Set> set;
+  // Frames come first.
+  tbb::task_arena arena(tbb::task_arena::automatic, 1, tbb::task_arena::priority::low);
+  arena.execute([&] { set = setOf(pipeline::openWithSet(settings_.calibration, name)); });
+  set->name = name;
+  return set;
+}
+
+void EngineRenderer::take(const std::shared_ptr<PreparedSet>& wanted) {
+  before_.reset();
+  auto set = std::static_pointer_cast<Set>(wanted);
+  if (!set || set == set_) return;
+  backend_->setContent(set->content);
+  {
+    const std::scoped_lock lock(guard_);
+    before_ = std::exchange(set_, std::move(set));
+  }
+  // Nothing to go on from.
+  number_ = solvedNumber_ = 0;
+  solved_ = {};
 }
 
 std::vector<QSize> EngineRenderer::projectors() const {
@@ -109,14 +154,15 @@ int EngineRenderer::stepsFor(const RenderRequest& request) {
 
 RenderedFrame EngineRenderer::render(const ContentPicture& content, const RenderRequest& request,
                                      const Outdated& outdated) {
+  take(request.set);
   // Light that does not arrive is the engine's: no still is solved without it.
   if (request.compensated && followShadows(request)) {
-    if (still_ && request.thorough && request.brightness == 1.0 && !isSolved(content, request))
+    if (set_->still && request.thorough && request.brightness == 1.0 && !isSolved(content, request))
       solve(content, request, outdated);
     return framed(content, request);
   }
   // Brightness is the engine's. After a shadow a still is at once what it was before.
-  if (!still_ || !(request.thorough || isSolved(content, request)) || !request.compensated ||
+  if (!set_->still || !(request.thorough || isSolved(content, request)) || !request.compensated ||
       request.brightness != 1.0)
     return framed(content, request);
   if (std::optional<RenderedFrame> rendered = thorough(content, request, outdated))
@@ -132,7 +178,7 @@ std::optional<RenderedFrame> EngineRenderer::thorough(const ContentPicture& cont
   Stopwatch watch;
   const auto [solved, isPerfected] = solve(content, request, outdated);
   if (solved == nullptr) return std::nullopt;
-  if (follower_) {
+  if (set_->follower) {
     follow(request.viewer);
     backend_->startFrom(solved->projector);
     number_ = content.number;
@@ -147,10 +193,10 @@ EngineRenderer::Solved EngineRenderer::solve(const ContentPicture& content, cons
                                              const Outdated& outdated) {
   // For whoever looks from where the content is for.
   Solved found;
-  if (perfected_ && !request.viewer) found.solved = perfected_->of(content, request.edition);
+  if (set_->perfected && !request.viewer) found.solved = set_->perfected->of(content, request.edition);
   found.isPerfected = found.solved != nullptr;
-  if (!found.isPerfected) found.solved = still_->solve(content, outdated, weightsFor(request.viewer));
-  if (shadows_ && found.solved != nullptr) {
+  if (!found.isPerfected) found.solved = set_->still->solve(content, outdated, weightsFor(request.viewer));
+  if (set_->shadows && found.solved != nullptr) {
     solved_ = found.solved->projector;
     solvedNumber_ = content.number;
     solvedFor_ = request;
@@ -159,47 +205,52 @@ EngineRenderer::Solved EngineRenderer::solve(const ContentPicture& content, cons
 }
 
 bool EngineRenderer::isSolved(const ContentPicture& content, const RenderRequest& request) const {
-  return shadows_ && !solved_.empty() && solvedNumber_ == content.number &&
+  return set_->shadows && !solved_.empty() && solvedNumber_ == content.number &&
          solvedFor_.edition == request.edition && solvedFor_.viewer == request.viewer &&
          request.brightness == 1.0;
 }
 
 bool EngineRenderer::followShadows(const RenderRequest& request) {
-  if (!shadows_) return false;
+  if (!set_->shadows) return false;
   const auto now = std::chrono::steady_clock::now();
   const std::chrono::duration<double> elapsed = now - std::exchange(shadowsAsked_, now);
-  if (request.available != available_) {
-    available_ = request.available;
+  if (request.available != set_->available) {
+    set_->available = request.available;
     engine::Availability all;
     for (const Size& size : calibration_.venue.transport.projectors().sizes())
       all.projectors.push_back(engine::completeGrid(size, std::max(size.width, size.height)));
-    shadows_->aim(available_ ? *available_ : all, *content_);
+    set_->shadows->aim(set_->available ? *set_->available : all, set_->content);
   }
-  if (shadows_->advance(std::min(elapsed, mostOfAFade), *content_)) backend_->availabilityFollowed();
-  return !shadows_->isComplete();
+  if (set_->shadows->advance(std::min(elapsed, mostOfAFade), set_->content)) backend_->availabilityFollowed();
+  return !set_->shadows->isComplete();
 }
 
 void EngineRenderer::interrupt() {
-  if (still_) still_->interrupt();
+  std::shared_ptr<Set> set;
+  {
+    const std::scoped_lock lock(guard_);
+    set = set_;
+  }
+  if (set->still) set->still->interrupt();
 }
 
 std::vector<double> EngineRenderer::weightsFor(const std::optional<FrameViewer>& viewer) const {
-  if (!follower_ || !viewer) return {};
-  return follower_->weightsFor(cameras_, home_, rest_, viewer->position, viewer->presence);
+  if (!set_->follower || !viewer) return {};
+  return set_->follower->weightsFor(cameras_, set_->home, set_->rest, viewer->position, viewer->presence);
 }
 
 void EngineRenderer::follow(const std::optional<FrameViewer>& viewer) {
-  if (!follower_ || viewer == followed_) return;
+  if (!set_->follower || viewer == set_->followed) return;
   const std::vector<double> weights = weightsFor(viewer);
-  follower_->follow(weights.empty() ? rest_ : weights, *content_);
+  set_->follower->follow(weights.empty() ? set_->rest : weights, set_->content);
   backend_->contentFollowed();
-  followed_ = viewer;
+  set_->followed = viewer;
 }
 
 RenderedFrame EngineRenderer::framed(const ContentPicture& content, const RenderRequest& request) {
   Size size{content.image.width(), content.image.height()};
-  require(size == content_->warp.content(), "content of {}x{} on a canvas of {}x{}", size.width, size.height,
-          content_->warp.content().width, content_->warp.content().height);
+  require(size == set_->content.warp.content(), "content of {}x{} on a canvas of {}x{}", size.width,
+          size.height, set_->content.warp.content().width, set_->content.warp.content().height);
   std::vector<float> linear;
   engine::ContentFrame frame{content.image.constBits(), size,
                              static_cast<std::size_t>(content.image.bytesPerLine()),
@@ -220,11 +271,11 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
   wanted.brightness = static_cast<float>(request.brightness);
   follow(request.viewer);
   // The same picture for somebody who has walked on: not from the beginning.
-  wanted.fromLast = follower_ && request.compensated && !request.thorough && content.number == number_ &&
+  wanted.fromLast = set_->follower && request.compensated && !request.thorough && content.number == number_ &&
                     last_.compensated &&
                     (request.viewer != last_.viewer || request.brightness != last_.brightness);
   if (wanted.fromLast) wanted.steps = std::max(wanted.steps, 1);
-  const bool isShadowed = request.compensated && shadows_ && !shadows_->isComplete();
+  const bool isShadowed = request.compensated && set_->shadows && !set_->shadows->isComplete();
   if (isShadowed && isSolved(content, request)) {
     // From the picture as it is without a shadow on: elsewhere it stays what it was.
     backend_->startFrom(solved_);
@@ -241,23 +292,23 @@ RenderedFrame EngineRenderer::framed(const ContentPicture& content, const Render
 
   rendered.clipped = report.clipped;
   rendered.steps = report.steps;
-  rendered.settled = settled && (!shadows_ || shadows_->settled());
+  rendered.settled = settled && (!set_->shadows || set_->shadows->settled());
   rendered.seconds = report.seconds.count();
   return rendered;
 }
 
 bool EngineRenderer::lightFor(const engine::ContentFrame& frame, engine::FrameRequest& request) {
-  if (!range_ && !whites_) return true;
+  if (!set_->range && !set_->whites) return true;
   const auto now = std::chrono::steady_clock::now();
   const auto elapsed = now - std::exchange(lightAsked_, now);
-  if (whites_) {
-    request.field = &whites_->follow(frame, elapsed);
-    return whites_->settled();
+  if (set_->whites) {
+    request.field = &set_->whites->follow(frame, elapsed);
+    return set_->whites->settled();
   }
-  const engine::DisplayRange range = range_->follow(frame, elapsed);
+  const engine::DisplayRange range = set_->range->follow(frame, elapsed);
   request.brightness *= range.brightness;
   request.blackLift = range.blackLift;
-  return range_->settled();
+  return set_->range->settled();
 }
 
 std::vector<DrivePicture> EngineRenderer::computed(const engine::ContentFrame& frame,

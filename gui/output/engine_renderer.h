@@ -4,13 +4,17 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "content/canvas.h"
 #include "output/frame_renderer.h"
 #include "output/perfected_pictures.h"
 #include "output/still_solver.h"
 #include "relucent/base/progress.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "relucent/engine/adaptive_range.h"
 #include "relucent/engine/availability.h"
 #include "relucent/engine/engine_plan.h"
@@ -18,6 +22,7 @@
 #include "relucent/engine/followed_brightness.h"
 #include "relucent/engine/step_budget.h"
 #include "relucent/engine/view_follower.h"
+#include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/measured_venue.h"
 
 namespace relucent::gui {
@@ -35,30 +40,53 @@ struct RendererSettings {
   std::vector<compensation::Position> cameras{};
   /// Whether frames are made without light that somebody stands in, RenderRequest::available.
   bool fillsShadows = false;
+  /// As which set of the calibration content is shown at first; empty: the one in use.
+  std::string set{};
 };
 
 /// The real-time engine over a calibration.
 class EngineRenderer : public FrameRenderer {
  public:
   /// Reads a finished calibration and prepares everything; takes seconds. Placement, brightness and black
-  /// level are those stored for the calibration's content; its method applies to still pictures, see
-  /// StillSolver; pictures that were perfected are shown so. `notify` is called on the rendering thread, when
-  /// a graphics card is lost or unusable and the processor takes over, or a perfected picture cannot be read.
-  /// `host`: of SharedGl; with it pictures stay on the graphics card where they are computed there. Throws:
-  /// as loadCalibration(), prepareVenue() and prepareContent(); Error{input} if the positions are not as many
-  /// as the cameras.
+  /// level are those stored for the calibration's content, or a set of it; its method applies to still
+  /// pictures, see StillSolver; pictures that were perfected are shown so. `notify` is called on the
+  /// rendering thread, when a graphics card is lost or unusable and the processor takes over, or a perfected
+  /// picture cannot be read. `host`: of SharedGl; with it pictures stay on the graphics card where they are
+  /// computed there. Throws: as loadCalibration(), prepareVenue() and prepareContent(); Error{input} if the
+  /// positions are not as many as the cameras.
   EngineRenderer(const RendererSettings& settings, Progress& progress,
                  const engine::FallbackBackend::Notify& notify = {}, const engine::MakeGlHost& host = {});
 
   std::vector<QSize> projectors() const override;
-  Canvas canvas() const override { return canvas_; }
+  Canvas canvas() const override { return settings_.canvas; }
   QString name() const override;
   std::vector<compensation::Position> cameras() const override { return cameras_; }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override;
+  /// What another set needs besides what was measured, which all share: twice that, for as long as both are
+  /// there. Where the calibration was measured again since, nothing of it that was perfected is shown.
+  std::shared_ptr<PreparedSet> prepare(const std::string& set) override;
   void interrupt() override;
 
  private:
+  /// All that depends on the target, and what frames by it have come to.
+  struct Set : PreparedSet {
+    engine::EngineContent content;
+    std::optional<engine::AdaptiveRange> range;
+    std::optional<engine::FollowedBrightness> whites;  // none: white is even
+    std::optional<PerfectedPictures> perfected;        // none: white is not as it was for them
+    std::unique_ptr<StillSolver> still;                // none: still pictures use the engine's steps
+    std::vector<double> home;                          // weights of the views as the calibration has them
+    std::vector<double> rest;                          // for whom its content is when nobody is followed
+    std::optional<engine::ViewFollower> follower;
+    std::optional<FrameViewer> followed;
+    std::optional<engine::AvailabilityFollower> shadows;  // none: nobody asks for shadows to be filled
+    std::shared_ptr<const engine::Availability> available;
+  };
+  std::shared_ptr<Set> setOf(const calibration::CalibrationFolder& folder) const;
+  engine::EngineSettings settingsOf(const pipeline::ContentSettings& content) const;
+  /// The set that a frame is wanted by, from now on.
+  void take(const std::shared_ptr<PreparedSet>& wanted);
   /// By the graphics card where it shares its textures, else through memory. Throws: Error{device}.
   std::vector<DrivePicture> computed(const engine::ContentFrame& frame, const engine::FrameRequest& request,
                                      engine::FrameReport& report);
@@ -85,28 +113,21 @@ class EngineRenderer : public FrameRenderer {
   /// Goes on towards the light that arrives. Whether it is less than all.
   bool followShadows(const RenderRequest& request);
 
-  Canvas canvas_;
+  RendererSettings settings_;
+  engine::FallbackBackend::Notify notify_;
   pipeline::MeasuredCalibration calibration_;
+  std::string correctedFrom_;  // of pipeline::fingerprintOfCorrection()
   std::optional<engine::EngineVenue> venue_;
-  std::optional<engine::EngineContent> content_;
+  std::shared_ptr<Set> set_, before_;  // `before_`: until the next frame, so that no other thread frees it
+  std::mutex guard_;                   // of set_, for interrupt()
   std::unique_ptr<engine::EngineBackend> backend_;
-  std::optional<engine::AdaptiveRange> range_;
-  std::optional<engine::FollowedBrightness> whites_;    // none: white is even
   std::chrono::steady_clock::time_point lightAsked_{};  // when range or whites were
-  std::optional<PerfectedPictures> perfected_;          // none: white is not as it was for them
-  std::unique_ptr<StillSolver> still_;                  // none: still pictures use the engine's steps
   std::vector<std::uint32_t> words_;
   CardPictures cards_{{}};
   std::optional<engine::StepBudget> budget_;
   double budgetSeconds_ = 0.0;  // refresh time of the budget
 
   std::vector<compensation::Position> cameras_;  // empty: nobody can be followed
-  std::vector<double> home_;                     // weights of the views as the calibration has them
-  std::vector<double> rest_;                     // for whom its content is when nobody is followed
-  std::optional<engine::ViewFollower> follower_;
-  std::optional<FrameViewer> followed_;
-  std::optional<engine::AvailabilityFollower> shadows_;  // none: nobody asks for shadows to be filled
-  std::shared_ptr<const engine::Availability> available_;
   std::chrono::steady_clock::time_point shadowsAsked_{};
   // The last still as well as possible, which shadowed frames of it start from.
   ProjectorStack solved_;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "content/canvas.h"
@@ -25,6 +26,14 @@ struct FrameViewer {
   bool operator==(const FrameViewer&) const = default;
 };
 
+/// What a renderer needs for frames of one set of its calibration (pipeline/sets.h), made by
+/// FrameRenderer::prepare().
+struct PreparedSet {
+  std::string name;       // empty: the one that was in use, whatever its name
+  std::string shownFrom;  // of pipeline::fingerprintOfShown(); empty: nobody knows
+  virtual ~PreparedSet() = default;
+};
+
 /// Options of a frame besides its content.
 struct RenderRequest {
   bool compensated = true;              // false: only placed, not corrected
@@ -36,6 +45,8 @@ struct RenderRequest {
   std::uint64_t edition = 0;
   /// What somebody leaves of the projectors' light; none: all.
   std::shared_ptr<const engine::Availability> available{};
+  /// As which set of the calibration it is shown; none: as the last frame was.
+  std::shared_ptr<PreparedSet> set{};
 
   bool operator==(const RenderRequest&) const = default;
 };
@@ -53,7 +64,7 @@ struct RenderedFrame {
   bool perfected = false;  // as photographs of it corrected it, see PerfectedPictures
 };
 
-/// Computes the projectors' pictures from content. Used by one thread at a time.
+/// Computes the projectors' pictures from content. Used by one thread at a time, but for what says otherwise.
 class FrameRenderer {
  public:
   virtual ~FrameRenderer() = default;
@@ -69,6 +80,10 @@ class FrameRenderer {
   /// Throws: Error{device} if no device is left.
   virtual RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                                const Outdated& outdated) = 0;
+  /// Prepares frames of another set for RenderRequest::set, on any thread while frames are rendered; takes
+  /// seconds, and time of frames only where nothing else is left. Empty: the set in use.
+  /// Throws: as pipeline::openWithSet(); what preparing content throws.
+  virtual std::shared_ptr<PreparedSet> prepare(const std::string& set) = 0;
   /// From another thread: makes the present thorough rendering outdated.
   virtual void interrupt() {}
 };

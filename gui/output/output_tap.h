@@ -40,6 +40,7 @@ class TappedRenderer : public FrameRenderer {
   Canvas canvas() const override { return renderer_->canvas(); }
   QString name() const override { return renderer_->name(); }
   std::vector<compensation::Position> cameras() const override { return renderer_->cameras(); }
+  std::shared_ptr<PreparedSet> prepare(const std::string& set) override { return renderer_->prepare(set); }
   void interrupt() override { renderer_->interrupt(); }
   RenderedFrame render(const ContentPicture& content, const RenderRequest& request,
                        const Outdated& outdated) override {

@@ -53,6 +53,7 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
   overlayed_.setInterval(overlayInterval);
   connect(&overlayed_, &QTimer::timeout, this, &Player::present);
   connect(&working_, &QFutureWatcherBase::finished, this, &Player::frameReady);
+  connect(&preparing_, &QFutureWatcherBase::finished, this, &Player::setPrepared);
   for (ProjectorWindow* window : windows_) {
     connect(window, &ProjectorWindow::keyPressed, this, [this](int key) { handleKey(key); });
     connect(window, &ProjectorWindow::dragged, this, [this](double right, double up) {
@@ -64,8 +65,10 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
 
 Player::~Player() {
   working_.disconnect(this);
+  preparing_.disconnect(this);
   renderer_->interrupt();
   working_.waitForFinished();
+  preparing_.waitForFinished();
 }
 
 void Player::start() {
@@ -105,7 +108,8 @@ void Player::beginFrame() {
     if (picture.image.isNull()) return {};
     bool same = picture.number == last.content && request.compensated == last.request.compensated &&
                 request.brightness == last.request.brightness && request.viewer == last.request.viewer &&
-                request.available == last.request.available && !last.rendered.drives.empty();
+                request.available == last.request.available && request.set == last.request.set &&
+                !last.rendered.drives.empty();
     bool rests = same && last.rendered.settled;
     if (rests && request.edition == last.request.edition &&
         (last.request.thorough || time - last.since < standsStill))
@@ -124,6 +128,7 @@ void Player::frameReady() {
     Frame frame = resultOf(working_.future());
     bool fresh = frame.content != last_.content || frame.request != last_.request || !last_.rendered.settled;
     const bool isNew = frame.content != last_.content;
+    const bool isOfAnother = frame.request.set != last_.request.set;
     last_ = std::move(frame);
     if (fresh) {
       ++frames_;
@@ -136,6 +141,8 @@ void Player::frameReady() {
       recent_.push_back({now, last_.rendered.seconds, last_.content, waited, live});
       while (recent_.size() > mostRecent) recent_.pop_front();
     }
+    if (const std::shared_ptr<PreparedSet> set = last_.request.set; isOfAnother && set)
+      Q_EMIT setShown(set->name, set->shownFrom);
   } catch (const Error& error) {
     stop();
     Q_EMIT failed(error.sentence());
@@ -250,6 +257,53 @@ void Player::setContent(std::shared_ptr<ContentSource> content) {
 void Player::renew() {
   ++request_.edition;
   renderer_->interrupt();
+}
+
+void Player::useSet(const std::string& name) {
+  wantedSet_ = name;
+  goOnWithSets();
+}
+
+void Player::prepareSet(const std::string& name) {
+  laterSet_ = name;
+  goOnWithSets();
+}
+
+std::optional<std::string> Player::set() const {
+  return request_.set ? std::optional(request_.set->name) : std::nullopt;
+}
+
+void Player::goOnWithSets() {
+  if (wantedSet_ && wantedSet_ == set()) wantedSet_.reset();
+  if (wantedSet_ && preparedSet_ && preparedSet_->name == *wantedSet_) {
+    request_.set = std::exchange(preparedSet_, nullptr);
+    wantedSet_.reset();
+    renderer_->interrupt();
+  }
+  if (laterSet_ && (laterSet_ == set() || (preparedSet_ && preparedSet_->name == *laterSet_)))
+    laterSet_.reset();
+  if (preparing_.isRunning() || (!wantedSet_ && !laterSet_)) return;
+  preparedSet_.reset();  // nobody wants it: two at a time are enough
+  preparingSet_ = wantedSet_ ? *wantedSet_ : *laterSet_;
+  preparing_.setFuture(startedInBackground(
+      [renderer = renderer_, name = preparingSet_] {
+        return std::make_shared<std::shared_ptr<PreparedSet>>(renderer->prepare(name));
+      },
+      &preparers_));
+}
+
+void Player::setPrepared() {
+  try {
+    std::shared_ptr<PreparedSet> set = std::exchange(*resultOf(preparing_.future()), nullptr);
+    if (wantedSet_ == preparingSet_ || laterSet_ == preparingSet_) preparedSet_ = std::move(set);
+  } catch (const Error& error) {
+    if (laterSet_ == preparingSet_) laterSet_.reset();  // why is told once it is wanted
+    if (wantedSet_ == preparingSet_) {
+      wantedSet_.reset();
+      Q_EMIT setFailed(preparingSet_, error.sentence());
+    }
+  }
+  goOnWithSets();
 }
 
 void Player::setChart(std::optional<TestChart> chart) {

@@ -4,9 +4,12 @@
 #include <QElapsedTimer>
 #include <QFutureWatcher>
 #include <QObject>
+#include <QThreadPool>
 #include <QTimer>
 #include <deque>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "content/outcome.h"
@@ -58,6 +61,14 @@ class Player : public QObject {
   void setContent(std::shared_ptr<ContentSource> content);
   /// What the calibration keeps of the picture that stands is looked for again: it may have been perfected.
   void renew();
+  /// Prepares another set of the calibration beside the frames, and shows content by it from the next frame
+  /// on once it is prepared; until then as before, so that no frame is dark or missing. Empty: the one in
+  /// use. A later wish takes the place of one that is not fulfilled yet.
+  void useSet(const std::string& name);
+  /// Prepares it, so that useSet() need not wait. One at a time.
+  void prepareSet(const std::string& name);
+  /// By which frames are computed from now on; of the renderer's first one, as it was opened: empty.
+  std::optional<std::string> set() const;
   /// A test chart instead of the content; none: the content, which has continued meanwhile.
   void setChart(std::optional<TestChart> chart);
   bool isFrozen() const { return clock_.isPaused(); }
@@ -82,6 +93,10 @@ class Player : public QObject {
  Q_SIGNALS:
   /// A new picture was passed to the windows.
   void shown();
+  /// The first frame of another set was passed to the windows.
+  void setShown(const std::string& name, const std::string& shownFrom);
+  /// A set cannot be had: all goes on as before.
+  void setFailed(const std::string& name, const relucent::Message& sentence);
   /// Rendering or reading failed permanently; the windows are black. `sentence` is for display.
   void failed(const relucent::Message& sentence);
 
@@ -107,6 +122,8 @@ class Player : public QObject {
   void frameReady();
   void present();
   void nextChart();
+  void goOnWithSets();
+  void setPrepared();
   /// By so many of the cameras' widest distances along the axes.
   bool walk(const compensation::Position& by);
   compensation::MovingViewer::Time viewerTime() const { return clock_.now().time_since_epoch(); }
@@ -129,6 +146,12 @@ class Player : public QObject {
   std::uint64_t frames_ = 0, late_ = 0;
   std::vector<compensation::Position> cameras_;
   compensation::MovingViewer viewer_;
+  std::optional<std::string> wantedSet_, laterSet_;  // to be shown; to be prepared only
+  std::string preparingSet_;
+  std::shared_ptr<PreparedSet> preparedSet_;  // and not shown yet
+  QThreadPool preparers_;                     // of its own: it takes seconds, and frames need Qt's
+  // Out of which it is taken: the future would keep it.
+  QFutureWatcher<Outcome<std::shared_ptr<std::shared_ptr<PreparedSet>>>> preparing_;
   // When he moved first since a frame was begun, and since the one before that: what is computed follows it.
   std::optional<ContentTime> moved_, following_;
 };

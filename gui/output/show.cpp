@@ -28,21 +28,12 @@ constexpr int healthInterval = 10'000;      // milliseconds
 constexpr int streamsInterval = 1'000;
 constexpr int shortestPause = 1'000;        // before it is tried again, doubled with every failure ...
 constexpr int longestPause = 60'000;        // ... up to here
+constexpr int aheadOfTime = 60'000;         // a set is prepared
 constexpr int forgivenAfter = 10 * 60'000;  // of playing without one
 
 /// Where core's command line keeps them, too.
 std::filesystem::path simulatedVenues() {
   return (QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/relucent").toStdString();
-}
-
-/// What pictures of a calibration follow from as it is now; empty: it cannot be read.
-std::string shownFrom(const std::filesystem::path& path) {
-  try {
-    using calibration::CalibrationFolder;
-    return pipeline::fingerprintOfShown(CalibrationFolder::open(path, CalibrationFolder::Access::read));
-  } catch (const Error&) {
-    return {};
-  }
 }
 
 }  // namespace
@@ -59,6 +50,8 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       wishes_(settings_.powerOffAfter),
       photographs_(photography ? std::move(photography)
                                : photographyOf(settings_.calibration, simulatedVenues())) {
+  scheduledSet_ = setAt(settings_.content.sets, clock_.wall().time());
+  wantedSet_ = scheduledSet_ && settings_.set.empty() ? scheduledSet_->toStdString() : settings_.set;
   if (settings_.night) nights_.emplace(settings_, clock_.wall());
   connect(&photographs_, &ShowPhotographs::progressed, this,
           [this](const QString& work, double fraction, const QString& stage) {
@@ -103,7 +96,8 @@ Show::~Show() {
 }
 
 void Show::open() {
-  std::unique_ptr<FrameRenderer> renderer = make_([this](const QString& sentence) { log_.warn(sentence); });
+  std::unique_ptr<FrameRenderer> renderer =
+      make_([this](const QString& sentence) { log_.warn(sentence); }, wantedSet_);
   if (played_)
     renderer = std::make_unique<TappedRenderer>(
         std::move(renderer),
@@ -132,15 +126,19 @@ void Show::open() {
     if (!windows_.empty() && !windows_.front()->surface().keepsStep())
       log_.warn("there is no OpenGL: pictures go through memory, not in step with the displays");
   }
-  playsFrom_ = shownFrom(settings_.calibration);
+  playing_ = playedBy(settings_.calibration, wantedSet_);
   playsPerfected_ = pipeline::perfectedState(settings_.calibration);
   content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas);
   toldSkipped_ = 0;
+  followedItem_ = -1;
   std::vector<ProjectorWindow*> windows;
   for (const auto& window : windows_) windows.push_back(window.get());
   player_ = std::make_unique<Player>(std::move(renderer), content_, std::move(windows));
   connect(player_.get(), &Player::failed, this, &Show::tryAgain, Qt::QueuedConnection);
+  connect(player_.get(), &Player::setShown, this, &Show::setShown);
+  connect(player_.get(), &Player::setFailed, this, &Show::setFailed);
   connect(player_.get(), &Player::shown, this, [this] {
+    followItem();
     tellControl();
     tellProjectors();
     tellWatch();
@@ -269,6 +267,7 @@ void Show::look() {
   if (nights_) tend();
   tellProjectors();
   if (state_ == ShowState::photographing) return writeHealth(state_);
+  followTime();
   takeUp(state_ == ShowState::resting);
   if (state_ == ShowState::playing && !isTime()) return rest();
   if (state_ == ShowState::resting && isTime()) return play();
@@ -294,139 +293,6 @@ void Show::stop() {
   if (state_ == ShowState::stopped) return;
   log_.tell("stopped");
   writeHealth(ShowState::stopped);
-}
-
-void Show::listen() {
-  listenToControls();
-  showStatus();
-}
-
-void Show::showStatus() {
-  if (!settings_.status || page_) return;
-  try {
-    page_ = std::make_unique<StatusServer>(*settings_.status, [this] { return health(); });
-  } catch (const Error& error) {
-    const QString why = error.what();
-    if (why != whyNoPage_) log_.warn(why);
-    whyNoPage_ = why;
-    return;
-  }
-  log_.tell("status page at http://" + textOf(page_->place()) + "/");
-}
-
-std::optional<NetworkPlace> Show::status() const {
-  return page_ ? std::optional(page_->place()) : std::nullopt;
-}
-
-void Show::listenToControls() {
-  if (!settings_.osc || server_) return;
-  try {
-    server_ = std::make_unique<OscServer>(*settings_.osc);
-  } catch (const Error& error) {
-    const QString why = error.what();
-    if (why != whyNoOsc_) log_.warn(why);
-    whyNoOsc_ = why;
-    return;
-  }
-  RemoteActions& actions = *this;
-  control_ = std::make_unique<RemoteControl>(*server_, actions, settings_.oscFeedback);
-  const auto warn = [this](const QString& sentence) { log_.warn(sentence); };
-  connect(server_.get(), &OscServer::warned, this, warn);
-  connect(control_.get(), &RemoteControl::warned, this, warn);
-  log_.tell("listening to OSC at " + textOf(server_->place()));
-}
-
-std::optional<NetworkPlace> Show::osc() const {
-  return server_ ? std::optional(server_->place()) : std::nullopt;
-}
-
-void Show::tellControl() {
-  if (control_) control_->report();
-}
-
-RemoteState Show::state() const {
-  RemoteState state;
-  state.items = settings_.content.items.size();
-  if (content_) state.item = content_->status().playing;
-  if (!player_) return state;
-  state.paused = player_->isPlaying() && player_->isFrozen();
-  state.black = player_->isBlack();
-  state.compensated = player_->isCompensated();
-  state.brightness = player_->brightness();
-  state.chart = player_->chart();
-  return state;
-}
-
-void Show::setPaused(bool paused) {
-  // Outside its hours it stands still anyhow.
-  if (player_ && player_->isPlaying()) player_->setFrozen(paused);
-}
-
-void Show::setBlack(bool black) {
-  if (player_) player_->setBlack(black);
-  tellProjectors();
-}
-
-void Show::setCompensated(bool compensated) {
-  if (player_) player_->setCompensated(compensated);
-}
-
-void Show::setBrightness(double brightness) {
-  if (player_) player_->setBrightness(brightness);
-}
-
-void Show::setChart(std::optional<TestChart> chart) {
-  if (player_) player_->setChart(chart);
-}
-
-void Show::playItem(qsizetype index) {
-  if (content_) content_->playItem(index);
-}
-
-Message Show::moveViewer(const compensation::Position& position) {
-  if (!player_ || !player_->canFollowViewers())
-    return RELUCENT_ENGLISH_MESSAGE("show.camera-positions-unknown",
-                                    "where the cameras stand is not known, or there is only one: give the "
-                                    "position of every camera with --camera-position");
-  if (!player_->moveViewer(position))
-    return RELUCENT_ENGLISH_MESSAGE("show.viewer-not-finite", "the viewer's position must be finite numbers");
-  // He has what there is at the border; somebody should know.
-  return compensation::farFromCameras(player_->cameras(), position);
-}
-
-Message Show::whyNoPhotographs() const {
-  if (state_ != ShowState::playing)
-    return RELUCENT_ENGLISH_MESSAGE("show.not-playing", "the show does not play now: try again when it does");
-  if (player_->isBlack())
-    return RELUCENT_ENGLISH_MESSAGE("show.is-black", "the picture is black now: end that, and try again");
-  return photographs_.whyNot();
-}
-
-void Show::makeWay() {
-  if (player_) player_->stop();
-  for (const auto& window : windows_) window->stop();
-  writeHealth(ShowState::photographing);
-}
-
-Message Show::check() {
-  if (const Message why = whyNoPhotographs(); !why.empty()) return why;
-  log_.tell("checking the calibration by photographs");
-  makeWay();
-  photographs_.check();
-  return {};
-}
-
-Message Show::perfect() {
-  if (const Message why = whyNoPhotographs(); !why.empty()) return why;
-  const qsizetype item = content_->status().playing;
-  if (item < 0) return RELUCENT_ENGLISH_MESSAGE("remote.nothing-plays", "there is nothing to play");
-  const QString path = settings_.content.items[item].path;
-  if (!OutputPlaylist::isStill(settings_.content.items[item]))
-    return RELUCENT_ENGLISH_MESSAGE("show.no-still-plays", "what plays now is no still picture");
-  log_.tell("perfecting " + path + " by photographs");
-  makeWay();
-  photographs_.perfect(path.toStdString(), settings_.canvas);
-  return {};
 }
 
 void Show::photographed(const QString& work, const QString& verdict, const QString& sentence) {
@@ -470,7 +336,9 @@ void Show::tend() {
   log_.tell("tending the calibration by photographs");
   nights_->begin(now);
   makeWay();
-  photographs_.tend(nights_->work(), settings_.switchesPower);
+  pipeline::NightSettings work = nights_->work();
+  work.set = playing_.opened;
+  photographs_.tend(work, settings_.switchesPower);
 }
 
 void Show::leaveOutNight(const Message& why) {
@@ -499,8 +367,9 @@ void Show::nightEnded(const QString& verdict, const QString& sentence) {
 
 void Show::takeUp(bool whole) {
   if (!player_) return;
-  const std::string now = whole ? shownFrom(settings_.calibration) : std::string();
-  if (!now.empty() && now != playsFrom_) {
+  const PlayedSet now = whole ? playedBy(settings_.calibration, playing_.opened) : PlayedSet();
+  if (!now.shownFrom.empty() &&
+      (now.shownFrom != playing_.shownFrom || now.correctedFrom != playing_.correctedFrom)) {
     log_.tell("the calibration has changed: it is played by from now on");
     if (watch_) watch_->readAgain();
     try {
@@ -514,6 +383,45 @@ void Show::takeUp(bool whole) {
   if (const std::string perfected = pipeline::perfectedState(settings_.calibration);
       perfected != std::exchange(playsPerfected_, perfected))
     player_->renew();
+}
+
+void Show::wish(const std::string& set) {
+  if (set == wantedSet_ || (wantedSet_.empty() && set == playing_.name)) return;
+  wantedSet_ = set;
+  if (!player_) return;  // it begins by it
+  log_.tell("preparing set " + QString::fromStdString(set));
+  player_->useSet(set);
+}
+
+void Show::followTime() {
+  const std::optional<QString> now = setAt(settings_.content.sets, clock_.wall().time());
+  if (now && now != std::exchange(scheduledSet_, now)) wish(now->toStdString());
+  const std::optional<QString> soon =
+      setAt(settings_.content.sets, clock_.wall().time().addMSecs(aheadOfTime));
+  if (player_ && soon && soon != now) player_->prepareSet(soon->toStdString());
+}
+
+void Show::followItem() {
+  const qsizetype item = content_->status().playing;
+  if (item < 0 || item == std::exchange(followedItem_, item)) return;
+  const QList<PlaylistItem>& items = settings_.content.items;
+  if (!items[item].set.isEmpty()) wish(items[item].set.toStdString());
+  if (const QString& next = items[(item + 1) % items.size()].set; !next.isEmpty())
+    player_->prepareSet(next.toStdString());
+}
+
+void Show::setShown(const std::string& name, const std::string& shownFrom) {
+  playing_.opened = playing_.name = name;
+  playing_.shownFrom = shownFrom;
+  log_.tell("playing set " + QString::fromStdString(name));
+  tellSet("shown", QString::fromStdString(name));
+  writeHealth(state_);
+}
+
+void Show::setFailed(const std::string& name, const Message& sentence) {
+  if (wantedSet_ == name) wantedSet_ = playing_.opened;
+  log_.warn(QString::fromStdString(englishSentence(sentence)));
+  tellSet("failed", QString::fromStdString(englishSentence(sentence)));
 }
 
 void Show::writeHealth(ShowState state) {
@@ -551,6 +459,7 @@ QJsonObject Show::health() const {
                      {"clipped", statistics.clipped},
                      {"steps", statistics.steps},
                      {"perfected", statistics.perfected},
+                     {"set", QString::fromStdString(playing_.name)},
                      {"item", static_cast<qint64>(content.playing)},
                      {"skipped", static_cast<qint64>(content.skipped.size())},
                      {"failures", failures_},

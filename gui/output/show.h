@@ -11,6 +11,7 @@
 #include "desktop/awake.h"
 #include "output/held_key.h"
 #include "output/machine_clock.h"
+#include "output/played_set.h"
 #include "output/player.h"
 #include "output/show_log.h"
 #include "output/show_nights.h"
@@ -43,9 +44,10 @@ class Show : public QObject, private RemoteActions {
   Q_OBJECT
 
  public:
-  /// `warn` accepts sentences for the log, on any thread, during the renderer's lifetime.
-  using MakeRenderer =
-      std::function<std::unique_ptr<FrameRenderer>(const std::function<void(const QString&)>& warn)>;
+  /// `warn` accepts sentences for the log, on any thread, during the renderer's lifetime. `set`: of the
+  /// calibration, by which it begins; empty: the one in use.
+  using MakeRenderer = std::function<std::unique_ptr<FrameRenderer>(
+      const std::function<void(const QString&)>& warn, const std::string& set)>;
   /// `make` is called again after a failure. Throws: as `make` and displaysFor(), the first time.
   /// `photography`: who photographs for it; nullptr: the devices of its calibration. `watch`: whose camera
   /// watches it, if the settings say that one does; nullptr: the calibration's.
@@ -96,6 +98,7 @@ class Show : public QObject, private RemoteActions {
   void setBrightness(double brightness) override;
   void setChart(std::optional<TestChart> chart) override;
   void playItem(qsizetype index) override;
+  Message useSet(const QString& name) override;
   Message moveViewer(const compensation::Position& position) override;
   Message check() override;
   Message perfect() override;
@@ -109,6 +112,14 @@ class Show : public QObject, private RemoteActions {
   /// What has become of the calibration: pictures that were perfected, and, where the picture may be gone for
   /// a moment (`whole`), another correction.
   void takeUp(bool whole);
+  /// Goes on as before until that set is prepared. Nothing happens if it plays.
+  void wish(const std::string& set);
+  /// What the time of the day, and what the item that plays, ask for of sets.
+  void followTime();
+  void followItem();
+  void setShown(const std::string& name, const std::string& shownFrom);
+  void setFailed(const std::string& name, const relucent::Message& sentence);
+  void tellSet(const QString& verdict, const QString& sentence);
   void beginWatch(std::unique_ptr<WatchSource> source);
   void tellWatch();
   void tellStreams();
@@ -135,9 +146,13 @@ class Show : public QObject, private RemoteActions {
   QString whyNoOsc_, whyNoPage_;
   ProjectorWishes wishes_;
   ShowPhotographs photographs_;
-  std::optional<ShowNights> nights_;            // none: nobody wants them
-  Message brokenOff_;                           // why the night under way has to end
-  std::string playsFrom_, playsPerfected_;      // what of the calibration is shown
+  std::optional<ShowNights> nights_;  // none: nobody wants them
+  Message brokenOff_;                 // why the night under way has to end
+  PlayedSet playing_;
+  std::string wantedSet_;                       // to be shown; empty: the one in use
+  std::optional<QString> scheduledSet_;         // by the time; none: no time says any
+  qsizetype followedItem_ = -1;                 // whose set was asked for
+  std::string playsPerfected_;                  // what of the calibration is shown
   std::unique_ptr<ProjectorWatch> projectors_;  // nullptr: none is on the network
   std::shared_ptr<PlayedTap> played_;
   std::unique_ptr<ShowWatch> watch_;  // nullptr: nobody watches

@@ -59,11 +59,12 @@ class CalibratedPhotography : public ShowPhotography {
     return pipeline::verifyCalibration(calibration_, {}, devices.rig(), progress);
   }
   pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas& canvas,
-                                   Progress& progress) override {
+                                   const std::string& set, Progress& progress) override {
     Devices devices(*this, progress);
     pipeline::PerfectSettings settings;
     settings.images = {picture};
     settings.canvas = {{canvas.size.width(), canvas.size.height()}, canvas.fit};
+    settings.set = set;
     pipeline::PerfectResult result = perfectPictures(
         calibration_, settings, devices.rig(), [](std::size_t, const pipeline::PerfectingRound&) {},
         progress);
@@ -167,9 +168,10 @@ void ShowPhotographs::check() {
   });
 }
 
-void ShowPhotographs::perfect(const std::filesystem::path& picture, const Canvas& canvas) {
-  start("perfect", [photography = photography_, picture, canvas](Progress& progress) {
-    const pipeline::PerfectedImage image = photography->perfect(picture, canvas, progress);
+void ShowPhotographs::perfect(const std::filesystem::path& picture, const Canvas& canvas,
+                              const std::string& set) {
+  start("perfect", [photography = photography_, picture, canvas, set](Progress& progress) {
+    const pipeline::PerfectedImage image = photography->perfect(picture, canvas, set, progress);
     const bool failed = !image.failure.empty() || !image.disturbance.empty();
     return Found{failed ? "failed" : image.kept ? "better" : "as_before", sentenceOf(image)};
   });

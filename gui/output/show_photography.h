@@ -5,6 +5,7 @@
 #include <QString>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "content/canvas.h"
@@ -27,8 +28,9 @@ class ShowPhotography {
   /// Each opens the devices and closes them again; on a worker's thread.
   /// Throws: as openRig(), verifyCalibration(), perfectPictures().
   virtual pipeline::VerifyResult check(Progress& progress) = 0;
+  /// `set`: as which set of the calibration it is shown; empty: the one in use.
   virtual pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas& canvas,
-                                           Progress& progress) = 0;
+                                           const std::string& set, Progress& progress) = 0;
   /// `switchesOn`: projectors that are on the network; their light is waited for. What cannot be done is an
   /// alarm of the night, devices that cannot be opened as well.
   /// Throws: Error{disk} if not even the history can be written; Cancelled.
@@ -53,7 +55,7 @@ class ShowPhotographs : public QObject {
   Message whyNot() const;
   /// Contract: whyNot() is empty.
   void check();
-  void perfect(const std::filesystem::path& picture, const Canvas& canvas);
+  void perfect(const std::filesystem::path& picture, const Canvas& canvas, const std::string& set);
   void tend(const pipeline::NightSettings& work, bool switchesOn);
   /// Before any of them, on its thread, a camera is waited for that somebody else lets go of.
   void waitFor(std::shared_ptr<CameraUse> camera) { camera_ = std::move(camera); }

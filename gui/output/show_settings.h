@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "content/playlist.h"
@@ -52,6 +53,7 @@ struct ShowSettings {
   std::string alarmCommand{};  // tells of a night's alarm, see pipeline::closeNight(); empty: nobody is told
   std::optional<pipeline::WatchSettings> watch{};  // by which camera the show is watched; none: by none
   bool fillsShadows = false;                       // of whoever it sees in a projector's light, by the others
+  std::string set{};  // of the calibration, at first; empty: as the content's times say, else the one in use
 };
 
 /// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),

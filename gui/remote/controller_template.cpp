@@ -21,6 +21,7 @@ const char* typeTagsOf(const RemoteCommand& command) {
     case RemoteInput::Kind::range:
       return "f";
     case RemoteInput::Kind::chart:
+    case RemoteInput::Kind::name:
       return "s";
     case RemoteInput::Kind::place:
       return "ff";
@@ -68,6 +69,9 @@ QJsonObject widgetOf(const RemoteCommand& command, const QString& target) {
       widget["type"] = "input";
       widget["numeric"] = true;  // and no default, which may be sent when the session is opened
       break;
+    case RemoteInput::Kind::name:
+      widget["type"] = "input";
+      break;
     case RemoteInput::Kind::chart:
       widget["type"] = "dropdown";
       widget["values"] = QJsonArray::fromStringList(chartChoices());
@@ -102,7 +106,8 @@ QByteArray csvTable() {
   QStringList lines{"address,type_tags,least,most,choices,what"};
   for (const RemoteCommand& command : remoteCommands()) {
     const RemoteInput& input = command.input;
-    const bool hasLeast = input.kind != RemoteInput::Kind::none && input.kind != RemoteInput::Kind::chart;
+    const bool hasLeast = input.kind != RemoteInput::Kind::none && input.kind != RemoteInput::Kind::chart &&
+                          input.kind != RemoteInput::Kind::name;
     // How many items there are, the show knows.
     const bool hasMost = hasLeast && input.kind != RemoteInput::Kind::whole;
     lines.append(QStringList{

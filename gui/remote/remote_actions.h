@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QString>
 #include <optional>
 
 #include "content/test_chart.h"
@@ -16,6 +17,7 @@ struct RemoteState {
   std::optional<TestChart> chart;
   qsizetype item = -1;  // that plays, from 0; -1 before the first
   qsizetype items = 0;  // of the playlist
+  QString set{};        // of the calibration that it is shown by; empty: it has no name
 };
 
 /// What carries out the commands of a remote control. Those that cannot be carried out say why, empty: done.
@@ -32,6 +34,8 @@ class RemoteActions {
   virtual void setChart(std::optional<TestChart> chart) = 0;
   /// Item `index`, from 0, which exists.
   virtual void playItem(qsizetype index) = 0;
+  /// Begins it: the picture goes on as it is until that set is prepared.
+  virtual Message useSet(const QString& name) = 0;
   virtual Message moveViewer(const compensation::Position& position) = 0;
   /// Begin what takes minutes; RemoteControl::announce() tells how it goes.
   virtual Message check() = 0;

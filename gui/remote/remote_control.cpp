@@ -14,7 +14,7 @@ using Arguments = std::vector<OscArgument>;
 
 constexpr double mostBrightness = 1.5;
 
-Message needsNumber(const char* range) {
+Message takes(const char* range) {
   return RELUCENT_ENGLISH_MESSAGE("remote.wrong-argument", "it takes {}").with(range);
 }
 
@@ -27,7 +27,7 @@ std::optional<double> numberAt(const Arguments& arguments, std::size_t place) {
 template <void (RemoteActions::*set)(bool)>
 Message switched(RemoteActions& actions, const Arguments& arguments) {
   const std::optional<double> value = numberAt(arguments, 0);
-  if (value != 0.0 && value != 1.0) return needsNumber("0 or 1");
+  if (value != 0.0 && value != 1.0) return takes("0 or 1");
   (actions.*set)(*value != 0.0);
   return {};
 }
@@ -57,7 +57,7 @@ Message playItem(RemoteActions& actions, const Arguments& arguments) {
 
 Message setBrightness(RemoteActions& actions, const Arguments& arguments) {
   const std::optional<double> value = numberAt(arguments, 0);
-  if (!value || *value < 0.0 || *value > mostBrightness) return needsNumber("a number from 0 to 1.5");
+  if (!value || *value < 0.0 || *value > mostBrightness) return takes("a number from 0 to 1.5");
   actions.setBrightness(*value);
   return {};
 }
@@ -75,11 +75,17 @@ Message setChart(RemoteActions& actions, const Arguments& arguments) {
   return {};
 }
 
+Message useSet(RemoteActions& actions, const Arguments& arguments) {
+  const auto* name = std::get_if<QString>(&arguments[0]);
+  if (name == nullptr || name->isEmpty()) return takes("the name of a set");
+  return actions.useSet(*name);
+}
+
 Message moveViewer(RemoteActions& actions, const Arguments& arguments) {
   compensation::Position position{};
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const std::optional<double> value = numberAt(arguments, k);
-    if (!value) return needsNumber("two or three finite numbers");
+    if (!value) return takes("two or three finite numbers");
     position[k] = *value;
   }
   return actions.moveViewer(position);
@@ -133,6 +139,16 @@ constexpr std::array commands{
                     return Arguments{state.chart ? testChartName(*state.chart) : QString("none")};
                   },
                   {RemoteInput::Kind::chart}},
+    RemoteCommand{"/set",
+                  "a set's name",
+                  "Content as that set of the calibration has it; the picture goes on as it is until that is "
+                  "prepared, some seconds.",
+                  1,
+                  1,
+                  useSet,
+                  [](const RemoteState& state) { return Arguments{state.set}; },
+                  {RemoteInput::Kind::name},
+                  true},
     RemoteCommand{"/viewer",
                   "x y, or x y z",
                   "Where the viewer stands, in the units of the cameras' positions; without a word for two "
@@ -237,7 +253,7 @@ void RemoteControl::obey(const OscMessage& message, const NetworkPlace& from) {
       return refuse(message, from, QString::fromStdString(why.id()),
                     QString::fromStdString(englishSentence(why)));
   }
-  if (command->isLong) {
+  if (command->isLong && !asks) {
     askers_[command->address] = from;
     announce(command->address, "begun", {});
   }

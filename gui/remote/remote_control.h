@@ -22,6 +22,7 @@ struct RemoteInput {
     range,  // a number from least to most
     whole,  // a whole number from least on
     chart,  // a test chart's name, or none
+    name,   // one that the show knows
     place,  // x and y; least and most are those that a controller begins with, as places have no bounds
   };
   Kind kind = Kind::none;

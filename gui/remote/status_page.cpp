@@ -30,6 +30,7 @@ constexpr std::array factNames{
     FactName{"clipped", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Clipped share")},
     FactName{"steps", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Steps")},
     FactName{"perfected", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Perfected")},
+    FactName{"set", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Set")},
     FactName{"item", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Item")},
     FactName{"skipped", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Items skipped")},
     FactName{"failures", QT_TRANSLATE_NOOP("relucent::gui::StatusPage", "Failures")},

@@ -67,16 +67,16 @@ void OpenGlBackend::Objects::place(const ContentFrame& picture, const FrameReque
   placing.set(2, static_cast<std::size_t>(picture.size.width) * bytesPerPixel(picture.format));
   placing.set(3, content->white * request.brightness);
   placing.set(4, std::max(content->blackLift, request.blackLift));
-  placing.set(5, unreachableWeightOf(engine.settings.target));
+  placing.set(5, unreachableWeightOf(content->target));
   placing.setMatrix(6, engine.mixing.data());
   const float white = content->white * request.brightness;
-  const bool isHeld = engine.settings.target.objective == compensation::Objective::seen && white > 0.0f;
+  const bool isHeld = content->target.objective == compensation::Objective::seen && white > 0.0f;
   std::array<float, 3> luminance{};
   for (std::size_t c = 0; c < 3 && isHeld; ++c) luminance[c] = image::luminanceWeights[c] / white;
   placing.set(7, luminance);
   placing.set(8, compensation::sensitivityOffset);
   placing.set(9, isHeld);
-  placing.set(10, compensation::sharedLoss(engine.settings.target.clipping));
+  placing.set(10, compensation::sharedLoss(content->target.clipping));
   for (const Batch& batch : cameraBatches) {
     camera.bind(3, batch.part.begin, batch.part.bytes);
     placing.set(0, batch.count);

@@ -65,6 +65,48 @@ class TestEngineMasks : public QObject {
     QVERIFY2(apart <= (scene.startsWith("several") ? 2.0 : 1.0), qPrintable(QString("%1 codes").arg(apart)));
   }
 
+  /// Law: content prepared by a target, after any other's, is as in a venue that was prepared for it alone.
+  void targetsInTurnAreAsIfAlone_data() {
+    QTest::addColumn<QString>("backend");
+    QTest::addColumn<QString>("scene");
+    for (const NamedBackend& backend : backends())
+      for (const char* scene : {"two views", "light"})
+        QTest::addRow("%s, %s", backend.name.c_str(), scene) << QString::fromStdString(backend.name) << scene;
+  }
+  void targetsInTurnAreAsIfAlone() {
+    QFETCH(QString, backend);
+    QFETCH(QString, scene);
+    SKIP_WHERE_MISSING(backend);
+    const EngineScene made = engineSceneOf(scene.toStdString());
+    std::vector<TargetSettings> targets(3, made.target);
+    targets[1].masks = {door(0.1)};
+    targets[1].reachablePercentile = 40.0;
+    targets[1].objective = Objective::light;
+    targets[2].clipping = Clipping::hue;
+    targets[2].blackLift = 0.05;
+    const EngineVenue shared = prepareVenue(made.venue, made.inverse, made.responses, exact(made));
+    const std::unique_ptr<EngineBackend> device = backendOf(backend, shared);
+    const Image picture = makeContent(Content::natural, size, 3);
+    std::vector<EngineContent> contents;
+    for (const TargetSettings& target : targets) contents.push_back(prepareContent(shared, size, target));
+    const auto frameBy = [&](std::size_t target) {
+      device->setContent(contents[target]);
+      std::vector<std::uint32_t> words(shared.brightest.size());
+      FrameReport report;
+      return device->render(frameOf(picture), {true, 2, 1.0f, 0.0f}, words, report)
+                 ? words
+                 : std::vector<std::uint32_t>();
+    };
+    for (std::size_t target : {1u, 2u, 0u}) {
+      EngineScene alone = made;
+      alone.target = targets[target];
+      const EngineVenue own = prepareVenue(made.venue, made.inverse, made.responses, exact(alone));
+      const std::unique_ptr<EngineBackend> itself = backendOf(backend, own);
+      QVERIFY(frameBy(target) == rendered(*itself, own, frameOf(picture), {true, 2, 1.0f, 0.0f}));
+    }
+    QVERIFY(frameBy(0) != frameBy(1) && frameBy(0) != frameBy(2));
+  }
+
   void shadowsAndMasksAreOneProduct_data() { everyBackendAndVenue(); }
   void shadowsAndMasksAreOneProduct() {
     QFETCH(QString, backend);

@@ -107,6 +107,25 @@ class TestShowArguments : public QObject {
                 .arguments.contains("screen:HDMI-1"));
   }
 
+  void setsAreSaidAndInstalled() {
+    const QStringList said{"show",     "v",        "--content",  "chart:grid",
+                           "--set",    "3. class", "--set-at",   "18:00=night=late",
+                           "--set-at", "7:30=day", "--schedule", "06:00-23:00"};
+    const auto wanted = parsed<InstallShow>(said + QStringList{"--install-service"});
+    for (const ShowSettings& settings :
+         {parsed<PlayShow>(said).settings, parsed<PlayShow>(wanted.arguments).settings}) {
+      QCOMPARE(settings.set, std::string("3. class"));
+      QVERIFY((settings.content.sets == QList<SetTime>{{{18, 0}, "night=late"}, {{7, 30}, "day"}}));
+    }
+    for (const char* wrong : {"18:00", "night", "25:00=night", "18:00=", "=night"})
+      QVERIFY(refusal({"show", "v", "--content", "a", "--set-at", wrong}).find("write HH:MM=NAME") !=
+              std::string::npos);
+    QVERIFY(refusal({"show", "v", "--content", "a", "--set-at", "1:00=a", "--set-at", "01:00=b"})
+                .find("two sets are to be shown from 01:00 on") != std::string::npos);
+    QVERIFY(refusal({"show", "v", "--content", "a", "--set", " x"}).find("--set: the name of a set") !=
+            std::string::npos);
+  }
+
   void nightsAreSaidAndInstalled() {
     const QStringList said{
         "show",  "v",          "--content",   "chart:grid", "--night",

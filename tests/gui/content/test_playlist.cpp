@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "content/playlist.h"
 
+#include <QJsonDocument>
 #include <QTemporaryDir>
 #include <QThreadPool>
 #include <QtTest>
@@ -183,6 +184,47 @@ class TestPlaylist : public QObject {
     QVERIFY(!file.readAll().contains(folder_.path().toUtf8()));  // moves with its pictures
   }
 
+  /// Lists that name no sets are read by programs that know none.
+  void setsAreKeptAndOlderProgramsReadTheRest() {
+    PlaylistSettings settings;
+    settings.items = {{picture(1), 3.0}, {picture(2), 4.0, 25.0, "night"}};
+    settings.sets = {{{18, 0}, "night"}, {{7, 30}, "school class"}};
+    const QString file = folder_.filePath("sets.playlist");
+    const auto version = [&] {
+      QFile written(file);
+      return written.open(QIODevice::ReadOnly) ? QJsonDocument::fromJson(written.readAll())["version"].toInt()
+                                               : 0;
+    };
+    savePlaylist(file, settings);
+    QVERIFY(readPlaylist(file) == settings);
+    QCOMPARE(version(), 2);
+    settings.sets.clear();
+    savePlaylist(file, settings);
+    QCOMPARE(version(), 2);
+    settings.items.back().set.clear();
+    savePlaylist(file, settings);
+    QCOMPARE(version(), 1);
+    QVERIFY(readPlaylist(file) == settings);
+  }
+
+  void aSetIsTheLastThatBegan_data() {
+    QTest::addColumn<QTime>("now");
+    QTest::addColumn<QString>("set");
+    QTest::newRow("in the morning, of the evening before") << QTime(0, 0) << "night";
+    QTest::newRow("just before") << QTime(7, 29, 59) << "night";
+    QTest::newRow("at once") << QTime(7, 30) << "day";
+    QTest::newRow("at noon") << QTime(12, 0) << "class";
+    QTest::newRow("late") << QTime(23, 59) << "night";
+  }
+  void aSetIsTheLastThatBegan() {
+    QFETCH(QTime, now);
+    QFETCH(QString, set);
+    const QList<SetTime> times{{{18, 0}, "night"}, {{7, 30}, "day"}, {{10, 0}, "class"}};
+    QVERIFY(setAt(times, now) == set);
+    QVERIFY(!setAt({}, now));
+    for (const SetTime& time : times) QVERIFY(setTimeFrom(textOf(time)) == time);
+  }
+
   void wrongFilesAreRefused_data() {
     QTest::addColumn<QByteArray>("text");
     QTest::addColumn<QString>("part");
@@ -196,6 +238,13 @@ class TestPlaylist : public QObject {
                              << "more than 0 seconds";
     QTest::newRow("endless fade") << QByteArray("{\"fade_seconds\": 1e9, \"items\": [{\"path\": \"a\"}]}")
                                   << "cross-fade";
+    QTest::newRow("a set at no time")
+        << QByteArray(R"({"version": 2, "items": [{"path": "a"}], "sets": [{"from": "26:00", "set": "x"}]})")
+        << "from a time on";
+    QTest::newRow("two sets at a time")
+        << QByteArray(R"({"version": 2, "items": [{"path": "a"}], "sets": [)"
+                      R"({"from": "08:00", "set": "x"}, {"from": "08:00", "set": "y"}]})")
+        << "two sets";
   }
   void wrongFilesAreRefused() {
     QFETCH(QByteArray, text);

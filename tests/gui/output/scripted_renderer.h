@@ -28,6 +28,7 @@ class ScriptedRenderer : public FrameRenderer {
     viewerX = request.viewer ? request.viewer->position[0] : 0.0;
     brightness = request.brightness;
     edition = request.edition;
+    if (request.set) set = request.set->name;
     if (endless && thorough) {
       while (!outdated() && !interrupted) std::this_thread::yield();
       interrupted = false;
@@ -39,7 +40,21 @@ class ScriptedRenderer : public FrameRenderer {
     if (!request.compensated) drive.invertPixels();
     return {{drive}, 0.25, 2, 0.001, !restless};
   }
+  /// One that is called "gone" cannot be had.
+  std::shared_ptr<PreparedSet> prepare(const std::string& set) override {
+    while (holdsPreparing) std::this_thread::yield();
+    ++prepared;
+    if (set == "gone")
+      throw Error(ErrorKind::input, Message::plain("there is no set 'gone'"),
+                  Message::plain("choose another"));
+    auto made = std::make_shared<PreparedSet>();
+    made->name = set;
+    return made;
+  }
   void interrupt() override { interrupted = true; }
+  std::atomic<int> prepared{0};
+  std::string set;  // of the last frame that was asked for by one; while none is computed
+  std::atomic<bool> holdsPreparing{false};
   std::atomic<int> rendered{0};
   std::atomic<bool> broken{false}, thorough{false}, restless{false}, interrupted{false};
   std::vector<compensation::Position> positions;                     // of cameras; before a player has it

@@ -3,6 +3,7 @@
 #include "output/player.h"
 #include "relucent/base/message.h"
 
+#include <QScopeGuard>
 #include <QSignalSpy>
 #include <QtTest>
 #include <atomic>
@@ -132,6 +133,60 @@ class TestPlayer : public QObject {
     QVERIFY(player->moveViewer({0.5, 0, 0}));
     QTRY_VERIFY(renderer_->presence == 1.0 && renderer_->viewerX == 0.5);
     renderer_->endless = false;
+  }
+
+  /// Frames go on while a set is prepared, however long that takes; the newest wish is the one that is shown.
+  void aSetIsPreparedBesideTheFrames() {
+    auto player = playerOf(std::make_shared<Film>());
+    QSignalSpy shown(player.get(), &Player::setShown), failed(player.get(), &Player::setFailed);
+    player->start();
+    QTRY_COMPARE(renderer_->rendered.load(), 1);
+    const auto release = qScopeGuard([this] { renderer_->holdsPreparing = false; });  // or nobody ends
+    renderer_->holdsPreparing = true;
+    player->useSet("night");
+    player->useSet("day");  // somebody has changed his mind
+    for (int turn = 0; turn < 5; ++turn) {
+      const int before = renderer_->rendered;
+      hand_.now += 100ms;
+      QTRY_VERIFY(renderer_->rendered > before);
+      QVERIFY(!player->set() && shown.isEmpty());
+    }
+    renderer_->holdsPreparing = false;
+    QTRY_COMPARE(shown.size(), 1);
+    QCOMPARE(shown[0][0].value<std::string>(), std::string("day"));
+    QCOMPARE(renderer_->set, std::string("day"));
+    QVERIFY(player->set() == "day" && failed.isEmpty());
+    QCOMPARE(renderer_->prepared.load(), 2);
+    // Of the one that plays nothing is prepared.
+    player->useSet("day");
+    QVERIFY(player->set() == "day");
+    // What is prepared ahead is shown from the next frame on.
+    player->prepareSet("night");
+    QTRY_COMPARE(renderer_->prepared.load(), 3);
+    QVERIFY(player->set() == "day");
+    for (int turns = 0; turns < 50; ++turns) QCoreApplication::processEvents();
+    renderer_->holdsPreparing = true;
+    player->useSet("night");
+    QVERIFY(player->set() == "night");
+    QTRY_COMPARE(shown.size(), 2);
+    QCOMPARE(renderer_->prepared.load(), 3);
+  }
+
+  /// A set that cannot be had changes nothing but a sentence, which is told to whoever wants it.
+  void aSetThatCannotBeHadIsTold() {
+    auto player = playerOf(still());
+    QSignalSpy shown(player.get(), &Player::setShown), failed(player.get(), &Player::setFailed);
+    player->start();
+    QTRY_VERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
+    player->prepareSet("gone");
+    QTRY_COMPARE(renderer_->prepared.load(), 1);
+    for (int turns = 0; turns < 50; ++turns) QCoreApplication::processEvents();
+    QVERIFY(failed.isEmpty());
+    player->useSet("gone");
+    QTRY_COMPARE(failed.size(), 1);
+    QVERIFY(QString::fromStdString(english(failed[0][1].value<Message>())).contains("no set 'gone'"));
+    QVERIFY(!player->set() && shown.isEmpty() && player->isPlaying());
+    QVERIFY(seenOn("DUMMY1") == noise(projectorSize, 3));
   }
 
   void keysWalk_data() {

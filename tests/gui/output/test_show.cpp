@@ -23,6 +23,7 @@ class TestShow : public QObject {
 
   std::unique_ptr<QTemporaryDir> folder_;
   int made_ = 0;
+  std::string openedBy_;  // the set that the last renderer was made for
   bool broken_ = false, cannotBeMade_ = false;
 
   QString picture(const char* name, quint32 seed) {
@@ -46,7 +47,8 @@ class TestShow : public QObject {
     MachineClock clock{[this] { return wall_; }, [this] { return slept_; }};
     return std::make_unique<Show>(
         settings,
-        [this](const std::function<void(const QString&)>& warn) {
+        [this](const std::function<void(const QString&)>& warn, const std::string& set) {
+          openedBy_ = set;
           warn_ = warn;
           if (cannotBeMade_)
             throw Error(ErrorKind::input, Message::plain("the calibration is gone"),

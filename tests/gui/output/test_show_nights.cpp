@@ -46,7 +46,8 @@ struct ScriptedNights : ShowPhotography {
 
   Message whyNot() const override { return script->whyNot; }
   pipeline::VerifyResult check(Progress&) override { return {}; }
-  pipeline::PerfectedImage perfect(const std::filesystem::path&, const Canvas&, Progress&) override {
+  pipeline::PerfectedImage perfect(const std::filesystem::path&, const Canvas&, const std::string&,
+                                   Progress&) override {
     return {};
   }
   pipeline::NightRecord tend(const pipeline::NightSettings& work, bool switchesOn,
@@ -94,7 +95,7 @@ class TestShowNights : public QObject {
     MachineClock clock{[this] { return wall_; }, [] { return std::chrono::nanoseconds(0); }};
     return std::make_unique<Show>(
         settings,
-        [this](const std::function<void(const QString&)>&) {
+        [this](const std::function<void(const QString&)>&, const std::string&) {
           ++made_;
           auto renderer = std::make_unique<ScriptedRenderer>();
           renderer_ = renderer.get();

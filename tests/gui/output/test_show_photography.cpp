@@ -51,7 +51,7 @@ struct ScriptedPhotography : ShowPhotography {
     result.judgement = {acquisition::Verdict::remeasure, Message::plain("a chair has been moved")};
     return result;
   }
-  pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas&,
+  pipeline::PerfectedImage perfect(const std::filesystem::path& picture, const Canvas&, const std::string&,
                                    Progress& progress) override {
     script->picture = picture;
     work(progress);
@@ -82,7 +82,9 @@ class TestShowPhotography : public QObject {
     for (const QString& item : items) settings.content.items.append({item, 86400.0});
     return std::make_unique<Show>(
         settings,
-        [](const std::function<void(const QString&)>&) { return std::make_unique<ScriptedRenderer>(); },
+        [](const std::function<void(const QString&)>&, const std::string&) {
+          return std::make_unique<ScriptedRenderer>();
+        },
         MachineClock(), nullptr, std::make_unique<ScriptedPhotography>(script_));
   }
   QString state() const {
@@ -216,7 +218,7 @@ class TestShowPhotography : public QObject {
     QVERIFY(photography->check(quiet).judgement.verdict == acquisition::Verdict::stillGood);
     noise({24, 18}, 3).save(folder_->filePath("b.png"));
     const pipeline::PerfectedImage image =
-        photography->perfect(folder_->filePath("b.png").toStdString(), {{24, 18}, Fit::fill}, quiet);
+        photography->perfect(folder_->filePath("b.png").toStdString(), {{24, 18}, Fit::fill}, {}, quiet);
     QVERIFY2(image.failure.empty(), english(image.failure).c_str());
     QVERIFY(image.photographs > 0);
     pipeline::NightSettings night;

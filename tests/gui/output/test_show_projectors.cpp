@@ -59,7 +59,9 @@ class TestShowProjectors : public QObject {
     MachineClock clock{[this] { return wall_; }, [] { return std::chrono::nanoseconds(0); }};
     return std::make_unique<Show>(
         settings,
-        [](const std::function<void(const QString&)>&) { return std::make_unique<ScriptedRenderer>(); },
+        [](const std::function<void(const QString&)>&, const std::string&) {
+          return std::make_unique<ScriptedRenderer>();
+        },
         clock);
   }
   QJsonObject health() const {

@@ -22,6 +22,10 @@ class NotedActions : public RemoteActions {
   void setBrightness(double brightness) override { now.brightness = brightness; }
   void setChart(std::optional<TestChart> chart) override { now.chart = chart; }
   void playItem(qsizetype index) override { now.item = index; }
+  Message useSet(const QString& name) override {
+    now.set = name;
+    return {};
+  }
   Message moveViewer(const compensation::Position& position) override {
     if (whyNoViewer.empty()) viewer = position;
     return whyNoViewer;

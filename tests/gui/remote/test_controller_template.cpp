@@ -39,7 +39,8 @@ QList<std::vector<OscArgument>> sentBy(const QJsonObject& widget) {
          << std::vector<OscArgument>{widget["off"].toDouble()};
   if (type == "fader")
     for (double end : ends("range")) sent.append({OscArgument(end)});
-  if (type == "input") sent.append({OscArgument(1.0)});
+  if (type == "input")
+    sent.append({widget["numeric"].toBool() ? OscArgument(1.0) : OscArgument(QString("night"))});
   if (type == "dropdown")
     for (const QJsonValue& value : widget["values"].toArray()) sent.append({OscArgument(value.toString())});
   if (type == "xy")
@@ -107,6 +108,7 @@ class TestControllerTemplate : public QObject {
              QString("/brightness,f,0,1.5,,\"Brightness of white, relative to the calibration's.\""));
     QCOMPARE(lines.filter("/play,").first(), QString("/play,,,,,Content goes on."));
     QVERIFY(lines.filter("/item,").first().startsWith("/item,i,1,,,"));
+    QVERIFY(lines.filter("/set,").first().startsWith("/set,s,,,,"));
     QVERIFY(lines.filter("/chart,").first().startsWith("/chart,s,,,none grid "));
   }
 };

@@ -121,6 +121,23 @@ class TestRemoteControl : public QObject {
     QVERIFY(answered.size() == 1 && answered.front() == OscMessage({"/brightness", {0.5}}));
   }
 
+  /// What takes some seconds is begun, and told of when it is done; a question begins nothing.
+  void aSetIsBegunAndAskedFor() {
+    NotedActions actions;
+    RemoteControl control(*server_, actions, std::nullopt);
+    const std::vector<OscMessage> answered = answers({"/set", {QString("night")}});
+    QVERIFY(answered.size() == 2 && answered[0] == OscMessage({"/set/begun", {}}) &&
+            answered[1] == OscMessage({"/set", {QString("night")}}));
+    QCOMPARE(actions.now.set, QString("night"));
+    const std::vector<OscMessage> asked = answers({"/set", {}});
+    QVERIFY(asked.size() == 1 && asked.front() == OscMessage({"/set", {QString("night")}}));
+    for (const OscArgument& wrong : {OscArgument(1.0), OscArgument(QString())}) {
+      const std::vector<OscMessage> refused = answers({"/set", {wrong}});
+      QVERIFY(refused.size() == 1 && refused.front().address == "/error");
+    }
+    QCOMPARE(actions.now.set, QString("night"));
+  }
+
   void whatCannotBeDoneIsSaid_data() {
     QTest::addColumn<QString>("address");
     QTest::addColumn<QVariantList>("arguments");

@@ -121,6 +121,10 @@ void OutputProjection::play() {
       if (key == Qt::Key_Escape) closeLater();
       Q_EMIT changed();
     });
+  connect(player_.get(), &Player::setFailed, this, [this](const std::string&, const Message& sentence) {
+    Q_EMIT failed({ErrorKind::input, fullSentence(sentence), tr("The output goes on as before."),
+                   QString::fromStdString(englishSentence(sentence))});
+  });
   connect(player_.get(), &Player::failed, this, [this, closeLater](const Message& sentence) {
     closeLater();
     Q_EMIT failed({ErrorKind::device, fullSentence(sentence), tr("Open the output again."),

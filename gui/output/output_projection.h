@@ -46,6 +46,10 @@ class OutputProjection : public QObject {
   QString stage() const { return job_.stage(); }
   std::optional<double> fraction() const { return job_.fraction(); }
 
+  /// As another set of the calibration has it, once that is prepared; until then as before.
+  void useSet(const std::string& name) {
+    if (player_) player_->useSet(name);
+  }
   /// Another list from the next frame on.
   void setList(const PlaylistSettings& list);
   bool isBlack() const { return player_ && player_->isBlack(); }

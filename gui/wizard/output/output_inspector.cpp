@@ -17,6 +17,7 @@
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
 #include "wizard/output/repair_part.h"
+#include "wizard/output/sets_part.h"
 
 namespace relucent::gui {
 namespace {
@@ -270,6 +271,7 @@ QWidget* outputInspector(OutputPage& page) {
   auto* moved = new Note(Note::Kind::information);
   moved->setObjectName("moved-screen");
   column->addWidget(moved);
+  column->addWidget(setsPart(page));
   column->addWidget(labelOf(OutputPage::tr("Playlist"), "section"));
   column->addWidget(playlistPart(page));
   auto* method = new Note(Note::Kind::information);

@@ -337,6 +337,32 @@ void OutputPage::setFade(double seconds) {
   edit(tr("Cross-fade"), after);
 }
 
+QString OutputPage::whyNoSets() const {
+  if (session_.setsFailure()) return session_.setsFailure()->what + ' ' + session_.setsFailure()->advice;
+  if (playsEarlier()) return tr("The earlier correction plays. Show the new one first.");
+  return session_.whyLocked(stepName);
+}
+
+void OutputPage::useSet(const std::string& name) {
+  if (!whyNoSets().isEmpty() || name == sets().nameInUse()) return;
+  const bool plays = isOpen() && !earlier_;
+  try {
+    session_.changeSets([&](calibration::CalibrationFolder& folder) { pipeline::useSet(folder, name); });
+  } catch (...) {
+    return tell(failureOf(std::current_exception()));
+  }
+  if (!plays) return;
+  playsFrom_ = session_.shownFrom();
+  projection_.useSet(name);
+  tellAll();
+}
+
+void OutputPage::setTimes(const QList<SetTime>& times) {
+  PlaylistSettings after = playlist_.settings();
+  after.sets = times;
+  edit(tr("Times of sets"), after);
+}
+
 QString OutputPage::stillMethod() const {
   const compensation::Method method = session_.settings().content.method;
   return method == compensation::Method::refined ? QString() : methodName(method);

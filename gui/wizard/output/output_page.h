@@ -65,6 +65,14 @@ class OutputPage : public DevicePage {
   void setRepeat(bool repeat);
   void setFade(double seconds);
 
+  /// The calibration's set in use, which plays. What plays goes on as it is until another one is prepared.
+  const pipeline::TargetSets& sets() const { return session_.sets(); }
+  void useSet(const std::string& name);
+  /// Why no other one can be chosen now; empty: it can.
+  QString whyNoSets() const;
+  /// When the installed show changes sets.
+  void setTimes(const QList<SetTime>& times);
+
   bool isOpen() const { return projection_.isOpen(); }
   /// It is open, and a projector's screen is unplugged.
   bool isScreenLost() const { return isOpen() && projectorWithoutScreen().has_value(); }

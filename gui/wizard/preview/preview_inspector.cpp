@@ -12,6 +12,7 @@
 #include "wizard/preview/light_part.h"
 #include "wizard/preview/mask_part.h"
 #include "wizard/preview/preview_page.h"
+#include "wizard/preview/set_part.h"
 #include "wizard/preview/views_part.h"
 
 namespace relucent::gui {
@@ -36,6 +37,7 @@ QString expectationText(const PreviewPage& page) {
 QWidget* previewInspector(PreviewPage& page) {
   QVBoxLayout* column = nullptr;
   QWidget* card = inspectorCard(column);
+  column->addWidget(setPart(page));
   column->addWidget(labelOf(PreviewPage::tr("Content"), "section"));
   auto* row = new QHBoxLayout;
   row->addWidget(new IconLabel(Icon::picture, secondaryColour, 22));

@@ -57,6 +57,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             adoptContent(preview_->picture, preview_->content);
             findContradiction(predicted.first);
             compareNext();
+            acceptSet();
             tellAll();
           },
           [this](const Failure& failure) { refuse(failure); }),
@@ -104,6 +105,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   if (session_.isOpen()) settings_ = session_.settings().content;
+  set_ = session_.sets().nameInUse();
   shine_ = addCommand(Icon::projector, [this] { isShining() ? stopShining() : shine(); });
   compare_ = addCommand(Icon::picture, [this] { setShinesCorrected(!shinesCorrected()); });
   connect(&surface_, &SurfacePictures::changed, this, &PreviewPage::surfaceChanged);
@@ -113,6 +115,8 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     finish();
     masks_.choose(std::nullopt);
     settings_ = session_.settings().content;
+    set_ = session_.sets().nameInUse();
+    isOtherSet_ = false;
     engine_ = nullptr;
     preview_ = nullptr;
     contradiction_ = nullptr;
@@ -123,6 +127,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
     looked_ = false;
   });
   connect(&session_, &Session::stepsChanged, this, [this] {
+    followSet();
     if (looked_) prepare();
     tellAll();
   });

@@ -74,6 +74,16 @@ class PreviewPage : public DevicePage {
   std::vector<double> viewerShares() const;
   /// What stands against the last place that was asked for; empty: nothing.
   const QString& problem() const { return problem_; }
+  /// Sets of the calibration. What was changed here is kept in the one in use before another one is; a new
+  /// one has it alone.
+  const pipeline::TargetSets& sets() const { return session_.sets(); }
+  void useSet(const std::string& name);
+  void saveSet(const std::string& name);
+  void renameSet(const std::string& to);
+  /// That in use, which then is the content without a name, or the first other one.
+  void removeSet();
+  /// Why they cannot be changed now; empty: they can.
+  QString whyNoSets() const;
   /// Read on another thread. Tells failed() if it is no picture; the one before stays.
   void choosePicture(const QString& file);
   QString pictureName() const;
@@ -125,6 +135,10 @@ class PreviewPage : public DevicePage {
   void findContradiction(const pipeline::ContentSettings& settings);
   void forgetTable();
   void accept();
+  void changeSets(const std::function<void(calibration::CalibrationFolder&)>& how);
+  void followSet();
+  void keepIn(calibration::CalibrationFolder& folder) const;
+  void acceptSet();
   bool keepPlacement();
   void lookAtPicture();
   const std::vector<QImage>& sent() const;
@@ -150,7 +164,9 @@ class PreviewPage : public DevicePage {
   Latest<Contradicting> contradicting_;
   Latest<std::pair<int, MethodPreview>> comparing_;
   Latest<std::pair<std::string, std::shared_ptr<const image::Image>>> reading_;
-  bool looked_ = false;  // now
+  bool looked_ = false;      // now
+  std::string set_;          // that the settings are of
+  bool isOtherSet_ = false;  // and nobody has seen yet what it gives
   bool shinesCorrected_ = true;
   SurfacePictures surface_;
   Perfecting perfecting_;

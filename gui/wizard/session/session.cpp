@@ -184,6 +184,8 @@ void Session::close() {
   stages_ = {};
   figures_ = {};
   settings_ = {};
+  sets_ = {};
+  setsFailure_.reset();
   Q_EMIT opened();
   Q_EMIT stepsChanged();
   Q_EMIT acquisitionChanged();
@@ -200,6 +202,13 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   photographsRemoved_ = pipeline::werePhotographsRemoved(folder);
   shownFrom_ = pipeline::fingerprintOfShown(folder);
   correction_ = pipeline::fingerprintOfCorrection(folder);
+  sets_ = {};
+  setsFailure_.reset();
+  try {
+    sets_ = pipeline::setsOf(folder);
+  } catch (const Error&) {
+    setsFailure_ = failureOf(std::current_exception());
+  }
   figures_ = calibration::resultsIn(folder);
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),

@@ -23,6 +23,7 @@
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/warm_up.h"
 #include "relucent/venue/surprises.h"
@@ -195,6 +196,12 @@ class Session : public QObject {
   /// transport::isPoor(). None: they will be.
   std::optional<double> poorQuality() const;
 
+  /// The calibration's sets (pipeline/sets.h); none, too, where they cannot be read.
+  const pipeline::TargetSets& sets() const { return sets_; }
+  /// Why they cannot; none: they can.
+  const std::optional<Failure>& setsFailure() const { return setsFailure_; }
+  /// By the functions of pipeline/sets.h. Throws: as they do.
+  void changeSets(const std::function<void(calibration::CalibrationFolder&)>& how) { change(how); }
   /// Throws: Error{disk}.
   void changeSettings(const pipeline::CalibrateSettings& settings);
   /// Keeps what somebody decided at a stage. Throws: Error{disk}.
@@ -331,6 +338,8 @@ class Session : public QObject {
   pipeline::KeptPhotographs keptPhotographs_ = pipeline::KeptPhotographs::everything;
   bool photographsRemoved_ = false;
   std::string shownFrom_, correction_;
+  pipeline::TargetSets sets_;
+  std::optional<Failure> setsFailure_;
   std::vector<pipeline::ScreenRigSettings::Display> measuredDisplays_;
   std::array<StageState, calibration::stageCount> stages_;
   calibration::StageResults figures_;

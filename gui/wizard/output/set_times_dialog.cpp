@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "wizard/output/set_times_dialog.h"
+
+#include <QComboBox>
+#include <QLocale>
+#include <QTimeEdit>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "theme/controls.h"
+
+namespace relucent::gui {
+
+SetTimesDialog::SetTimesDialog(const QStringList& sets, const QList<SetTime>& times, QWidget* parent)
+    : QDialog(parent), times_(times) {
+  setWindowTitle(tr("Sets by the time of the day"));
+  setObjectName("set-times-dialog");
+  setMinimumWidth(480);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(28, 28, 28, 24);
+  column->setSpacing(12);
+  column->addWidget(labelOf(windowTitle(), "title"));
+  column->addWidget(labelOf(
+      tr("From each time on the installed show plays that set, every day, until the next time."), "note"));
+  column->addWidget(list_ = new QListWidget);
+  list_->setObjectName("set-times-list");
+  list_->setAccessibleName(windowTitle());
+  column->addWidget(addRow(sets));
+  column->addWidget(buttonRow());
+  connect(list_, &QListWidget::currentRowChanged, this, [this](int row) { remove_->setEnabled(row >= 0); });
+  refresh();
+}
+
+QWidget* SetTimesDialog::addRow(const QStringList& sets) {
+  auto* line = new QWidget;
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  from_ = new QTimeEdit(QTime(18, 0));
+  from_->setObjectName("set-time");
+  from_->setAccessibleName(tr("From this time on"));
+  set_ = new QComboBox;
+  set_->setObjectName("set-of-time");
+  set_->setAccessibleName(tr("Set"));
+  set_->addItems(sets);
+  QPushButton* add = buttonOf(tr("Add"));
+  add->setObjectName("add-set-time");
+  remove_ = buttonOf(tr("Remove"));
+  remove_->setObjectName("remove-set-time");
+  row->addWidget(from_);
+  row->addWidget(set_, 1);
+  row->addWidget(add);
+  row->addWidget(remove_);
+  // Of one time there is one set.
+  connect(add, &QPushButton::clicked, this, [this] {
+    const SetTime added{QTime(from_->time().hour(), from_->time().minute()), set_->currentText()};
+    times_.removeIf([&](const SetTime& time) { return time.from == added.from; });
+    times_.append(added);
+    refresh();
+  });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (list_->currentRow() >= 0) times_.removeAt(list_->currentRow());
+    refresh();
+  });
+  return line;
+}
+
+QWidget* SetTimesDialog::buttonRow() {
+  auto* buttons = new QWidget;
+  auto* row = new QHBoxLayout(buttons);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addStretch(1);
+  QPushButton* cancel = buttonOf(tr("Cancel"));
+  cancel->setObjectName("set-times-cancel");
+  QPushButton* keep = buttonOf(tr("Apply"), "primary");
+  keep->setObjectName("set-times-do");
+  keep->setDefault(true);
+  row->addWidget(cancel);
+  row->addWidget(keep);
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  connect(keep, &QPushButton::clicked, this, [this] {
+    Q_EMIT chosen(times_);
+    accept();
+  });
+  return buttons;
+}
+
+void SetTimesDialog::refresh() {
+  std::ranges::sort(times_, {}, &SetTime::from);
+  list_->clear();
+  for (const SetTime& time : times_)
+    list_->addItem(tr("%1: %2").arg(QLocale().toString(time.from, QLocale::ShortFormat), time.set));
+  remove_->setEnabled(list_->currentRow() >= 0);
+}
+
+}  // namespace relucent::gui

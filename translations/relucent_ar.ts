@@ -1411,6 +1411,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -6129,6 +6136,34 @@ projector %2</source>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>تستمر قائمة التشغيل دون أن تُرى حتى تُظهرها من جديد.</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>يُعرض التصحيح السابق. أظهر الجديد أولًا.</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>أوقات المجموعات</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>المجموعة</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>أوقات اليوم…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>يستخدم العرض المثبّت هذه المجموعة طوال اليوم.</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>يبدّل العرض المثبّت: %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6150,6 +6185,10 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1، يُعرض من دون OpenGL</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>يستمر الإخراج كما كان.</translation>
     </message>
 </context>
 <context>
@@ -6858,6 +6897,42 @@ projector %2</source>
         <source>errors weighed as an eye does</source>
         <translation>أخطاء موزونة كما تراها العين</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>لا يوجد مكان مفتوح.</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>بقيت المجموعات كما كانت.</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>المجموعة</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>بلا اسم</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>المزيد</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>المزيد للمجموعة</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>حفظ باسم…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>إعادة تسمية…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>إزالة</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6887,6 +6962,88 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>حفظ كمجموعة</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>إعادة تسمية مجموعة</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>الاسم</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>نهار، ليل، صف مدرسي</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>يصبح ما تراه هذه المجموعة، وتجري التغييرات فيها من الآن فصاعدًا.</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>يجب أيضًا تغيير قوائم التشغيل وأجهزة التحكم التي تستدعيها باسمها الحالي.</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>حفظ</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>إعادة تسمية</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>توجد مجموعة بهذا الاسم بالفعل.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>المجموعات حسب وقت اليوم</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>من كل وقت يستخدم العرض المثبّت تلك المجموعة، يوميًا، حتى الوقت التالي.</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>من هذا الوقت</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>المجموعة</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>إضافة</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>إزالة</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>تطبيق</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>
@@ -7231,6 +7388,10 @@ projector %2</source>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>الزمن من المرسل بحسب ساعته (م‌ث)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>المجموعة</translation>
     </message>
 </context>
 <context>
@@ -8536,6 +8697,30 @@ projector %2</source>
         <source>Setting up another</source>
         <translation>إعداد موقع آخر</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8678,6 +8863,104 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}؛ {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>اختر اسمًا آخر، مثل نهار أو صف مدرسي</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>اختر واحدة من {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>تتعذر قراءة مجموعات هذه المعايرة</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>المجموعة «{}» مستخدمة</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>تحتاج المجموعة إلى اسم</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>اسم المجموعة نص عادي لا يبدأ بمسافة ولا ينتهي بها</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>توجد مجموعة «{}» بالفعل</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>لا يزيد اسم المجموعة على {} بايت</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>كتب إصدار أحدث من Relucent مجموعات هذه المعايرة</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>احذف «sets» من الإعدادات في {}، أو انسخ المعايرة مجددًا من حيث أُنشئت</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>ليس لهذه المعايرة مجموعات بعد: احفظ واحدة أولًا</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>لا توجد مجموعة «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>استخدم غيرها أولًا</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9625,6 +9908,13 @@ projector %2</source>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>اختر مجلدًا يمكنك الكتابة فيه، وفيه مساحة كافية</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

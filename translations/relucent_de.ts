@@ -1387,6 +1387,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5985,6 +5992,34 @@ Projektor %2</translation>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>Die Playlist läuft ungesehen weiter, bis Sie sie wieder zeigen.</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>Es läuft noch die frühere Korrektur. Zeigen Sie erst die neue.</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>Zeiten der Varianten</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>Tageszeiten…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>Die installierte Show spielt diese den ganzen Tag.</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>Die installierte Show wechselt: %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6006,6 +6041,10 @@ Projektor %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, ohne OpenGL gezeigt</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>Die Ausgabe läuft weiter wie bisher.</translation>
     </message>
 </context>
 <context>
@@ -6706,6 +6745,42 @@ Projektor %2</translation>
         <source>errors weighed as an eye does</source>
         <translation>Fehler, wie das Auge sie wiegt</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Es ist kein Ort geöffnet.</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>Die Varianten sind, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>Ohne Namen</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Mehr</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>Mehr zur Variante</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Speichern als…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Umbenennen…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6735,6 +6810,88 @@ Projektor %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>Als Variante speichern</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>Variante umbenennen</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>Tag, Nacht, Schulklasse</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>Was Sie sehen, wird diese Variante und ab jetzt in ihr geändert.</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>Wiedergabelisten und Steuerungen, die sie bei ihrem jetzigen Namen nennen, müssen auch geändert werden.</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>Es gibt schon eine Variante dieses Namens.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>Varianten nach der Tageszeit</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>Ab jeder Zeit spielt die installierte Show diese Variante, täglich, bis zur nächsten Zeit.</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>Ab dieser Zeit</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Übernehmen</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>
@@ -7075,6 +7232,10 @@ Projektor %2</translation>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>Zeit vom Sender, nach dessen Uhr (ms)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
     </message>
 </context>
 <context>
@@ -8336,6 +8497,30 @@ Projektor %2</translation>
         <source>Setting up another</source>
         <translation>Ein anderer wird eingerichtet</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8478,6 +8663,104 @@ Projektor %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>wählen Sie einen anderen Namen, etwa Tag oder Schulklasse</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>wählen Sie eine von {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>die Varianten dieser Kalibrierung sind nicht lesbar</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>die Variante „{}“ wird gerade verwendet</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>eine Variante braucht einen Namen</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>der Name einer Variante ist einfacher Text, der weder mit einem Leerzeichen beginnt noch endet</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>es gibt schon eine Variante „{}“</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>der Name einer Variante hat höchstens {} Bytes</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>ein neueres Relucent hat die Varianten dieser Kalibrierung geschrieben</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>nehmen Sie „sets“ aus den Einstellungen in {}, oder kopieren Sie die Kalibrierung noch einmal von dort, wo sie entstand</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>diese Kalibrierung hat noch keine Varianten: speichern Sie erst eine</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>es gibt keine Variante „{}“</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>verwenden Sie erst eine andere</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9417,6 +9700,13 @@ Projektor %2</translation>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>wählen Sie einen Ordner, in den Sie schreiben dürfen und in dem Platz ist</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

@@ -1387,6 +1387,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5985,6 +5992,34 @@ proyector %2</translation>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>La lista sigue sin verse hasta que la muestre de nuevo.</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>Se muestra la corrección anterior. Muestre primero la nueva.</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>Horas de las variantes</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>Horas del día…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>El show instalado muestra esta todo el día.</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>El show instalado cambia: %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6006,6 +6041,10 @@ proyector %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, mostrado sin OpenGL</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>La salida sigue como antes.</translation>
     </message>
 </context>
 <context>
@@ -6706,6 +6745,42 @@ proyector %2</translation>
         <source>errors weighed as an eye does</source>
         <translation>errores pesados como lo hace el ojo</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>No hay ningún lugar abierto.</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>Las variantes siguen como estaban.</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>Sin nombre</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Más</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>Más sobre la variante</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Guardar como…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Cambiar nombre…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6735,6 +6810,88 @@ proyector %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>Guardar como variante</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>Cambiar el nombre de una variante</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>Día, noche, clase escolar</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>Lo que ve pasa a ser esta variante, y a partir de ahora se cambia en ella.</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>También hay que cambiar las listas y los controladores que la llaman por su nombre actual.</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Guardar</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Cambiar nombre</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>Ya hay una variante con este nombre.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>Variantes según la hora del día</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>Desde cada hora, el show instalado muestra esa variante, todos los días, hasta la hora siguiente.</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>Desde esta hora</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Añadir</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Quitar</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Aplicar</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>
@@ -7075,6 +7232,10 @@ proyector %2</translation>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>Tiempo desde el emisor, según su reloj (ms)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
     </message>
 </context>
 <context>
@@ -8336,6 +8497,30 @@ proyector %2</translation>
         <source>Setting up another</source>
         <translation>Se prepara otro</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8478,6 +8663,104 @@ proyector %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>elija otro nombre, como día o clase escolar</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>elija una de {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>no se pueden leer las variantes de esta calibración</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>la variante «{}» está en uso</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>una variante necesita un nombre</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>el nombre de una variante es texto sencillo que no empieza ni termina con un espacio</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>ya hay una variante «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>el nombre de una variante tiene como máximo {} bytes</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>un Relucent más reciente escribió las variantes de esta calibración</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>quite «sets» de los ajustes en {}, o copie de nuevo la calibración desde donde se hizo</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>esta calibración aún no tiene variantes: guarde primero una</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>no hay ninguna variante «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>use primero otra</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9417,6 +9700,13 @@ proyector %2</translation>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>elija una carpeta en la que pueda escribir y con espacio libre</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

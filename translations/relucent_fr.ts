@@ -1387,6 +1387,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5985,6 +5992,34 @@ projecteur %2</translation>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>La liste de lecture continue sans être vue jusqu’à ce que vous la réaffichiez.</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>La correction précédente est diffusée. Montrez d’abord la nouvelle.</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>Heures des variantes</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>Heures du jour…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1&#xa0;: %2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>La diffusion installée la montre toute la journée.</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>La diffusion installée change&#xa0;: %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6006,6 +6041,10 @@ projecteur %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, affiché sans OpenGL</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>La sortie continue comme avant.</translation>
     </message>
 </context>
 <context>
@@ -6706,6 +6745,42 @@ projecteur %2</translation>
         <source>errors weighed as an eye does</source>
         <translation>erreurs pesées comme par l’œil</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Aucun lieu n’est ouvert.</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>Les variantes sont restées telles quelles.</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>Sans nom</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Plus</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>Plus pour la variante</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Enregistrer sous…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Renommer…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Supprimer</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6735,6 +6810,88 @@ projecteur %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>Enregistrer comme variante</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>Renommer une variante</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>Jour, nuit, classe</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>Ce que vous voyez devient cette variante, et y est modifié désormais.</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>Les listes de lecture et les contrôleurs qui l’appellent par son nom actuel doivent aussi être modifiés.</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Enregistrer</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Renommer</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>Il existe déjà une variante de ce nom.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>Variantes selon l’heure du jour</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>À partir de chaque heure, la diffusion installée montre cette variante, tous les jours, jusqu’à l’heure suivante.</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>À partir de cette heure</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Ajouter</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Appliquer</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1&#xa0;: %2</translation>
     </message>
 </context>
 <context>
@@ -7075,6 +7232,10 @@ projecteur %2</translation>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>Temps depuis l’émetteur, selon son horloge (ms)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
     </message>
 </context>
 <context>
@@ -8336,6 +8497,30 @@ projecteur %2</translation>
         <source>Setting up another</source>
         <translation>Un autre est en préparation</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8478,6 +8663,104 @@ projecteur %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}&#x202f;; {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>choisissez un autre nom, comme jour ou classe</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>choisissez parmi {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>les variantes de ce calibrage sont illisibles</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>la variante «&#xa0;{}&#xa0;» est utilisée</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>une variante doit avoir un nom</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>le nom d’une variante est un texte simple qui ne commence ni ne finit par une espace</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>il existe déjà une variante «&#xa0;{}&#xa0;»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>le nom d’une variante a au plus {} octets</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>un Relucent plus récent a écrit les variantes de ce calibrage</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>retirez «&#xa0;sets&#xa0;» des réglages dans {}, ou copiez de nouveau le calibrage depuis l’endroit où il a été fait</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>ce calibrage n’a pas encore de variantes&#xa0;: enregistrez-en d’abord une</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>il n’y a pas de variante «&#xa0;{}&#xa0;»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>utilisez-en d’abord une autre</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9417,6 +9700,13 @@ projecteur %2</translation>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>choisissez un dossier où vous avez le droit d’écrire et où il reste de l’espace</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

@@ -1387,6 +1387,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5985,6 +5992,34 @@ proiettore %2</translation>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>La playlist prosegue non vista finché non la si mostra di nuovo.</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>È in riproduzione la correzione precedente. Mostrare prima la nuova.</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>Orari delle varianti</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>Orari del giorno…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>Lo show installato mostra questa per tutto il giorno.</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>Lo show installato cambia: %1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -6006,6 +6041,10 @@ proiettore %2</translation>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1, mostrato senza OpenGL</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>L’uscita continua come prima.</translation>
     </message>
 </context>
 <context>
@@ -6706,6 +6745,42 @@ proiettore %2</translation>
         <source>errors weighed as an eye does</source>
         <translation>errori pesati come fa l’occhio</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Nessun luogo è aperto.</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>Le varianti sono rimaste com’erano.</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>Senza nome</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>Altro</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>Altro per la variante</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Salva come…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>Rinomina…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Rimuovi</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6735,6 +6810,88 @@ proiettore %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>Salva come variante</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>Rinomina una variante</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>Giorno, notte, scolaresca</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>Ciò che si vede diventa questa variante, e da ora in poi si modifica in essa.</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>Vanno modificati anche le playlist e i controller che la chiamano con il nome attuale.</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Salva</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Rinomina</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>Esiste già una variante con questo nome.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>Varianti secondo l’ora del giorno</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>Da ogni orario lo show installato mostra quella variante, ogni giorno, fino all’orario successivo.</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>Da quest’ora</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Aggiungi</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Rimuovi</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Applica</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>
@@ -7075,6 +7232,10 @@ proiettore %2</translation>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>Tempo dal mittente, secondo il suo orologio (ms)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>Variante</translation>
     </message>
 </context>
 <context>
@@ -8336,6 +8497,30 @@ proiettore %2</translation>
         <source>Setting up another</source>
         <translation>Se ne configura un altro</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8478,6 +8663,104 @@ proiettore %2</translation>
     <message>
         <source>{}; {}</source>
         <translation>{}; {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>scegliere un altro nome, come giorno o scolaresca</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>scegliere tra {}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>le varianti di questa calibrazione non sono leggibili</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>la variante «{}» è in uso</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>una variante deve avere un nome</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>il nome di una variante è testo semplice che non inizia né finisce con uno spazio</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>esiste già una variante «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>il nome di una variante ha al massimo {} byte</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>un Relucent più recente ha scritto le varianti di questa calibrazione</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>togliere «sets» dalle impostazioni in {}, o copiare di nuovo la calibrazione da dove è stata fatta</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>questa calibrazione non ha ancora varianti: salvarne prima una</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>non esiste una variante «{}»</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>usarne prima un’altra</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9417,6 +9700,13 @@ proiettore %2</translation>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>scegliere una cartella in cui è consentito scrivere, con spazio libero</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

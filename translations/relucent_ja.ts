@@ -1381,6 +1381,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5949,6 +5956,34 @@ projector %2</source>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>もう一度表示するまで、プレイリストは見えないまま進みます。</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>以前の補正が再生されています。先に新しい補正を表示してください。</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>セットの時刻</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>セット</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>時刻…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>登録したショーは終日このセットで再生します。</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>登録したショーの切り替え：%1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5970,6 +6005,10 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1、OpenGL なしで表示</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>出力はこれまでどおり続きます。</translation>
     </message>
 </context>
 <context>
@@ -6668,6 +6707,42 @@ projector %2</source>
         <source>errors weighed as an eye does</source>
         <translation>目の感じ方で誤差を重み付け</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>会場が開かれていません。</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>セットは元のままです。</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>セット</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>名前なし</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>その他</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>セットのその他の操作</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>名前を付けて保存…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>名前を変更…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6697,6 +6772,88 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>セットとして保存</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>セットの名前を変更</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>昼、夜、学校の団体</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>今見えている状態がこのセットになり、以後の変更はこのセットに加えられます。</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>現在の名前で呼び出しているプレイリストやコントローラーも変更する必要があります。</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>名前を変更</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>この名前のセットはすでにあります。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>時刻によるセット</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>登録したショーは毎日、各時刻から次の時刻までそのセットで再生します。</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>この時刻から</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>セット</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>追加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>削除</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>適用</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
     </message>
 </context>
 <context>
@@ -7036,6 +7193,10 @@ projector %2</source>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>送信元からの時間、送信元の時計による (ms)</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>セット</translation>
     </message>
 </context>
 <context>
@@ -8286,6 +8447,30 @@ projector %2</source>
         <source>Setting up another</source>
         <translation>別の会場を設定中</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8428,6 +8613,104 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>「昼」や「学校の団体」など、別の名前を選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>{} から選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>この校正のセットを読み取れません</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>セット「{}」は使用中です</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>セットには名前が必要です</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>セットの名前は、先頭と末尾に空白のない普通の文字列です</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>セット「{}」はすでにあります</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>セットの名前は最大 {} バイトです</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>この校正のセットは、より新しい Relucent が書き込んだものです</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>{} の設定から「sets」を取り除くか、作成元から校正をもう一度コピーしてください</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>この校正にはまだセットがありません。先に保存してください</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>セット「{}」はありません</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>先に別のものを使ってください</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9365,6 +9648,13 @@ projector %2</source>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>書き込めて空き容量のあるフォルダーを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

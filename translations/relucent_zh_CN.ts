@@ -1381,6 +1381,13 @@
     </message>
 </context>
 <context>
+    <name>device.command-without-consent</name>
+    <message>
+        <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>device.command-wrote-nothing</name>
     <message>
         <source>the command ended well but wrote nothing, not {}</source>
@@ -5949,6 +5956,34 @@ projector %2</source>
         <source>The playlist runs on unseen until you show it again.</source>
         <translation>播放列表在不可见的状态下继续，直到您再次显示。</translation>
     </message>
+    <message>
+        <source>The earlier correction plays. Show the new one first.</source>
+        <translation>正在播放较早的补偿。请先显示新的补偿。</translation>
+    </message>
+    <message>
+        <source>Times of sets</source>
+        <translation>方案的时间</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>方案</translation>
+    </message>
+    <message>
+        <source>Times of the day…</source>
+        <translation>时间安排…</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>The installed show plays this one all day.</source>
+        <translation>已安装的节目全天使用此方案。</translation>
+    </message>
+    <message>
+        <source>The installed show changes: %1</source>
+        <translation>已安装的节目将切换：%1</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -5970,6 +6005,10 @@ projector %2</source>
     <message>
         <source>%1, shown without OpenGL</source>
         <translation>%1，不用 OpenGL 显示</translation>
+    </message>
+    <message>
+        <source>The output goes on as before.</source>
+        <translation>输出照旧进行。</translation>
     </message>
 </context>
 <context>
@@ -6668,6 +6707,42 @@ projector %2</source>
         <source>errors weighed as an eye does</source>
         <translation>误差按人眼加权</translation>
     </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>没有打开的场地。</translation>
+    </message>
+    <message>
+        <source>The sets are as they were.</source>
+        <translation>方案保持原样。</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>方案</translation>
+    </message>
+    <message>
+        <source>Without a name</source>
+        <translation>未命名</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
+    </message>
+    <message>
+        <source>More for the set</source>
+        <translation>方案的更多操作</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>另存为…</translation>
+    </message>
+    <message>
+        <source>Rename…</source>
+        <translation>重命名…</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6697,6 +6772,88 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1正在进行。结束后才能保留此处的选择。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetNameDialog</name>
+    <message>
+        <source>Save as a set</source>
+        <translation>另存为方案</translation>
+    </message>
+    <message>
+        <source>Rename a set</source>
+        <translation>重命名方案</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名称</translation>
+    </message>
+    <message>
+        <source>Day, night, school class</source>
+        <translation>白天、夜晚、学生团体</translation>
+    </message>
+    <message>
+        <source>What you see becomes this set, and is changed in it from now on.</source>
+        <translation>您看到的内容成为此方案，今后的更改都在其中进行。</translation>
+    </message>
+    <message>
+        <source>Playlists and controllers that call it by its present name have to be changed, too.</source>
+        <translation>以当前名称调用它的播放列表和控制器也须更改。</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>保存</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>重命名</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>There is a set of this name already.</source>
+        <translation>已有同名方案。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::SetTimesDialog</name>
+    <message>
+        <source>Sets by the time of the day</source>
+        <translation>按时间切换方案</translation>
+    </message>
+    <message>
+        <source>From each time on the installed show plays that set, every day, until the next time.</source>
+        <translation>已安装的节目每天从每个时间起使用该方案，直到下一个时间。</translation>
+    </message>
+    <message>
+        <source>From this time on</source>
+        <translation>从此时间起</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>方案</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>添加</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>应用</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
     </message>
 </context>
 <context>
@@ -7036,6 +7193,10 @@ projector %2</source>
     <message>
         <source>Time from the sender, by its clock (ms)</source>
         <translation>自发送端起的时间，按其时钟（毫秒）</translation>
+    </message>
+    <message>
+        <source>Set</source>
+        <translation>方案</translation>
     </message>
 </context>
 <context>
@@ -8286,6 +8447,30 @@ projector %2</source>
         <source>Setting up another</source>
         <translation>正在设置另一个</translation>
     </message>
+    <message>
+        <source>Allow them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open without them</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Programs of a venue</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Allow them if you know what they do, or know who made this venue.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>
@@ -8428,6 +8613,104 @@ projector %2</source>
     <message>
         <source>{}; {}</source>
         <translation>{}。{}</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-name</name>
+    <message>
+        <source>choose another name, as day or school class</source>
+        <translation>请选择其他名称，如“白天”或“学生团体”</translation>
+    </message>
+</context>
+<context>
+    <name>sets.choose-one</name>
+    <message>
+        <source>choose one of {}</source>
+        <translation>请从 {} 中选择</translation>
+    </message>
+</context>
+<context>
+    <name>sets.damaged</name>
+    <message>
+        <source>the sets of this calibration cannot be read</source>
+        <translation>无法读取此校准的方案</translation>
+    </message>
+</context>
+<context>
+    <name>sets.in-use</name>
+    <message>
+        <source>the set &apos;{}&apos; is in use</source>
+        <translation>方案“{}”正在使用</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-empty</name>
+    <message>
+        <source>a set needs a name</source>
+        <translation>方案需要名称</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-odd</name>
+    <message>
+        <source>the name of a set is plain text that neither begins nor ends with a space</source>
+        <translation>方案名称为纯文本，首尾不能有空格</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-taken</name>
+    <message>
+        <source>there is a set &apos;{}&apos; already</source>
+        <translation>已有方案“{}”</translation>
+    </message>
+</context>
+<context>
+    <name>sets.name-too-long</name>
+    <message>
+        <source>the name of a set has at most {} bytes</source>
+        <translation>方案名称最多 {} 字节</translation>
+    </message>
+</context>
+<context>
+    <name>sets.of-newer-version</name>
+    <message>
+        <source>a newer Relucent wrote the sets of this calibration</source>
+        <translation>此校准的方案由更新版本的 Relucent 写入</translation>
+    </message>
+</context>
+<context>
+    <name>sets.remove-section</name>
+    <message>
+        <source>take &quot;sets&quot; out of the settings in {}, or copy the calibration again from where it was made</source>
+        <translation>请从 {} 的设置中去掉“sets”，或从制作处重新复制校准</translation>
+    </message>
+</context>
+<context>
+    <name>sets.save-first</name>
+    <message>
+        <source>this calibration has no sets yet: save one first</source>
+        <translation>此校准还没有方案：请先保存一个</translation>
+    </message>
+</context>
+<context>
+    <name>sets.unknown</name>
+    <message>
+        <source>there is no set &apos;{}&apos;</source>
+        <translation>没有方案“{}”</translation>
+    </message>
+</context>
+<context>
+    <name>sets.use-another-first</name>
+    <message>
+        <source>use another one first</source>
+        <translation>请先使用其他方案</translation>
+    </message>
+</context>
+<context>
+    <name>show.allow-commands</name>
+    <message>
+        <source>look at what it does, then open the venue in the wizard and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -9365,6 +9648,13 @@ projector %2</source>
     <message>
         <source>choose a folder that you may write to, with free space</source>
         <translation>请选择您可写入且有可用空间的文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>wizard.allow-commands</name>
+    <message>
+        <source>open the venue anew and allow its programs</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

@@ -151,7 +151,9 @@ class TestShowSets : public QObject {
     QCOMPARE(opened_.size(), 1);  // nothing was opened again
     send(*show, {"/set", {QString("day")}});
     QTRY_COMPARE(plays(), QString("day"));
+    const qsizetype asked = log().count("preparing set night");
     show->look();
+    QCOMPARE(log().count("preparing set night"), asked);
     QCOMPARE(plays(), QString("day"));
     wall_ = QDateTime({2026, 5, 5}, {8, 0});
     show->look();

@@ -124,6 +124,7 @@ void OutputProjection::play() {
   connect(player_.get(), &Player::setFailed, this, [this](const std::string&, const Message& sentence) {
     Q_EMIT failed({ErrorKind::input, fullSentence(sentence), tr("The output goes on as before."),
                    QString::fromStdString(englishSentence(sentence))});
+    Q_EMIT setRefused();
   });
   connect(player_.get(), &Player::failed, this, [this, closeLater](const Message& sentence) {
     closeLater();

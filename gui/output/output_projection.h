@@ -99,6 +99,8 @@ class OutputProjection : public QObject {
   /// A new mirror().
   void mirrored();
   void failed(const gui::Failure& failure);
+  /// The set that was wanted cannot be had: that of before plays on.
+  void setRefused();
 
  private:
   struct Made;

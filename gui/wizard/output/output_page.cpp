@@ -102,6 +102,10 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     tellResult();
   });
   connect(&projection_, &OutputProjection::failed, this, &OutputPage::tell);
+  connect(&projection_, &OutputProjection::setRefused, this, [this] {
+    playsFrom_.clear();  // another one than is in use
+    tellAll();
+  });
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
   connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
   listScreens();

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What Output says of the show is what is on the projector. On two screens, see
 // tests/support/with-two-screens: DUMMY1 is the projector's.
+#include <QComboBox>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTimeEdit>
 #include <QtTest>
 
 #include "gui/output/two_screens.h"
@@ -11,10 +16,12 @@
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/measured_again.h"
+#include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/settings_json.h"
 #include "support/stream_sender.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
+#include "wizard/output/set_times_dialog.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -61,6 +68,13 @@ class TestWhatPlays : public QObject {
     session().changeSettings(settings);
   }
 
+  static double lightOf(const QImage& picture) {
+    double sum = 0.0;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = 0; x < picture.width(); ++x) sum += picture.pixelColor(x, y).green();
+    return sum;
+  }
+
  private slots:
   void initTestCase() {
     Progress silent;
@@ -78,6 +92,51 @@ class TestWhatPlays : public QObject {
   void cleanup() {
     page_.reset();
     session().close();
+  }
+
+  /// Another set goes onto the projector while it plays, and is what is proved from then on.
+  void anotherSetPlaysWithoutClosing() {
+    session().changeSets([](CalibrationFolder& folder) {
+      for (const char* name : {"day", "night"}) pipeline::saveSet(folder, name);
+      pipeline::CalibrateSettings night = pipeline::settingsOf(folder);
+      night.content.blackLift = 0.3;
+      pipeline::changeSettings(folder, night);
+      pipeline::useSet(folder, "day");
+    });
+    openOutput();
+    const QImage byDay = page_->projection().onProjector();
+    page_->useSet("night");
+    QVERIFY(page_->isOpen() && !page_->playsEarlier());
+    QCOMPARE(page_->sets().nameInUse(), std::string("night"));
+    QTRY_VERIFY_WITH_TIMEOUT(lightOf(page_->projection().onProjector()) > 1.1 * lightOf(byDay), patience);
+    QVERIFY(!page_->projection().onProjector().isNull() && offersProof());
+    // What plays is behind its results: first the newest, then another set of it.
+    change([](pipeline::CalibrateSettings& settings) { settings.threshold.shareOfRowMax = 0.3f; });
+    QVERIFY(page_->playsEarlier() && !page_->whyNoSets().isEmpty());
+    page_->useSet("day");
+    QCOMPARE(page_->sets().nameInUse(), std::string("night"));
+  }
+
+  /// Of one time there is one set, and they stand in the order of the day.
+  void timesOfSetsAreKeptInThePlaylist() {
+    SetTimesDialog dialog({"day", "night"}, {{{18, 0}, "day"}});
+    QSignalSpy chosen(&dialog, &SetTimesDialog::chosen);
+    const auto add = [&](QTime time, const char* set) {
+      dialog.findChild<QTimeEdit*>("set-time")->setTime(time);
+      dialog.findChild<QComboBox*>("set-of-time")->setCurrentText(set);
+      dialog.findChild<QPushButton*>("add-set-time")->click();
+    };
+    add({18, 0}, "night");
+    add({8, 0}, "day");
+    add({9, 0}, "night");
+    dialog.findChild<QListWidget*>("set-times-list")->setCurrentRow(1);
+    dialog.findChild<QPushButton*>("remove-set-time")->click();
+    dialog.findChild<QPushButton*>("set-times-do")->click();
+    QCOMPARE(chosen.size(), 1);
+    const auto times = chosen[0][0].value<QList<SetTime>>();
+    QVERIFY((times == QList<SetTime>{{{8, 0}, "day"}, {{18, 0}, "night"}}));
+    page_->setTimes(times);
+    QVERIFY(readPlaylist(page_->playlist().file()).sets == times);
   }
 
   void aShowBehindItsResultsSaysSo_data() {

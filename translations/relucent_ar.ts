@@ -1414,7 +1414,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>تُشغّل المعايرة برنامجًا لم يوافق عليه أحد على هذا الحاسوب: {}</translation>
     </message>
 </context>
 <context>
@@ -8699,27 +8699,27 @@ projector %2</source>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>السماح بها</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>الفتح من دونها</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>برامج المكان</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>يسمّي «%1» برامج خاصة به جهازَ عرض أو كاميرا. ستعمل على هذا الحاسوب باسمك، ولم يوافق أحد هنا على ذلك بعد:</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>لم يُشغَّل أي منها. ومن دونها يمكن النظر في كل ما قيس وعرضه.</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>اسمح بها إن كنت تعرف ما تفعله أو تعرف من أعدّ هذا المكان.</translation>
     </message>
 </context>
 <context>
@@ -8960,7 +8960,7 @@ projector %2</source>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>انظر ما الذي يفعله، ثم افتح المكان في المعالج واسمح ببرامجه</translation>
     </message>
 </context>
 <context>
@@ -9914,7 +9914,7 @@ projector %2</source>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>افتح المكان من جديد واسمح ببرامجه</translation>
     </message>
 </context>
 </TS>

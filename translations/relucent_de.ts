@@ -1390,7 +1390,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Kalibrierung startet ein Programm, dem an diesem Rechner niemand zugestimmt hat: {}</translation>
     </message>
 </context>
 <context>
@@ -8499,27 +8499,27 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>Erlauben</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>Ohne sie öffnen</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>Programme eines Ortes</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>„%1“ nennt eigene Programme als Projektor oder Kamera. Sie würden auf diesem Rechner in Ihrem Namen laufen, und dem hat hier noch niemand zugestimmt:</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keines davon wurde gestartet. Auch ohne sie lässt sich alles Gemessene ansehen und zeigen.</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>Erlauben Sie sie, wenn Sie wissen, was sie tun, oder wer diesen Ort angelegt hat.</translation>
     </message>
 </context>
 <context>
@@ -8760,7 +8760,7 @@ Projektor %2</translation>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>Ansehen, was es tut, dann den Ort im Assistenten öffnen und seine Programme erlauben</translation>
     </message>
 </context>
 <context>
@@ -9706,7 +9706,7 @@ Projektor %2</translation>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>Den Ort neu öffnen und seine Programme erlauben</translation>
     </message>
 </context>
 </TS>

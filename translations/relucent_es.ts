@@ -1390,7 +1390,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>la calibración ejecuta un programa al que nadie ha dado su acuerdo en este equipo: {}</translation>
     </message>
 </context>
 <context>
@@ -8499,27 +8499,27 @@ proyector %2</translation>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>Permitirlos</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>Abrir sin ellos</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>Programas de un lugar</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>«%1» indica programas propios como proyector o cámara. Se ejecutarían en este equipo en su nombre, y aquí nadie ha dado todavía su acuerdo:</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>No se ha ejecutado ninguno. Sin ellos se puede ver y mostrar todo lo medido.</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>Permítalos si sabe qué hacen o quién hizo este lugar.</translation>
     </message>
 </context>
 <context>
@@ -8760,7 +8760,7 @@ proyector %2</translation>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>mire qué hace, abra luego el lugar en el asistente y permita sus programas</translation>
     </message>
 </context>
 <context>
@@ -9706,7 +9706,7 @@ proyector %2</translation>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>abra de nuevo el lugar y permita sus programas</translation>
     </message>
 </context>
 </TS>

@@ -1390,7 +1390,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>le calibrage lance un programme auquel personne n’a consenti sur cet ordinateur : {}</translation>
     </message>
 </context>
 <context>
@@ -8499,27 +8499,27 @@ projecteur %2</translation>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>Les autoriser</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>Ouvrir sans eux</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>Programmes d’un lieu</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>« %1 » désigne des programmes à lui comme projecteur ou caméra. Ils s’exécuteraient sur cet ordinateur en votre nom, et personne ici n’y a encore consenti :</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aucun n’a été lancé. Sans eux, tout ce qui a été mesuré peut être regardé et montré.</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>Autorisez-les si vous savez ce qu’ils font ou qui a fait ce lieu.</translation>
     </message>
 </context>
 <context>
@@ -8760,7 +8760,7 @@ projecteur %2</translation>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>regardez ce qu’il fait, puis ouvrez le lieu dans l’assistant et autorisez ses programmes</translation>
     </message>
 </context>
 <context>
@@ -9706,7 +9706,7 @@ projecteur %2</translation>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>rouvrez le lieu et autorisez ses programmes</translation>
     </message>
 </context>
 </TS>

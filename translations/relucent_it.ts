@@ -1390,7 +1390,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>la calibrazione avvia un programma a cui nessuno ha acconsentito su questo computer: {}</translation>
     </message>
 </context>
 <context>
@@ -8499,27 +8499,27 @@ proiettore %2</translation>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>Consentirli</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>Aprire senza</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>Programmi di un luogo</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>«%1» indica programmi propri come proiettore o fotocamera. Verrebbero eseguiti su questo computer a tuo nome, e qui nessuno vi ha ancora acconsentito:</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nessuno è stato eseguito. Senza di essi tutto ciò che è stato misurato si può guardare e mostrare.</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>Consentili se sai che cosa fanno o chi ha fatto questo luogo.</translation>
     </message>
 </context>
 <context>
@@ -8760,7 +8760,7 @@ proiettore %2</translation>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>guarda che cosa fa, poi apri il luogo nell’assistente e consenti i suoi programmi</translation>
     </message>
 </context>
 <context>
@@ -9706,7 +9706,7 @@ proiettore %2</translation>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>riapri il luogo e consenti i suoi programmi</translation>
     </message>
 </context>
 </TS>

@@ -1384,7 +1384,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>このコンピューターで誰も許可していないプログラムをキャリブレーションが実行します: {}</translation>
     </message>
 </context>
 <context>
@@ -8449,27 +8449,27 @@ projector %2</source>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>許可する</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>許可せずに開く</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>会場のプログラム</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>「%1」はプロジェクターまたはカメラとして独自のプログラムを指定しています。このコンピューターであなたの権限で実行されますが、まだ誰も許可していません:</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>どれも実行されていません。許可しなくても、測定済みのものはすべて見て表示できます。</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>何をするものか、または誰が作った会場かを知っている場合に許可してください。</translation>
     </message>
 </context>
 <context>
@@ -8710,7 +8710,7 @@ projector %2</source>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>何をするかを確かめてから、ウィザードで会場を開いてプログラムを許可してください</translation>
     </message>
 </context>
 <context>
@@ -9654,7 +9654,7 @@ projector %2</source>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>会場を開き直してプログラムを許可してください</translation>
     </message>
 </context>
 </TS>

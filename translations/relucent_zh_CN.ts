@@ -1384,7 +1384,7 @@
     <name>device.command-without-consent</name>
     <message>
         <source>the calibration runs a program to which nobody at this computer has agreed: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>校准要运行的程序在这台计算机上还没有人同意：{}</translation>
     </message>
 </context>
 <context>
@@ -8449,27 +8449,27 @@ projector %2</source>
     </message>
     <message>
         <source>Allow them</source>
-        <translation type="unfinished"></translation>
+        <translation>允许</translation>
     </message>
     <message>
         <source>Open without them</source>
-        <translation type="unfinished"></translation>
+        <translation>不用它们打开</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation type="unfinished"></translation>
+        <translation>场地的程序</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
-        <translation type="unfinished"></translation>
+        <translation>“%1”指定了自己的程序作为投影机或相机。它们将以您的身份在这台计算机上运行，而这里还没有人同意：</translation>
     </message>
     <message>
         <source>None of them was run. Without them everything that was measured can be looked at and shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>它们都没有运行。不用它们也可以查看和放映所有测得的内容。</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation type="unfinished"></translation>
+        <translation>如果您知道它们做什么，或知道是谁建立了这个场地，请允许。</translation>
     </message>
 </context>
 <context>
@@ -8710,7 +8710,7 @@ projector %2</source>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>先看它做什么，再在向导中打开场地并允许其程序</translation>
     </message>
 </context>
 <context>
@@ -9654,7 +9654,7 @@ projector %2</source>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation type="unfinished"></translation>
+        <translation>重新打开场地并允许其程序</translation>
     </message>
 </context>
 </TS>

@@ -8707,7 +8707,7 @@ projector %2</source>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation>برامج المكان</translation>
+        <translation>برامج الموقع</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
@@ -8719,7 +8719,7 @@ projector %2</source>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation>اسمح بها إن كنت تعرف ما تفعله أو تعرف من أعدّ هذا المكان.</translation>
+        <translation>اسمح بها إن كنت تعرف ما تفعله أو تعرف من أعدّ هذا الموقع.</translation>
     </message>
 </context>
 <context>
@@ -8960,7 +8960,7 @@ projector %2</source>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation>انظر ما الذي يفعله، ثم افتح المكان في المعالج واسمح ببرامجه</translation>
+        <translation>انظر ما الذي يفعله، ثم افتح الموقع في المعالج واسمح ببرامجه</translation>
     </message>
 </context>
 <context>
@@ -9914,7 +9914,7 @@ projector %2</source>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation>افتح المكان من جديد واسمح ببرامجه</translation>
+        <translation>افتح الموقع من جديد واسمح ببرامجه</translation>
     </message>
 </context>
 </TS>

@@ -8507,7 +8507,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Programs of a venue</source>
-        <translation>Programme eines Ortes</translation>
+        <translation>Programme eines Spielorts</translation>
     </message>
     <message>
         <source>“%1” names programs of its own as projector or camera. They would run on this computer as you, and nobody here has agreed to that yet:</source>
@@ -8519,7 +8519,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
-        <translation>Erlauben Sie sie, wenn Sie wissen, was sie tun, oder wer diesen Ort angelegt hat.</translation>
+        <translation>Erlauben Sie sie, wenn Sie wissen, was sie tun, oder wer diesen Spielort angelegt hat.</translation>
     </message>
 </context>
 <context>
@@ -8760,7 +8760,7 @@ Projektor %2</translation>
     <name>show.allow-commands</name>
     <message>
         <source>look at what it does, then open the venue in the wizard and allow its programs</source>
-        <translation>Ansehen, was es tut, dann den Ort im Assistenten öffnen und seine Programme erlauben</translation>
+        <translation>Ansehen, was es tut, dann den Spielort im Assistenten öffnen und seine Programme erlauben</translation>
     </message>
 </context>
 <context>
@@ -9706,7 +9706,7 @@ Projektor %2</translation>
     <name>wizard.allow-commands</name>
     <message>
         <source>open the venue anew and allow its programs</source>
-        <translation>Den Ort neu öffnen und seine Programme erlauben</translation>
+        <translation>Den Spielort neu öffnen und seine Programme erlauben</translation>
     </message>
 </context>
 </TS>

@@ -56,11 +56,11 @@ int run(const PlayShow& play) {
         RELUCENT_ENGLISH_MESSAGE("show.tell-projectors",
                                  "tell it: relucent-cli projectors --calibration {} --pjlink HOST")
             .with(settings.calibration.string()));
-  Show show(settings, [settings](const std::function<void(const QString&)>& warn, const std::string& set) {
+  Show show(settings, [settings](const std::function<void(const QString&)>& warn, const std::string& named) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         RendererSettings{settings.calibration, settings.canvas, settings.adaptiveRange, settings.brightness,
-                         settings.backend, settings.cameras, settings.fillsShadows, set},
+                         settings.backend, settings.cameras, settings.fillsShadows, named},
         quiet, [warn](const Message& sentence) { warn(QString::fromStdString(englishSentence(sentence))); },
         [] {
           SharedGl* shared = SharedGl::instance();

@@ -41,14 +41,14 @@ class ScriptedRenderer : public FrameRenderer {
     return {{drive}, 0.25, 2, 0.001, !restless};
   }
   /// One that is called "gone" cannot be had.
-  std::shared_ptr<PreparedSet> prepare(const std::string& set) override {
+  std::shared_ptr<PreparedSet> prepare(const std::string& name) override {
     while (holdsPreparing) std::this_thread::yield();
     ++prepared;
-    if (set == "gone")
+    if (name == "gone")
       throw Error(ErrorKind::input, Message::plain("there is no set 'gone'"),
                   Message::plain("choose another"));
     auto made = std::make_shared<PreparedSet>();
-    made->name = set;
+    made->name = name;
     return made;
   }
   void interrupt() override { interrupted = true; }

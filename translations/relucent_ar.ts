@@ -5090,6 +5090,17 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>الاسم</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>إلغاء</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6941,16 +6952,8 @@ projector %2</source>
         <translation>إعادة تسمية موقع</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>الاسم</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>لمجلده الاسم نفسه ويُعاد تسميته معه. والعرض الذي يبدأ عند تسجيل الدخول يتبعه.</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>إلغاء</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6975,10 +6978,6 @@ projector %2</source>
         <translation>إعادة تسمية مجموعة</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>الاسم</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>نهار، ليل، صف مدرسي</translation>
     </message>
@@ -6997,10 +6996,6 @@ projector %2</source>
     <message>
         <source>Rename</source>
         <translation>إعادة تسمية</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>إلغاء</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

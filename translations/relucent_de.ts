@@ -4958,6 +4958,17 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6789,16 +6800,8 @@ Projektor %2</translation>
         <translation>Spielort umbenennen</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Name</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>Sein Ordner heißt ebenso und wird mit umbenannt. Eine Show, die bei der Anmeldung startet, folgt ihm.</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6823,10 +6826,6 @@ Projektor %2</translation>
         <translation>Variante umbenennen</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Name</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>Tag, Nacht, Schulklasse</translation>
     </message>
@@ -6845,10 +6844,6 @@ Projektor %2</translation>
     <message>
         <source>Rename</source>
         <translation>Umbenennen</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

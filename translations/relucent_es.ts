@@ -4958,6 +4958,17 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Cancelar</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6789,16 +6800,8 @@ proyector %2</translation>
         <translation>Cambiar el nombre de un lugar</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nombre</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>Su carpeta se llama igual y cambia con él. Un show que empieza al iniciar sesión lo sigue.</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Cancelar</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6823,10 +6826,6 @@ proyector %2</translation>
         <translation>Cambiar el nombre de una variante</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nombre</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>Día, noche, clase escolar</translation>
     </message>
@@ -6845,10 +6844,6 @@ proyector %2</translation>
     <message>
         <source>Rename</source>
         <translation>Cambiar nombre</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Cancelar</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

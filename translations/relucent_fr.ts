@@ -4958,6 +4958,17 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6789,16 +6800,8 @@ projecteur %2</translation>
         <translation>Renommer un lieu</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nom</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>Son dossier porte le même nom et est renommé avec lui. Une diffusion qui démarre à l’ouverture de session suit.</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annuler</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6823,10 +6826,6 @@ projecteur %2</translation>
         <translation>Renommer une variante</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nom</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>Jour, nuit, classe</translation>
     </message>
@@ -6845,10 +6844,6 @@ projecteur %2</translation>
     <message>
         <source>Rename</source>
         <translation>Renommer</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annuler</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

@@ -4958,6 +4958,17 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>Nome</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6789,16 +6800,8 @@ proiettore %2</translation>
         <translation>Rinomina un luogo</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nome</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>La sua cartella ha lo stesso nome e viene rinominata con esso. Uno show che parte all’accesso lo segue.</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annulla</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6823,10 +6826,6 @@ proiettore %2</translation>
         <translation>Rinomina una variante</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>Nome</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>Giorno, notte, scolaresca</translation>
     </message>
@@ -6845,10 +6844,6 @@ proiettore %2</translation>
     <message>
         <source>Rename</source>
         <translation>Rinomina</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Annulla</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

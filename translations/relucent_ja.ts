@@ -4925,6 +4925,17 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>relucent::gui::NameDialog</name>
+    <message>
+        <source>Name</source>
+        <translation>名前</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>キャンセル</translation>
+    </message>
+</context>
+<context>
     <name>relucent::gui::Nights</name>
     <message>
         <source>The venue was as it was measured.</source>
@@ -6751,16 +6762,8 @@ projector %2</source>
         <translation>会場の名前を変更</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>名前</translation>
-    </message>
-    <message>
         <source>Its folder has the same name and is renamed with it. A show that starts at log-in follows.</source>
         <translation>フォルダーも同じ名前で、一緒に変更されます。ログイン時に始まるショーも追従します。</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>キャンセル</translation>
     </message>
     <message>
         <source>Rename</source>
@@ -6785,10 +6788,6 @@ projector %2</source>
         <translation>セットの名前を変更</translation>
     </message>
     <message>
-        <source>Name</source>
-        <translation>名前</translation>
-    </message>
-    <message>
         <source>Day, night, school class</source>
         <translation>昼、夜、学校の団体</translation>
     </message>
@@ -6807,10 +6806,6 @@ projector %2</source>
     <message>
         <source>Rename</source>
         <translation>名前を変更</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>キャンセル</translation>
     </message>
     <message>
         <source>There is a set of this name already.</source>

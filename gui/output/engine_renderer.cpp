@@ -9,7 +9,6 @@
 #include "relucent/base/error.h"
 #include "relucent/base/stopwatch.h"
 #include "relucent/base/tbb.h"
-
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stored_settings.h"

@@ -28,8 +28,10 @@ Image deadLeaves(Size size, std::uint64_t seed) {
     double a = 1.0 / (smallest * smallest);
     double b = 1.0 / (largest * largest);
     double radius = 1.0 / std::sqrt(a + u * (b - a));
-    cv::Point centre(static_cast<int>(random.below(static_cast<std::uint64_t>(picture.cols))),
-                     static_cast<int>(random.below(static_cast<std::uint64_t>(picture.rows))));
+    // One after the other: compilers evaluate the arguments of a call in an order of their own.
+    const auto y = static_cast<int>(random.below(static_cast<std::uint64_t>(picture.rows)));
+    const auto x = static_cast<int>(random.below(static_cast<std::uint64_t>(picture.cols)));
+    const cv::Point centre(x, y);
     double hue = random.uniform();
     double saturation = 0.5 * random.uniform();
     double value = 0.15 + 0.8 * random.uniform();

@@ -231,7 +231,7 @@ Problems problems(const EvaluateSettings& settings) {
   checkTarget(found, settings.target);
   append(found, problems(settings.compensator));
   append(found, problems(settings.rivalSettings));
-  if (settings.perfected < 0 || settings.perfected > mostPerfectingPhotographs)
+  if (settings.perfected != 0 && (settings.perfected < 2 || settings.perfected > mostPerfectingPhotographs))
     found.push_back(perfectingPhotographsOutOfRange());
   append(found, problems(settings.walk));
   return found;

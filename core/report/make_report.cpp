@@ -11,7 +11,6 @@
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/drift_record.h"
 #include "relucent/pipeline/evaluation.h"
-#include "relucent/pipeline/masks_file.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/proof_record.h"
@@ -240,12 +239,14 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.perfected = perfectedIn(folder);
   data.nights = lastNights(folder.path());
 
+  // As the calibration's own content is shown: by its objective, brightness, clipping, views and masks.
+  const compensation::TargetSettings target = targetOf(pipeline::settingsOf(folder).content);
   Progress comparing = progress.part(0.6, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
   if (settings.evaluate && std::holds_alternative<venue::VenueSettings>(measured.rig)) {
     pipeline::EvaluateSettings evaluation;
     evaluation.images = settings.images;
     evaluation.fewImages = true;  // whose pictures are on the page
-    evaluation.target = pipeline::withMasks({}, folder);
+    evaluation.target = target;
     pipeline::Evaluation judged = pipeline::evaluated(measured, evaluation, cache, comparing);
     for (const pipeline::EvaluatedPictures& pictures : judged.pictures)
       data.comparisons.push_back(comparisonOf(pictures));
@@ -256,8 +257,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
       content.push_back({image.stem().string(), image::readLinearContent(image)});
     if (content.empty()) content = pipeline::standardImages();
     for (const pipeline::NamedImage& image : content)
-      data.comparisons.push_back(
-          predictedComparison(image, measured, pipeline::withMasks({}, folder), comparing));
+      data.comparisons.push_back(predictedComparison(image, measured, target, comparing));
   }
 
   fs::path out = settings.out.empty() ? folder.path() / "report.html" : settings.out;

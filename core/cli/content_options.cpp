@@ -188,7 +188,8 @@ std::function<Command()> addProveOptions(CLI::App* sub) {
   addFolder(sub, command->calibration, "Folder of the calibration");
   addImageAndMethod(sub, settings.image, settings.method);
   sub->add_option("--shown", settings.shown,
-                  "Verify these instead, one picture per projector: the pixels of its display")
+                  "Verify these instead, one picture per projector: the pixels of its display, or linear "
+                  "drive (EXR)")
       ->type_name("FILE");
   sub->add_option("--out", settings.out, "Folder for the photographs, before and after, and comparison.png")
       ->type_name("DIR")

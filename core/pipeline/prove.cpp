@@ -93,7 +93,11 @@ Projection shownProjection(const std::vector<fs::path>& pictures, const Measured
                                          "give one picture for each projector, in their order"));
   Projection result;
   for (std::size_t projector = 0; projector < pictures.size(); ++projector) {
-    image::Image drive = image::readPicture(pictures[projector]).encoded;
+    image::Picture picture = image::readPicture(pictures[projector]);
+    // What is no display's pixels, floating-point values as `perfect` and `export` write them, is linear.
+    image::Image drive = picture.bits > 0 ? std::move(picture.encoded)
+                                          : measured.linearization.projectors[projector].encode(
+                                                image::readLinearContent(pictures[projector]));
     Size size = projectors.size(projector);
     if (!(drive.size() == size))
       throw Error(

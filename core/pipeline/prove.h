@@ -19,8 +19,8 @@ namespace relucent::pipeline {
 struct ProveSettings {
   std::filesystem::path image;  // content, sRGB file or linear EXR
   compensation::Method method = compensation::Method::refined;
-  /// What stands on the projectors' displays already, one picture of drive values a projector, whatever made
-  /// it: proved in place of what `method` computes. Empty: that.
+  /// What stands on the projectors' displays already, one picture of drive values a projector (floating-point
+  /// files: linear ones), whatever made it: proved in place of what `method` computes. Empty: that.
   std::vector<std::filesystem::path> shown{};
   compensation::TargetSettings target;
   std::filesystem::path out;       // folder; created; files of the same names are replaced

@@ -11,6 +11,7 @@
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
+#include "relucent/image/stack_files.h"
 #include "relucent/pipeline/acquisition_bench.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/compensate.h"
@@ -189,6 +190,20 @@ class TestPipeline : public QObject {
     ProveResult black = proveCalibration(root() / "plain", settings, cache(), silent);
     QVERIFY(black.after.measured.psnr < result.before.measured.psnr);
     QCOMPARE(black.before.predicted.psnr, result.before.predicted.psnr);
+
+    // Linear drive goes through the response: what was compensated is as good as it was.
+    const MeasuredCalibration measured = loadCalibration(
+        calibration::CalibrationFolder::open(root() / "plain", calibration::CalibrationFolder::Access::read),
+        silent);
+    const Compensator compensator(measured.venue, measured.inverse);
+    const ProjectorStack drive =
+        compensator
+            .solve(settings.method, fitTarget(readLinearContent(settings.image), measured.venue, {}), silent)
+            .projector;
+    settings.shown =
+        writeStack(root(), "linear", drive, measured.venue.transport.projectors(), "linear drive");
+    ProveResult linear = proveCalibration(root() / "plain", settings, cache(), silent);
+    QVERIFY(std::abs(linear.after.measured.psnr - result.after.measured.psnr) < 0.2);
     settings.shown.clear();
 
     venue.devices.ambient += 0.1;

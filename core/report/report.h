@@ -28,7 +28,7 @@ struct ReportSettings {
   std::vector<pipeline::LibraryVersion> libraries;  // named in the report; none: core's
 };
 
-/// One self-contained HTML file about a calibration.
+/// One self-contained HTML file about a calibration, of pictures shown as its own content is.
 pipeline::WrittenFiles makeReport(const std::filesystem::path& folder, const ReportSettings& settings,
                                   const std::filesystem::path& cache, Progress& progress);
 

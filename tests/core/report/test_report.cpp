@@ -12,7 +12,9 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/json.h"
+#include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/stopped_early.h"
+#include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/number_text.h"
 #include "relucent/report/pictures.h"
 #include "relucent/report/report.h"
@@ -413,6 +415,40 @@ class TestReport : public QObject {
     for (const char* expected :
          {"Photograph, compensated", "ΔE 3.2", taken.c_str(), "Eigen 3.4.0", "A &amp; B 1"})
       QVERIFY2(page.contains(expected), expected);
+  }
+
+  /// What a client is shown is what the show shows: another white, other figures.
+  void picturesAreJudgedAsContentIsShown() {
+    QTemporaryDir folder;
+    const std::filesystem::path path = folder.path().toStdString();
+    CalibrateSettings settings;
+    venue::VenueSettings venue;
+    venue.name = "plain";
+    venue.projector = {32, 24};
+    venue.camera = {24, 18};
+    venue.pathsPerPixel = 16;
+    settings.rig = venue;
+    settings.linearization.levels = 9;
+    Progress silent;
+    calibrate(path / "venue", settings, path / "cache", silent);
+    const auto reported = [&] {
+      const auto page = QString::fromStdString(
+          readFile(makeReport(path / "venue", {}, path / "cache", silent).files.front()));
+      static const QRegularExpression quality("[0-9.]+ dB");
+      QStringList figures;
+      for (auto match = quality.globalMatch(page); match.hasNext();) figures += match.next().captured();
+      return figures;
+    };
+    const QStringList before = reported();
+    QVERIFY(before.size() > 5);
+    QCOMPARE(reported(), before);
+    settings.content.reachablePercentile = 60.0;
+    {
+      CalibrationFolder calibration =
+          CalibrationFolder::open(path / "venue", CalibrationFolder::Access::write);
+      changeSettings(calibration, settings);
+    }
+    QVERIFY(reported() != before);
   }
 
   void aBundleShowsNothingOfTheVenueUnlessAsked() {

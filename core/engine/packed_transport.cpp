@@ -297,17 +297,16 @@ ColourBlock PackedMixings::operator[](std::size_t row) const {
   return mixing;
 }
 
+namespace {
+
 /// A patch on its way: its squares and the nodes that they touch.
-struct PackedTransport::Patch {
+struct PatchToPack {
   std::vector<Square> squares;
   std::vector<std::uint32_t> nodes;
 };
 
-namespace {
-
 /// Halves squares until their nodes can be numbered by 16 bits.
-template <typename Patch>
-void split(std::vector<Square> squares, std::vector<Patch>& done) {
+void split(std::vector<Square> squares, std::vector<PatchToPack>& done) {
   std::vector<std::uint32_t> nodes = nodesOf(squares);
   if (nodes.size() <= mostColumnsOfAPatch) {
     done.push_back({std::move(squares), std::move(nodes)});
@@ -325,7 +324,7 @@ void split(std::vector<Square> squares, std::vector<Patch>& done) {
 /// Puts the squares of one patch side by side into slices.
 class PackedTransport::PatchAppender {
  public:
-  PatchAppender(PackedTransport& to, const Patch& patch) : to_(to), patch_(patch) {
+  PatchAppender(PackedTransport& to, const PatchToPack& patch) : to_(to), nodes_(patch.nodes) {
     TransportPatch appended;
     appended.squareBegin = end(to_.square_);
     appended.groupBegin = end(to_.group_);
@@ -435,7 +434,7 @@ class PackedTransport::PatchAppender {
 
   template <typename Owners, typename Slice>
   void appendLeaves(std::span<const std::size_t> lanes, const Owners& owners, Slice& slice) {
-    const auto filling = static_cast<std::uint16_t>(patch_.nodes.size());
+    const auto filling = static_cast<std::uint16_t>(nodes_.size());
     slice.leafBegin = end(to_.leaf_);
     slice.length = end(owners[lanes[0]].leaves.node);
     for (std::size_t k = 0; k < slice.length; ++k) {
@@ -451,12 +450,12 @@ class PackedTransport::PatchAppender {
   }
 
   std::uint16_t columnOf(std::uint32_t node) const {
-    const auto place = std::lower_bound(patch_.nodes.begin(), patch_.nodes.end(), node);
-    return static_cast<std::uint16_t>(place - patch_.nodes.begin());
+    const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+    return static_cast<std::uint16_t>(place - nodes_.begin());
   }
 
   PackedTransport& to_;
-  const Patch& patch_;
+  const std::vector<std::uint32_t>& nodes_;  // of the patch
 };
 
 namespace {
@@ -498,7 +497,7 @@ PackedTransport::PackedTransport(const TransportMatrix& transport, const Packing
   // A few patches at a time: rows on their way take several times the memory of packed ones.
   constexpr std::size_t batch = 16;
   for (std::size_t begin = 0; begin < places.size(); begin += batch) {
-    std::vector<std::vector<Patch>> patches(std::min(batch, places.size() - begin));
+    std::vector<std::vector<PatchToPack>> patches(std::min(batch, places.size() - begin));
     parallelFor(0, patches.size(), 1, [&](std::size_t i) {
       const CameraRectangle& place = places[begin + i];
       std::vector<Square> squares;
@@ -511,8 +510,8 @@ PackedTransport::PackedTransport(const TransportMatrix& transport, const Packing
               std::back_inserter(squares));
       split(std::move(squares), patches[i]);
     });
-    for (const std::vector<Patch>& ofPlace : patches)
-      for (const Patch& patch : ofPlace) PatchAppender(*this, patch);
+    for (const std::vector<PatchToPack>& ofPlace : patches)
+      for (const PatchToPack& patch : ofPlace) PatchAppender(*this, patch);
   }
 }
 

@@ -132,7 +132,6 @@ class PackedTransport {
   std::size_t mostColumns() const;
 
  private:
-  struct Patch;
   class PatchAppender;
 
   std::vector<TransportPatch> patches_;

@@ -162,7 +162,7 @@ Reaches reachesOf(const NearField& near, const transport::NodeLayout& layout, co
   Reaches result;
   result.start.assign(1, 0);
   result.start.reserve(rows + 1);
-  std::vector<Reach> found(std::min(rowsAtOnce, rows));
+  std::vector<Reach> found(rowsAtOnce);
   for (std::size_t begin = 0; begin < rows; begin += rowsAtOnce) {
     const std::size_t count = std::min(rowsAtOnce, rows - begin);
     parallelChunks(0, count, 64, [&](std::size_t, std::size_t first, std::size_t last) {

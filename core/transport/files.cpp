@@ -13,6 +13,7 @@
 #include "relucent/base/signed_codes.h"
 #include "relucent/transport/npz.h"
 #include "relucent/transport/npz_rasters.h"
+#include "relucent/transport/row_cursor.h"
 #include "relucent/transport/shared_colours.h"
 
 namespace relucent::transport {
@@ -44,20 +45,6 @@ void addFrame(NpzWriter& writer, std::size_t rows, std::size_t columns, const ch
       std::vector<std::int64_t>{static_cast<std::int64_t>(3 * rows), static_cast<std::int64_t>(3 * columns)},
       {2});
 }
-
-/// Steps through the rows of ascending entries.
-class RowCursor {
- public:
-  template <typename RowBegin>
-  std::size_t rowOf(std::uint64_t entry, const RowBegin& rowBegin) {
-    if (entry < rowBegin(row_)) row_ = 0;
-    while (entry >= rowBegin(row_ + 1)) ++row_;
-    return row_;
-  }
-
- private:
-  std::size_t row_ = 0;
-};
 
 }  // namespace
 

@@ -18,43 +18,43 @@ namespace {
 
 constexpr int cameraPatience = 15'000;  // milliseconds for a first picture
 
-/// A device that is open. Lives on a thread with an event loop.
-class Capture {
- public:
-  Capture(const QString& which, FrameSlot& frames) {
-    QStringList names;
-    for (const QCameraDevice& device : QMediaDevices::videoInputs()) {
-      names.append(device.description());
-      if (!device.description().contains(which, Qt::CaseInsensitive) && device.id() != which.toUtf8())
-        continue;
-      open(device, frames);
-      return;
-    }
-    frames.fail(names.isEmpty()
-                    ? QString("there is no capture device")
-                    : QString("there is no capture device '%1', but %2").arg(which, names.join(", ")));
-  }
-
- private:
-  void open(const QCameraDevice& device, FrameSlot& frames) {
-    camera_ = std::make_unique<QCamera>(device);
-    QObject::connect(&sink_, &QVideoSink::videoFrameChanged,
-                     [&frames](const QVideoFrame& frame) { frames.put(frame); });
-    QObject::connect(camera_.get(), &QCamera::errorOccurred,
-                     [&frames](QCamera::Error, const QString& reason) { frames.fail(reason); });
-    session_.setVideoSink(&sink_);
-    session_.setCamera(camera_.get());
-    camera_->start();
-  }
-
-  QVideoSink sink_;
-  std::unique_ptr<QCamera> camera_;
-  QMediaCaptureSession session_;
-};
-
 }  // namespace
 
 struct LiveCamera::Session {
+  /// A device that is open. Lives on a thread with an event loop.
+  class Capture {
+   public:
+    Capture(const QString& which, FrameSlot& frames) {
+      QStringList names;
+      for (const QCameraDevice& device : QMediaDevices::videoInputs()) {
+        names.append(device.description());
+        if (!device.description().contains(which, Qt::CaseInsensitive) && device.id() != which.toUtf8())
+          continue;
+        open(device, frames);
+        return;
+      }
+      frames.fail(names.isEmpty()
+                      ? QString("there is no capture device")
+                      : QString("there is no capture device '%1', but %2").arg(which, names.join(", ")));
+    }
+
+   private:
+    void open(const QCameraDevice& device, FrameSlot& frames) {
+      camera_ = std::make_unique<QCamera>(device);
+      QObject::connect(&sink_, &QVideoSink::videoFrameChanged,
+                       [&frames](const QVideoFrame& frame) { frames.put(frame); });
+      QObject::connect(camera_.get(), &QCamera::errorOccurred,
+                       [&frames](QCamera::Error, const QString& reason) { frames.fail(reason); });
+      session_.setVideoSink(&sink_);
+      session_.setCamera(camera_.get());
+      camera_->start();
+    }
+
+    QVideoSink sink_;
+    std::unique_ptr<QCamera> camera_;
+    QMediaCaptureSession session_;
+  };
+
   explicit Session(const QString& which)
       : capture([&] { return std::make_unique<Capture>(which, frames); }) {}
   FrameSlot frames;

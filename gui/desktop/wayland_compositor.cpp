@@ -17,10 +17,7 @@
 #include "protocols/xdg-output-unstable-v1.h"
 
 namespace relucent::gui {
-namespace {
-
-/// Versions of the protocols from which on outputs have names.
-constexpr std::uint32_t namedOutput = 4, namedXdgOutput = 2;
+namespace wayland {
 
 struct Output {
   std::uint32_t global = 0;
@@ -30,6 +27,14 @@ struct Output {
   QSize mode;
   bool isOnItsSide = false;
 };
+
+}  // namespace wayland
+namespace {
+
+using wayland::Output;
+
+/// Versions of the protocols from which on outputs have names.
+constexpr std::uint32_t namedOutput = 4, namedXdgOutput = 2;
 
 void isNamed(void* data, wl_output*, const char* name) {
   static_cast<Output*>(data)->name = QString::fromUtf8(name);

@@ -31,17 +31,6 @@ namespace {
 constexpr int mostPoints = 200;  // along the longer side: software rendering turns it smoothly
 constexpr double height = 0.16;  // of the longer side
 
-/// Turns by the mouse; VTK's own letter keys, as "stereo", would only surprise.
-class TurningStyle : public vtkInteractorStyleTrackballCamera {
- public:
-  static TurningStyle* New() {
-    auto* style = new TurningStyle;
-    style->InitializeObjectBase();
-    return style;
-  }
-  void OnChar() override {}
-};
-
 /// The mean of those values of a cell that are numbers; NaN where none is.
 float meanOf(const image::Image& map, int x0, int y0, int step) {
   double sum = 0.0;
@@ -120,6 +109,17 @@ vtkSmartPointer<vtkPolyData> groundOf(const image::Image& map, const ColourScale
 }  // namespace
 
 struct Relief::Parts {
+  /// Turns by the mouse; VTK's own letter keys, as "stereo", would only surprise.
+  class TurningStyle : public vtkInteractorStyleTrackballCamera {
+   public:
+    static TurningStyle* New() {
+      auto* style = new TurningStyle;
+      style->InitializeObjectBase();
+      return style;
+    }
+    void OnChar() override {}
+  };
+
   vtkNew<vtkActor> actor;
   vtkNew<vtkPolyDataNormals> normals;
   vtkNew<vtkTexture> texture;

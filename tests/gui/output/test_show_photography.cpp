@@ -243,7 +243,8 @@ class TestShowPhotography : public QObject {
     pipeline::CalibrateSettings settings;
     if (kind == 0) settings.rig = pipeline::ScreenRigSettings{{"DUMMY1", {}, {}, {}}, {1024, 768}};
     if (kind == 1)
-      settings.rig = pipeline::CommandRigSettings{"show {image}", "photograph {exposure} {output}", {64, 48}};
+      settings.rig =
+          pipeline::CommandRigSettings{"show {image}", "photograph {exposure} {output}", {64, 48}, {}};
     if (kind == 2) settings.rig = pipeline::ReplayRigSettings{"recording"};
     const std::filesystem::path path = folder_->filePath("venue").toStdString();
     pipeline::createCalibration(path, settings);

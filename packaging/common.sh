@@ -125,12 +125,14 @@ showBuildProgress() {
 }
 
 # build PRESET [TARGET...]: configures and builds; silent when nothing has changed, the log only on failure.
+# $RELUCENT_WARNINGS_ARE_ERRORS: ON where no warning is to pass; else a stranger's newer compiler may warn.
 build() {
   local preset=$1 log=$root/build/$1.log targets=()
+  local options=(${RELUCENT_WARNINGS_ARE_ERRORS:+"-DRELUCENT_WARNINGS_ARE_ERRORS=$RELUCENT_WARNINGS_ARE_ERRORS"})
   shift
   (($#)) && targets=(--target "$@")
   mkdir -p "$root/build"
-  (cd "$root" && cmake --preset "$preset") >"$log" 2>&1 ||
+  (cd "$root" && cmake --preset "$preset" "${options[@]}") >"$log" 2>&1 ||
     { cat "$log" >&2; fail "configuring $preset failed, see above (build/$preset.log)."; }
   (cd "$root" && cmake --build --preset "$preset" --parallel "$(compileJobs)" "${targets[@]}") 2>&1 |
     tee -a "$log" | showBuildProgress "$preset" ||

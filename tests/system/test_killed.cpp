@@ -164,7 +164,7 @@ class TestKilled : public QObject {
   void endsInTheSameBits() {
     QFETCH(QString, mode);
     QFETCH(quint64, seed);
-    constexpr int wantedKills = 25;
+    constexpr int wantedKills = 15;
     QTemporaryDir folder(scratch());
     auto campaign = [&](int number) {
       QString calibration = folder.filePath(QString::number(number)), cache = folder.filePath("cache");

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "acquisition_run.h"
+#include "support/sanitized.h"
 
 using namespace relucent;
 using namespace relucent::acquisition;
@@ -79,7 +80,10 @@ class TestMultiplexed : public QObject {
 
   void resumedWithTheSameBits_data() {
     QTest::addColumn<int>("shot");
-    for (int shot : {3, 20, 60}) QTest::addRow("killed at %d", shot) << shot;
+    for (int shot : {20, 3, 60}) {
+      QTest::addRow("killed at %d", shot) << shot;
+      if (isSanitized) break;
+    }
   }
   void resumedWithTheSameBits() {
     QFETCH(int, shot);
@@ -147,7 +151,10 @@ class TestMultiplexed : public QObject {
   /// Law: stopping costs nothing but the test patterns that were taken for it.
   void goingOnEndsAsIfItHadNotStopped_data() {
     QTest::addColumn<int>("shot");
-    for (int shot : {12, 60}) QTest::addRow("stopped at %d", shot) << shot;
+    for (int shot : {60, 12}) {
+      QTest::addRow("stopped at %d", shot) << shot;
+      if (isSanitized) break;
+    }
   }
   void goingOnEndsAsIfItHadNotStopped() {
     QFETCH(int, shot);
@@ -310,6 +317,7 @@ class TestMultiplexed : public QObject {
   }
 
   void finenessDecidesPhotographs() {
+    if (isSanitized) QSKIP("qualities are compared without sanitizers; others run this code there");
     Venue venue = denseVenue();
     venue.noise = 1e-4;
     venue.settings.relativeThreshold = 0.05;

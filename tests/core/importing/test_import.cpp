@@ -5,11 +5,13 @@
 
 #include <QtTest>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "relucent/base/error.h"
 #include "relucent/base/random.h"
 #include "relucent/importing/pattern_plan.h"
+#include "support/sanitized.h"
 #include "support/scripted_rig.h"
 #include "support/stopped.h"
 
@@ -138,10 +140,18 @@ QString errorOf(const Act& act) {
 
 class TestImport : public QObject {
   Q_OBJECT
+
+  std::optional<Import> ofGrayCode_;
+  /// Made once, for all that is compared with it.
+  const Import& ofGrayCode() {
+    if (!ofGrayCode_) ofGrayCode_ = imported(Scene(), planned(isGrayCode));
+    return *ofGrayCode_;
+  }
+
  private slots:
   void recoversALocalTransport_data() {
     QTest::addColumn<int>("seed");
-    for (int seed = 1; seed <= 3; ++seed) QTest::addRow("%d", seed) << seed;
+    for (int seed = 1; seed <= (isSanitized ? 1 : 3); ++seed) QTest::addRow("%d", seed) << seed;
   }
   void recoversALocalTransport() {
     QFETCH(int, seed);
@@ -170,7 +180,7 @@ class TestImport : public QObject {
     QFETCH(bool, negative);
     Scene scene;
     std::vector<Image> patterns = planned(isGrayCode);
-    double before = relightingError(scene, imported(scene, patterns));
+    double before = relightingError(scene, ofGrayCode());
     if (reversed) std::reverse(patterns.begin(), patterns.end());
     if (negative)
       for (Image& pattern : patterns) pattern = ::negative(pattern);
@@ -257,7 +267,7 @@ class TestImport : public QObject {
   void findsTheProjectorsResponse_data() {
     QTest::addColumn<double>("gamma");
     QTest::addRow("1.6") << 1.6;
-    QTest::addRow("2.8") << 2.8;
+    if (!isSanitized) QTest::addRow("2.8") << 2.8;
   }
   void findsTheProjectorsResponse() {
     QFETCH(double, gamma);
@@ -294,7 +304,7 @@ class TestImport : public QObject {
   void sameBitsForEveryNumberOfThreads() {
     Scene scene;
     std::vector<Image> patterns = planned(isGrayCode);
-    Import several = imported(scene, patterns);
+    const Import& several = ofGrayCode();
     tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     Import single = imported(scene, patterns);
     QVERIFY(several.acquisition.transport == single.acquisition.transport);

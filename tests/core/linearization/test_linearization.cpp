@@ -263,7 +263,7 @@ class TestLinearization : public QObject {
     };
     // In the same place each one's light is noise of the others: every kind of rig is there. Side by side
     // they share no more than far light: one row each for brightness, time and number. A row takes seconds,
-    // ten times as long under sanitizers, which see every third.
+    // ten times as long under sanitizers, which see every sixth.
     constexpr bool inTheSamePlace = false, sideBySide = true;
     const std::vector<Row> rows{
         {"one", inTheSamePlace, {plain}},
@@ -282,7 +282,7 @@ class TestLinearization : public QObject {
         {"four", sideBySide, {plain, uneven, dimming, soft}}};
     quint64 seed = 0;
     for (const Row& row : rows)
-      if (++seed; !isSanitized || seed % 3 == 0)
+      if (++seed; !isSanitized || seed % 6 == 0)
         QTest::addRow("%s, %s", row.name, row.sideBySide ? "side by side" : "in the same place")
             << row.projectors << row.sideBySide << seed;
   }
@@ -513,7 +513,7 @@ class TestLinearization : public QObject {
   /// noise.
   void everyLevelHasAResidual() {
     std::size_t pooled = 0;
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (isSanitized ? 1 : 4); ++seed) {
       ScriptedProjector flat;
       flat.curves.fill([](double drive) { return std::pow(std::max(0.0, drive - 0.3) / 0.7, 2.0); });
       Setup setup = setupOf({flat}, false, seed);
@@ -644,7 +644,8 @@ class TestLinearization : public QObject {
   /// The last photograph is taken, and what they all say is being computed.
   void computingCanBeCancelled_data() {
     QTest::addColumn<int>("check");
-    for (int check : {1, 10, 20, 30, 40}) QTest::addRow("report %d", check) << check;
+    for (int check : {1, 10, 20, 30, 40})
+      if (!isSanitized || check == 20) QTest::addRow("report %d", check) << check;
   }
   void computingCanBeCancelled() {
     QFETCH(int, check);
@@ -668,7 +669,7 @@ class TestLinearization : public QObject {
     QTest::newRow("one") << 1 << 30;
     QTest::newRow("two") << 2 << 41;
     QTest::newRow("three") << 3 << 49;
-    QTest::newRow("four") << 4 << 56;
+    if (!isSanitized) QTest::newRow("four") << 4 << 56;
   }
   void fewPhotographsMoreForEachProjector() {
     QFETCH(int, projectors);

@@ -68,8 +68,11 @@ class TestMonitoring : public QObject {
     QTest::addColumn<ShownContent>("content");
     QTest::addColumn<std::function<RehearsedTrouble()>>("trouble");
     using Made = std::function<RehearsedTrouble()>;
+    // Sanitizers, which take ten times as long, see one venue's view move and one of two projectors die.
+    if (isSanitized)
+      QTest::newRow("film, moved by 0.3 pixels") << QByteArray("corner") << ShownContent::film << Made(moved);
     for (ShownContent content : {ShownContent::still, ShownContent::film, ShownContent::slides}) {
-      if (isSanitized && content != ShownContent::film) continue;
+      if (isSanitized) break;
       const std::string shown(nameOf(content));
       QTest::addRow("%s, moved by 0.3 pixels", shown.c_str())
           << QByteArray("corner") << content << Made(moved);
@@ -83,6 +86,7 @@ class TestMonitoring : public QObject {
     QTest::newRow("film, one of two dead") << QByteArray("relief") << ShownContent::film << Made([] {
       return lamps({1.0f, 0.0f}, FindingKind::dark);
     });
+    if (isSanitized) return;
     QTest::newRow("slides, one of two faded") << QByteArray("relief") << ShownContent::slides << Made([] {
       return lamps({0.95f, 1.0f}, FindingKind::faded);
     });
@@ -114,7 +118,8 @@ class TestMonitoring : public QObject {
   void whatGoesAwayIsNotTold() {
     QFETCH(ShownContent, content);
     const RehearsedTrouble none{.at = 1e9};
-    const RehearsalResult result = venue("corner").run(content, 1200.0, none, {0.02, 0.9}, quiet);
+    const RehearsalResult result =
+        venue("corner").run(content, isSanitized ? 200.0 : 1200.0, none, {0.02, 0.9}, quiet);
     QVERIFY2(result.told.empty(), described(result.told).constData());
     QVERIFY2(result.used > 0.9 * result.photographs, qPrintable(QString::number(result.used)));
   }

@@ -4,6 +4,7 @@
 
 #include <QTemporaryDir>
 #include <QTest>
+#include <optional>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
@@ -20,6 +21,7 @@
 #include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/pipeline/verify.h"
+#include "support/sanitized.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -76,6 +78,13 @@ class TestReductions : public QObject {
   CalibrationFolder opened(const std::string& name) const {
     return CalibrationFolder::open(path(name), CalibrationFolder::Access::write);
   }
+  std::optional<CalibrateResult> many_;
+  /// A calibration whose camera has many more pixels than are needed, measured once.
+  std::string many() {
+    Progress quiet;
+    if (!many_) many_ = calibrate(path("many"), settingsFor({128, 96}), cache(), quiet);
+    return "many";
+  }
 
  private slots:
   /// Whoever has no more camera pixels than needed has what there was before.
@@ -94,15 +103,20 @@ class TestReductions : public QObject {
   /// has as many pixels and a sample's full well each.
   void manyPixelsAreReduced_data() {
     QTest::addColumn<QString>("scene");
-    for (const char* scene : {"corner", "plain", "depth"}) QTest::newRow(scene) << scene;
+    for (const char* scene : {"corner", "plain", "depth"}) {
+      QTest::newRow(scene) << scene;
+      if (isSanitized) break;
+    }
   }
   void manyPixelsAreReduced() {
     QFETCH(QString, scene);
-    const std::string name = "many " + scene.toStdString();
+    const std::string name = scene == "corner" ? many() : "many " + scene.toStdString();
     const std::string sceneName = scene.toStdString();
     Progress quiet;
     const CalibrateResult result =
-        calibrate(path(name), settingsFor({128, 96}, {}, sceneName.c_str()), cache(), quiet);
+        scene == "corner"
+            ? *many_
+            : calibrate(path(name), settingsFor({128, 96}, {}, sceneName.c_str()), cache(), quiet);
     const std::vector<Reduction> reductions = reductionsOf(opened(name));
     QCOMPARE(reductions.size(), std::size_t{1});
     QVERIFY(reductions[0].bin >= 2);
@@ -112,6 +126,7 @@ class TestReductions : public QObject {
     for (const Message& finding : result.findings) told = told || finding.id() == "reduction.binned";
     QVERIFY(told);
 
+    if (isSanitized) return;  // qualities are compared without sanitizers
     calibrate(path(name + " small"), settingsFor({32, 24}, {}, sceneName.c_str()), cache(), quiet);
     EvaluateSettings evaluation;
     evaluation.fewImages = true;  // a night has little light to gain
@@ -130,7 +145,7 @@ class TestReductions : public QObject {
   /// The law of every calibration: what was interrupted ends in the same bits.
   void aReductionIsChosenOnce() {
     Progress quiet;
-    calibrate(path("whole run"), settingsFor({128, 96}), cache(), quiet);
+    const std::string undisturbed = many();
     {
       CalibrationFolder folder = beginCalibration(path("in parts"), settingsFor({128, 96}));
       OpenedRig devices = openRig(settingsOf(folder).rig, cache(), quiet);
@@ -138,7 +153,7 @@ class TestReductions : public QObject {
     }
     const std::string chosen = opened("in parts").settings().at("reduction").dump();
     resume(path("in parts"), cache(), quiet);
-    CalibrationFolder parts = opened("in parts"), whole = opened("whole run");
+    CalibrationFolder parts = opened("in parts"), whole = opened(undisturbed);
     QCOMPARE(parts.settings().at("reduction").dump(), chosen);
     QCOMPARE(chosen, whole.settings().at("reduction").dump());
     QVERIFY(loadAcquisition(*parts.latest(Stage::acquisition)).transport.ownLeaves() ==
@@ -191,7 +206,8 @@ class TestReductions : public QObject {
   void automaticPixelsFitIntoMemory() {
     QFETCH(int, larger);
     Progress quiet;
-    const CalibrateSettings settings = settingsFor({256, 192});
+    CalibrateSettings settings = settingsFor({256, 192});
+    std::get<VenueSettings>(settings.rig).pathsPerPixel = 4;  // where light is, is enough
     OpenedRig devices = openRig(settings.rig, cache(), quiet);
     auto chosen = [&](const std::string& name, const PixelUse& use, const platform::MemoryUse& memory) {
       CalibrateSettings own = settings;
@@ -276,18 +292,18 @@ class TestReductions : public QObject {
   /// People look at all that the camera sees; figures are of what was measured.
   void aProofShowsAllThatTheCameraSees() {
     Progress quiet;
-    calibrate(path("proved"), settingsFor({128, 96}), cache(), quiet);
+    const std::string name = many();
     Image content({32, 24}, 3, 0.5f);
     writePng(path("grey.png"), content, 8);
     ProveSettings settings;
     settings.image = path("grey.png");
     settings.out = path("proof");
-    const ProveResult result = proveCalibration(path("proved"), settings, cache(), quiet);
+    const ProveResult result = proveCalibration(path(name), settings, cache(), quiet);
     QVERIFY(result.after.surprise < 0.05);
-    const Reduction reduction = reductionsOf(opened("proved")).at(0);
-    for (const char* name : {"before", "after"}) {
-      const Image whole = readPicture(settings.out / (std::string(name) + "_whole.png")).encoded;
-      const Image used = readPicture(settings.out / (std::string(name) + ".png")).encoded;
+    const Reduction reduction = reductionsOf(opened(name)).at(0);
+    for (const char* shown : {"before", "after"}) {
+      const Image whole = readPicture(settings.out / (std::string(shown) + "_whole.png")).encoded;
+      const Image used = readPicture(settings.out / (std::string(shown) + ".png")).encoded;
       QCOMPARE(whole.size(), (Size{128, 96}));
       QCOMPARE(used.size(), reduction.size());
       // The same light in the same brightness: codes of bins and the middle of their samples.
@@ -301,9 +317,9 @@ class TestReductions : public QObject {
                                          reduction.begin.y + y * reduction.bin + reduction.bin / 2, c));
             sum += mean;
           }
-      QVERIFY2(std::abs(apart) < 0.03 * sum, qPrintable(QString("%1: %2").arg(name).arg(apart / sum)));
+      QVERIFY2(std::abs(apart) < 0.03 * sum, qPrintable(QString("%1: %2").arg(shown).arg(apart / sum)));
     }
-    const VerifyResult verified = verifyCalibration(path("proved"), {}, cache(), quiet);
+    const VerifyResult verified = verifyCalibration(path(name), {}, cache(), quiet);
     QVERIFY(verified.found.error < 0.1);
   }
 

@@ -122,11 +122,12 @@ class TestRepair : public QObject {
     };
     for (const char* change : {"bumped", "nudged", "knocked", "aged", "filtered", "painted", "moved", "added",
                                "dusty", "brighter room", "painted, aged, brighter room"}) {
-      row("corner", change);
-      if (isSanitized) break;
+      // A look that was bumped and a part of the venue that moved: sanitizers take ten times as long.
+      if (!isSanitized || change == std::string_view("bumped") || change == std::string_view("moved"))
+        row("corner", change);
     }
-    row("depth", "moved");
     if (isSanitized) return;
+    row("depth", "moved");
     row("glass", "bumped");
     row("dome", "painted, aged");
     row("statue3", "painted, bumped");
@@ -142,6 +143,13 @@ class TestRepair : public QObject {
     const std::string name = venue.toStdString();
     const Changes changes = changesNamed(change);
     const fs::path folder = copyOf(name, how, "repaired"), fresh = root() / "fresh";
+    if (isSanitized) {  // qualities are compared without sanitizers
+      const std::string correction = correctionOf(folder);
+      const RepairEnd end = repairedAs(folder, name, changes).end;
+      QVERIFY(end != RepairEnd::nothingToDo);
+      QCOMPARE(correctionOf(folder) != correction, end == RepairEnd::repaired);
+      return;
+    }
     fs::remove_all(fresh);
     calibrate(fresh, settingsFor(name, how, changes), cache(), quiet);
     const Quality before = qualityOf(folder, name, changes), anew = qualityOf(fresh, name, changes);
@@ -238,6 +246,7 @@ class TestRepair : public QObject {
     QTest::addColumn<int>("fault");
     QTest::addColumn<double>("amount");
     QTest::newRow("covered") << static_cast<int>(FaultKind::coveredLens) << 0.0;
+    if (isSanitized) return;
     QTest::newRow("asleep") << static_cast<int>(FaultKind::asleepProjector) << 0.0;
     QTest::newRow("unplugged") << static_cast<int>(FaultKind::unplugged) << 0.0;
     QTest::newRow("flicker") << static_cast<int>(FaultKind::flicker) << 0.2;
@@ -270,13 +279,13 @@ class TestRepair : public QObject {
     schedule->faults.push_back(hand);
     rig::Rig rig = venue.rig(schedule);
     const Changes changes = changesNamed("painted");
-    const Quality before = qualityOf(folder, "corner", changes);
+    const Quality before = isSanitized ? Quality() : qualityOf(folder, "corner", changes);
     try {
       repairCalibration(folder, {}, rig, quiet);
     } catch (const Error& error) {  // or somebody is told that it was too much
       QVERIFY2(error.kind() == ErrorKind::device, error.what());
     }
-    QVERIFY(qualityOf(folder, "corner", changes).psnr > before.psnr - 0.05);
+    if (!isSanitized) QVERIFY(qualityOf(folder, "corner", changes).psnr > before.psnr - 0.05);
   }
 
   void onlyOneMayChangeIt() {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "relucent/pipeline/scale_bench.h"
+#include "support/sanitized.h"
 
 using namespace relucent;
 using namespace relucent::pipeline;
@@ -45,6 +46,7 @@ class TestScaleBench : public QObject {
     Progress quiet;
     ScaleBenchSettings settings;
     settings.sizes = {{{64, 48}, {40, 30}}, {{96, 64}, {64, 48}}};
+    if (isSanitized) settings.sizes = {{{40, 30}, {28, 21}}, {{64, 48}, {40, 30}}};
     settings.pathsPerPixel = 4;
     int after = 0;
     settings.after.push_back({"after", [&](const fs::path& calibration, const fs::path&, Progress&) {

@@ -10,44 +10,65 @@
 namespace relucent::importing {
 namespace {
 
-/// How far apart places are that some patterns cannot tell from each other: mean, over all projector pixels,
-/// of the width and height of the box around all pixels with the same sequence.
-double ambiguityOf(const PictureSequence& patterns, const std::vector<int>& frames) {
-  Size size = patterns.size();
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(size.count());
-  parallelFor(0, size.count(), 1024, [&](std::size_t pixel) {
-    std::uint64_t key = 0;
-    for (int frame : frames)
-      for (int c = 0; c < (patterns.isColoured() ? 3 : 1); ++c)
-        key = Random{key, patterns.code(pixel, frame, c)}.next();
-    places[pixel] = {key, static_cast<std::uint32_t>(pixel)};
-  });
-  std::sort(places.begin(), places.end());
-  double sum = 0.0;
-  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
-    Pixel least = pixelAt(size, places[begin].second), most = least;
-    for (end = begin; end < places.size() && places[end].first == places[begin].first; ++end) {
-      Pixel at = pixelAt(size, places[end].second);
-      least = {std::min(least.x, at.x), std::min(least.y, at.y)};
-      most = {std::max(most.x, at.x), std::max(most.y, at.y)};
-    }
-    sum += static_cast<double>(end - begin) * (most.x - least.x + most.y - least.y);
-  }
-  return sum / static_cast<double>(size.count());
-}
-
 /// Patterns that say the same: equal ones and negatives of each other.
 using Family = std::vector<int>;
 
-std::vector<int> without(const std::vector<int>& all, const std::vector<int>& some, const Family& family) {
-  std::vector<int> rest;
-  auto isIn = [](const std::vector<int>& list, int k) {
-    return std::find(list.begin(), list.end(), k) != list.end();
-  };
-  for (int k : all)
-    if (!isIn(family, k) && !isIn(some, k)) rest.push_back(k);
-  return rest;
+/// What a pattern says of a projector pixel: sums of it over patterns are equal where all of them say the
+/// same.
+std::uint64_t keyOf(const PictureSequence& patterns, int frame, std::size_t pixel) {
+  const auto number = static_cast<std::uint64_t>(frame);
+  if (!patterns.isColoured()) return Random{number, patterns.code(pixel, frame, 0)}.next();
+  return Random{number, patterns.code(pixel, frame, 0), patterns.code(pixel, frame, 1),
+                patterns.code(pixel, frame, 2)}
+      .next();
 }
+
+/// Which projector pixels some patterns tell apart.
+class ToldApart {
+ public:
+  ToldApart(const PictureSequence& patterns, const std::vector<int>& frames)
+      : patterns_(patterns), key_(patterns.size().count(), 0) {
+    parallelFor(0, key_.size(), 1024, [&](std::size_t pixel) {
+      for (int frame : frames) key_[pixel] += keyOf(patterns_, frame, pixel);
+    });
+  }
+
+  void leaveOut(const Family& family) { key_ = keysWithout(family); }
+
+  /// How far apart places are that the patterns without a family cannot tell from each other: mean, over all
+  /// projector pixels, of the width and height of the box around all pixels with the same sequence.
+  double ambiguityWithout(const Family& family) const {
+    const Size size = patterns_.size();
+    const std::vector<std::uint64_t> key = keysWithout(family);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> places(key.size());
+    for (std::size_t pixel = 0; pixel < key.size(); ++pixel)
+      places[pixel] = {key[pixel], static_cast<std::uint32_t>(pixel)};
+    std::sort(places.begin(), places.end());
+    double sum = 0.0;
+    for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+      Pixel least = pixelAt(size, places[begin].second), most = least;
+      for (end = begin; end < places.size() && places[end].first == places[begin].first; ++end) {
+        Pixel at = pixelAt(size, places[end].second);
+        least = {std::min(least.x, at.x), std::min(least.y, at.y)};
+        most = {std::max(most.x, at.x), std::max(most.y, at.y)};
+      }
+      sum += static_cast<double>(end - begin) * (most.x - least.x + most.y - least.y);
+    }
+    return sum / static_cast<double>(size.count());
+  }
+
+ private:
+  std::vector<std::uint64_t> keysWithout(const Family& family) const {
+    std::vector<std::uint64_t> key = key_;
+    parallelFor(0, key.size(), 1024, [&](std::size_t pixel) {
+      for (int frame : family) key[pixel] -= keyOf(patterns_, frame, pixel);
+    });
+    return key;
+  }
+
+  const PictureSequence& patterns_;
+  std::vector<std::uint64_t> key_;  // of all that are not left out
+};
 
 /// Equal, or one the negative of the other, but for what a file format that loses something does to both.
 bool saySame(const PictureSequence& patterns, int a, int b) {
@@ -96,10 +117,12 @@ std::vector<int> heldOutPatterns(const PictureSequence& patterns, int every) {
   auto group = static_cast<std::size_t>(every);
   // Neighbours may be confused, two across and then two down: the finest stripes, which camera pixels settle
   // together. Without coarser ones, places far apart would look alike.
-  double before = 1.05 * ambiguityOf(patterns, order), oneAxis = before + 1.0, bothAxes = before + 2.0;
+  ToldApart told(patterns, order);
+  double before = 1.05 * told.ambiguityWithout({}), oneAxis = before + 1.0, bothAxes = before + 2.0;
   std::vector<int> held;
   auto spare = [&](Family& family, double allowed) {
-    if (family.empty() || ambiguityOf(patterns, without(order, held, family)) > allowed) return false;
+    if (family.empty() || told.ambiguityWithout(family) > allowed) return false;
+    told.leaveOut(family);
     held.insert(held.end(), family.begin(), family.end());
     family.clear();
     return true;

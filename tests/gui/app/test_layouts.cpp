@@ -4,6 +4,7 @@
 #include <QDialog>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <algorithm>
 
 #include "app/help_window.h"
 #include "app/wizard_window.h"
@@ -76,6 +77,7 @@ class TestLayouts : public QObject {
   std::unique_ptr<QSettings> settings_;
   std::unique_ptr<WizardWindow> wizard_;
   QSet<QString> known_;
+  QStringList languages_;
 
   Wizard& steps() { return wizard_->wizard(); }
 
@@ -89,16 +91,17 @@ class TestLayouts : public QObject {
       }
     return faults;
   }
-  /// In every language what the function looks at, which has a name.
+  /// In every language what the function looks at, which has a name. The window is made anew for each, which
+  /// takes most of this test's time: there and back in turns, so that one language is not made twice.
   void inEveryLanguage(const std::function<QStringList(const QString& language)>& look) {
     QStringList faults;
-    for (const QString& language : Language("en").available()) {
+    for (const QString& language : languages_) {
       wizard_->preferences().setLanguage(language);
       wizard_->window().resize(screen);
       settle();
       faults << look(language);
     }
-    wizard_->preferences().setLanguage("en");
+    std::ranges::reverse(languages_);
     QVERIFY2(faults.isEmpty(),
              qPrintable(QString("%1 texts are cut or missing\n").arg(faults.size()) + faults.join('\n')));
   }
@@ -119,16 +122,61 @@ class TestLayouts : public QObject {
       faults << language + ", " + where + ": the dialog does not fit the screen";
     return faults;
   }
+  /// What may open on any page.
+  QStringList dialogs(const QString& language) {
+    wizard_->window().showSettings();
+    auto* settings = wizard_->window().findChild<QDialog*>("settings");
+    QStringList faults = seen(*settings, language, "settings");
+    delete settings;
+    HelpWindow help(language);
+    help.show();
+    faults << seen(help, language, "help");
+    for (ErrorKind kind : {ErrorKind::device, ErrorKind::disk, ErrorKind::memory, ErrorKind::format,
+                           ErrorKind::input, ErrorKind::numerics}) {
+      Failure failure{
+          kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
+      PageCommand resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr),
+          repair(Icon::camera, nullptr);
+      resume.show(AcquirePage::tr("Resume"));
+      keep.show(AcquirePage::tr("Stop and keep"));
+      goOn.show(AcquirePage::tr("Continue anyway"));
+      repair.show(AcquirePage::tr("Put the camera back"));
+      FailureDialog dialog(
+          {failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn, false, &repair},
+          wizard_->page<AcquirePage>().name());
+      dialog.show();
+      faults << seen(dialog, language, "failure");
+    }
+    return faults;
+  }
+  /// What the disk could be freed of, which is asked on the first page.
+  QStringList tidying(const QString& language) {
+    steps().go(0);
+    wizard_->window().findChild<QPushButton*>("tidy")->click();
+    auto* dialog = wizard_->window().findChild<TidyDialog*>();
+    VenueTidy& tidy = dialog->tidy();
+    QStringList faults = seen(*dialog, language, "tidying, looking");
+    if (!QTest::qWaitFor([&] { return tidy.state() == VenueTidy::State::choosing; }, patience))
+      return faults << language + ": nothing to choose from";
+    faults << seen(*dialog, language, "tidying, choosing");
+    tidy.choose(KeptPhotographs::results);
+    tidy.ask();
+    faults << seen(*dialog, language, "tidying, asking");
+    delete dialog;
+    return faults;
+  }
+  QStringList pagesIn(const QString& language, std::initializer_list<std::size_t> wanted,
+                      const QString& state) {
+    QStringList faults;
+    for (std::size_t step : wanted) {
+      steps().go(step);
+      faults << seen(language, QString("step %1, %2").arg(step + 1).arg(state));
+    }
+    return faults;
+  }
   /// The pages as they are now.
   void pages(std::initializer_list<std::size_t> wanted, const QString& state) {
-    inEveryLanguage([&](const QString& language) {
-      QStringList faults;
-      for (std::size_t step : wanted) {
-        steps().go(step);
-        faults << seen(language, QString("step %1, %2").arg(step + 1).arg(state));
-      }
-      return faults;
-    });
+    inEveryLanguage([&](const QString& language) { return pagesIn(language, wanted, state); });
   }
   void page(const QString& state) { pages({steps().current()}, state); }
   /// The page as it is now, by Tab from one end to the other: whatever has the focus is in sight.
@@ -198,6 +246,7 @@ class TestLayouts : public QObject {
   }
   /// Half of Full HD is enough.
   void reachesAll(std::initializer_list<std::size_t> wanted) {
+    wizard_->preferences().setLanguage("en");
     wizard_->window().resize(halfOfFullHd);
     wizard_->window().activateWindow();
     QVERIFY(QTest::qWaitForWindowActive(&wizard_->window()));
@@ -221,7 +270,8 @@ class TestLayouts : public QObject {
     wizard_->window().resize(screen);
     wizard_->window().show();
     QVERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
-    QVERIFY(Language("en").available().size() > 1);
+    languages_ = Language("en").available();
+    QVERIFY(languages_.size() > 1);
   }
 
   void whatHasNoNameIsFound() {
@@ -290,36 +340,7 @@ class TestLayouts : public QObject {
           faults << consentNotInSight(QString("%1, %2").arg(language, name));
       }
       wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
-      return faults;
-    });
-  }
-
-  void dialogs() {
-    inEveryLanguage([this](const QString& language) {
-      wizard_->window().showSettings();
-      auto* settings = wizard_->window().findChild<QDialog*>("settings");
-      QStringList faults = seen(*settings, language, "settings");
-      delete settings;
-      HelpWindow help(language);
-      help.show();
-      faults << seen(help, language, "help");
-      for (ErrorKind kind : {ErrorKind::device, ErrorKind::disk, ErrorKind::memory, ErrorKind::format,
-                             ErrorKind::input, ErrorKind::numerics}) {
-        Failure failure{
-            kind, "What happened, as long as it takes to say it.", "What to do about that now.", {}};
-        PageCommand resume(Icon::play, nullptr), keep(Icon::save, nullptr), goOn(Icon::next, nullptr),
-            repair(Icon::camera, nullptr);
-        resume.show(AcquirePage::tr("Resume"));
-        keep.show(AcquirePage::tr("Stop and keep"));
-        goOn.show(AcquirePage::tr("Continue anyway"));
-        repair.show(AcquirePage::tr("Put the camera back"));
-        FailureDialog dialog(
-            {failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn, false, &repair},
-            wizard_->page<AcquirePage>().name());
-        dialog.show();
-        faults << seen(dialog, language, "failure");
-      }
-      return faults;
+      return faults + dialogs(language);
     });
   }
 
@@ -343,12 +364,14 @@ class TestLayouts : public QObject {
     wizard_->page<LinearizePage>().primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(
         wizard_->page<LinearizePage>().result() && !wizard_->page<LinearizePage>().isMeasuring(), patience);
-    page("measured");
+    // With the page that follows, before anything is done there.
+    pages({2, 3}, "measured");
+    steps().go(2);
     wizard_->page<LinearizePage>().primary()->trigger();
+    QCOMPARE(steps().current(), std::size_t{3});
   }
 
   void acquisition() {
-    page("before");
     // As soon as what is watched has its figures: it is over in seconds.
     AcquirePage& acquire = wizard_->page<AcquirePage>();
     QMetaObject::Connection figures =
@@ -383,7 +406,9 @@ class TestLayouts : public QObject {
         patience);
     wizard_->page<PreviewPage>().primary()->trigger();
     QTRY_COMPARE(steps().current(), std::size_t{7});
-    pages({0, 1, 2, 3, 4, 5, 6, 7}, "done");
+    inEveryLanguage([this](const QString& language) {
+      return pagesIn(language, {0, 1, 2, 3, 4, 5, 6, 7}, "done") + tidying(language);
+    });
     reachesAll({0, 1, 2, 3, 4, 5, 6, 7});
     threshold.setShareOfPixel(true);
     Corners corners = *wizard_->page<PreviewPage>().corners();
@@ -391,25 +416,6 @@ class TestLayouts : public QObject {
     wizard_->page<PreviewPage>().setCorners(corners);
     QVERIFY(!wizard_->page<PreviewPage>().problem().isEmpty());
     pages({4, 6}, "something wrong");
-  }
-
-  void tidying() {
-    steps().go(0);
-    inEveryLanguage([this](const QString& language) {
-      QStringList faults;
-      wizard_->window().findChild<QPushButton*>("tidy")->click();
-      auto* dialog = wizard_->window().findChild<TidyDialog*>();
-      VenueTidy& tidy = dialog->tidy();
-      faults << seen(*dialog, language, "tidying, looking");
-      if (!QTest::qWaitFor([&] { return tidy.state() == VenueTidy::State::choosing; }, patience))
-        return faults << language + ": nothing to choose from";
-      faults << seen(*dialog, language, "tidying, choosing");
-      tidy.choose(KeptPhotographs::results);
-      tidy.ask();
-      faults << seen(*dialog, language, "tidying, asking");
-      delete dialog;
-      return faults;
-    });
   }
 
   void output() {
@@ -478,6 +484,8 @@ class TestLayouts : public QObject {
                                  !wizard_->page<CameraPage>().foundCameras().cameras.empty(),
                              patience);
     page("choosing");
+    // What is decided now is shown by windows that are made after it.
+    wizard_->preferences().setLanguage("en");
 
     rig.cameraAddress = "genicam:40012345";
     rig.camera = {48, 36};

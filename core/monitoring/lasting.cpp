@@ -58,4 +58,16 @@ bool Lasting::keeps(double within) const {
   return near >= settings_.held * total;
 }
 
+void Reference::add(double seconds, double value, double deviation) {
+  if (isKnown_ || deviation > settings_.informative || !std::isfinite(value)) return;
+  if (!begin_) begin_ = seconds;
+  first_.push_back(value);
+  isKnown_ = seconds - *begin_ >= settings_.seconds && first_.size() >= settings_.least;
+  if (!isKnown_) return;
+  const auto middle = first_.begin() + static_cast<std::ptrdiff_t>(first_.size() / 2);
+  std::nth_element(first_.begin(), middle, first_.end());
+  value_ = std::clamp(*middle, -settings_.most, settings_.most);
+  first_ = {};
+}
+
 }  // namespace relucent::monitoring

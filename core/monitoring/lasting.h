@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <optional>
+#include <vector>
 
 namespace relucent::monitoring {
 
@@ -40,6 +42,31 @@ class Lasting {
   };
   LastingSettings settings_;
   std::deque<One> seen_;
+};
+
+struct ReferenceSettings {
+  double seconds = 600.0;     // from the first photograph that tells something
+  std::size_t least = 60;     // of them
+  double informative = 0.04;  // a larger deviation tells nothing
+  double most = 0.01;         // further than this nothing is taken for an error of the measurement
+};
+
+/// How far a quantity was off from the beginning, which is what calibration has wrong: the median of the
+/// first minutes' photographs, held within narrow limits, so that a change from before the beginning is still
+/// told.
+class Reference {
+ public:
+  explicit Reference(const ReferenceSettings& settings = {}) : settings_(settings) {}
+  void add(double seconds, double value, double deviation);
+  /// 0 until the first minutes are over.
+  double value() const { return value_; }
+
+ private:
+  ReferenceSettings settings_;
+  std::vector<double> first_;
+  std::optional<double> begin_;
+  bool isKnown_ = false;
+  double value_ = 0.0;
 };
 
 }  // namespace relucent::monitoring

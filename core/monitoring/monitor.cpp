@@ -18,6 +18,11 @@ constexpr double alike = 0.2;         // visitors who follow each other take unl
 constexpr double whileMoved = 3.0;    // times as much must a lamp fade: a view that moved fits less well
 constexpr double certain = 2.5;       // deviations by which a limit's half must be passed
 
+void addTo(Lasting& lasting, Reference& reference, double seconds, double value, double deviation) {
+  reference.add(seconds, value, deviation);
+  lasting.add(seconds, value - reference.value(), deviation);
+}
+
 }  // namespace
 
 std::vector<Message> problems(const MonitorSettings& settings) {
@@ -36,6 +41,8 @@ Monitor::Monitor(WatchedVenue venue, MonitorSettings settings)
       gain_(3 * venue_.transport.projectors(), Lasting(settings.ofGain)),
       total_(venue_.transport.projectors(), Lasting(settings.ofGain)),
       cell_(venue_.sampling.cells.count(), Lasting(settings.ofCell)),
+      gainReference_(gain_.size(), Reference(settings.reference)),
+      totalReference_(total_.size(), Reference(settings.reference)),
       x_(settings.ofShift),
       y_(settings.ofShift),
       turn_(settings.ofShift),
@@ -47,7 +54,8 @@ Monitor::Monitor(WatchedVenue venue, MonitorSettings settings)
 
 std::vector<double> Monitor::gains() const {
   std::vector<double> gains;
-  for (const Lasting& one : gain_) gains.push_back(std::max(0.0, 1.0 + one.median().value_or(0.0)));
+  for (std::size_t k = 0; k < gain_.size(); ++k)
+    gains.push_back(std::max(0.0, 1.0 + gainReference_[k].value() + gain_[k].median().value_or(0.0)));
   return gains;
 }
 
@@ -69,9 +77,9 @@ Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<co
   }
   const LightFit& light = look.light;
   for (std::size_t k = 0; k < gain_.size(); ++k)
-    gain_[k].add(seconds, light.gain[k] - 1.0, light.deviation[k]);
+    addTo(gain_[k], gainReference_[k], seconds, light.gain[k] - 1.0, light.deviation[k]);
   for (std::size_t j = 0; j < total_.size(); ++j)
-    total_[j].add(seconds, light.total[j] - 1.0, light.totalDeviation[j]);
+    addTo(total_[j], totalReference_[j], seconds, light.total[j] - 1.0, light.totalDeviation[j]);
   for (std::size_t c = 0; c < cell_.size(); ++c)
     cell_[c].add(seconds, std::clamp(light.cells[c].share - 1.0, -1.0, 1.0), light.cells[c].deviation);
   if (light.light > leastLight) {

@@ -22,6 +22,7 @@ struct MonitorSettings {
   LastingSettings ofShift{40.0, 15.0, 8, 0.15, 0.03, 0.75, 0.7};
   // Two visitors who stop at one place, one after the other, are there for forty seconds.
   LastingSettings ofCell{50.0, 40.0, 8, 0.12, 0.03, 0.86, 0.7};
+  ReferenceSettings reference{};  // of gains
   LastingSettings ofRecognition{45.0, 25.0, 8, 10.0, 1.0, 0.85, 0.7};
 };
 /// What is wrong with the settings; empty: nothing.
@@ -73,7 +74,8 @@ class Monitor {
 
   WatchedVenue venue_;
   MonitorSettings settings_;
-  std::vector<Lasting> gain_, total_, cell_;  // less 1
+  std::vector<Lasting> gain_, total_, cell_;  // less 1, the former two less their reference
+  std::vector<Reference> gainReference_, totalReference_;
   Lasting x_, y_, turn_, unrecognised_;
   std::vector<Finding> findings_;
 };

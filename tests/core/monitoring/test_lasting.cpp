@@ -74,6 +74,27 @@ class TestLasting : public QObject {
     QVERIFY(same.keeps(0.1) && same.holds(0.3, -1));
     QVERIFY(!unlike.keeps(0.1) && unlike.holds(0.3, -1));
   }
+
+  /// What is off from the beginning is the measurement's, but not all that may be.
+  void theFirstMinutesTellTheReference_data() {
+    QTest::addColumn<double>("value");
+    QTest::addColumn<double>("reference");
+    QTest::newRow("as measured") << 0.0 << 0.0;
+    QTest::newRow("a little low") << -0.006 << -0.006;
+    QTest::newRow("faded before the beginning") << -0.05 << -0.01;
+  }
+  void theFirstMinutesTellTheReference() {
+    QFETCH(double, value);
+    QFETCH(double, reference);
+    Reference first;
+    for (int n = 0; n < 200; ++n) {
+      const double seconds = 4.0 * n;
+      first.add(seconds, n % 3 == 0 ? -0.5 : value, n % 3 == 0 ? 0.2 : 0.01);
+      QCOMPARE(first.value(), seconds < 604.0 ? 0.0 : reference);
+    }
+    for (int n = 200; n < 400; ++n) first.add(4.0 * n, -0.3, 0.01);
+    QCOMPARE(first.value(), reference);
+  }
 };
 
 QTEST_GUILESS_MAIN(TestLasting)

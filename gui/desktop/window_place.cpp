@@ -30,7 +30,9 @@ bool isAt(const QRect& wanted, const QRect& found) {
 }  // namespace
 
 bool standsOn(const QWindow& window, const QScreen& screen, const QRect& place) {
-  if (const auto* x = qGuiApp->nativeInterface<QNativeInterface::QX11Application>())
+  // Where there is no display at all, Qt has the interface too, without a server behind it.
+  const auto* x = qGuiApp->nativeInterface<QNativeInterface::QX11Application>();
+  if (x != nullptr && QGuiApplication::platformName() == "xcb")
     return isAt(place, placeOnX(x->connection(), static_cast<xcb_window_t>(window.winId())));
   return window.screen() == &screen;
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "relucent/platform/child_process.h"
 #include "relucent/platform/files.h"
 #include "relucent/platform/folder_lock.h"
 #include "relucent/platform/interruption_signals.h"
@@ -253,6 +254,41 @@ class TestPlatform : public QObject {
     for (int i = 0; i < 100'000'000 && after - before < 0.01; ++i) after = processorSeconds();
     QVERIFY(before > 0.0 && after - before >= 0.01);
     QVERIFY(systemDescription().find(" cores\n") != std::string::npos);
+    QCOMPARE(ownProgram().string(), QCoreApplication::applicationFilePath().toStdString());
+  }
+
+  void anotherProgramIsWatchedAndEnded() {
+    std::error_code error;
+    const auto sh = [&](const char* script, const std::vector<std::string>& environment = {}) {
+      return ChildProcess::start("/bin/sh", {"-c", script}, environment, error);
+    };
+    const auto said = [](ChildProcess& child, const std::string& wanted) {
+      std::string all;
+      for (int look = 0; look < 500 && all.size() < wanted.size(); ++look) {
+        all += child.errors();
+        QTest::qSleep(10);
+      }
+      return all;
+    };
+    const auto child = sh("echo \"$NAME $TZ\" >&2; exec sleep 600", {"NAME=one", "TZ=UTC"});
+    QVERIFY(child != nullptr);
+    QCOMPARE(said(*child, "one UTC\n"), std::string("one UTC\n"));
+    const std::optional<ProcessUse> use = child->use();
+    QVERIFY(use && use->residentBytes >= use->ownBytes && use->ownBytes > 0);
+    QVERIFY(use->handles >= 3);
+    QCOMPARE(use->threads, 1);
+    QVERIFY(!child->ended());
+    child->ask();
+    QTRY_VERIFY(child->ended());
+    QVERIFY(child->ended()->killed && child->ended()->status == SIGTERM && !child->use());
+    const auto other = sh("exec sleep 600");
+    other->kill();
+    QCOMPARE(other->ended()->status, SIGKILL);
+    const auto failing = sh("exit 7");
+    QTRY_VERIFY(failing->ended());
+    QVERIFY(!failing->ended()->killed && failing->ended()->status == 7);
+    QVERIFY(ChildProcess::start("/nowhere", {}, {}, error) == nullptr);
+    QVERIFY(error == std::errc::no_such_file_or_directory);
   }
 };
 

@@ -95,7 +95,7 @@ class Night {
  public:
   Night(const fs::path& folder, const NightSettings& settings, Devices devices)
       : folder_(folder), settings_(settings), devices_(devices) {
-    record_.when = utcNow();
+    record_.when = settings.when.empty() ? utcNow() : settings.when;
     proved_ = firstReadable(settings.images);
   }
 

@@ -20,6 +20,7 @@ struct NightSettings {
   std::optional<RigSettings> rig;             // none: the calibration's own; others must have its sizes
   std::string alarmCommand{};                 // tells of an alarm, see closeNight(); empty: nobody is told
   std::string set{};                          // as which stills are shown, see sets.h; empty: the one in use
+  std::string when{};                         // as its record has it, see utcText(); empty: now
 };
 std::vector<Message> problems(const NightSettings& settings);
 

@@ -14,14 +14,15 @@
 namespace relucent::pjlink {
 
 struct KeeperSettings {
-  std::string label;                       // what people call the projector: "1", "left"
-  std::optional<Size> sent{};              // pixels of the picture that it is sent
-  bool switchesPower = false;              // on while it is wanted, off otherwise; else it is only watched
-  bool closesShutter = false;              // while black is wanted
-  std::chrono::seconds interval{30};       // between two looks ...
-  std::chrono::seconds soon{3};            // ... and while it does not do yet what is wanted
-  std::chrono::seconds longestPause{300};  // while it does not answer: doubled from `soon` up to here
-  std::chrono::seconds obeys{240};         // after which a projector that does not is told of
+  std::string label;           // what people call the projector: "1", "left"
+  std::optional<Size> sent{};  // pixels of the picture that it is sent
+  bool switchesPower = false;  // on while it is wanted, off otherwise; else it is only watched
+  bool closesShutter = false;  // while black is wanted
+  std::chrono::milliseconds interval{30'000};  // between two looks ...
+  std::chrono::milliseconds soon{3'000};       // ... and while it does not do yet what is wanted
+  std::chrono::milliseconds longestPause{
+      300'000};                              // while it does not answer: doubled from `soon` up to here
+  std::chrono::milliseconds obeys{240'000};  // after which a projector that does not is told of
   Patience patience{};
 };
 
@@ -34,11 +35,11 @@ struct Wanted {
 
 /// What came of looking after it once.
 struct Kept {
-  std::optional<Report> report{};  // none: it does not answer
-  Message problem{};               // why not; empty: it does
-  std::vector<Message> told{};     // for the log: what was done
-  std::vector<Message> warned{};   // what somebody should see to, each once while it lasts
-  std::chrono::seconds pause{};    // until it should be looked after again
+  std::optional<Report> report{};     // none: it does not answer
+  Message problem{};                  // why not; empty: it does
+  std::vector<Message> told{};        // for the log: what was done
+  std::vector<Message> warned{};      // what somebody should see to, each once while it lasts
+  std::chrono::milliseconds pause{};  // until it should be looked after again
 };
 
 /// Looks after one projector during a show: switches it on and off, closes its shutter, and tells what is

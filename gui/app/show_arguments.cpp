@@ -111,6 +111,13 @@ const QCommandLineOption fillShadows("fill-shadows",
                                      "Where two projectors overlap, fill the shadow of whoever stands in the "
                                      "light of one by the others, as the "
                                      "watching camera sees it: with --watch.");
+const QCommandLineOption rehearseTime("rehearse-time",
+                                      "For rehearsals in a simulated venue: the time is as the line of this "
+                                      "file says, \"FROM UNTIL SPEED\", as "
+                                      "\"2026-05-04T08:50 2026-05-04T18:10 1000\", stands still at UNTIL, "
+                                      "and follows the file when it changes. "
+                                      "relucent-cli rehearse-day does all of it.",
+                                      "FILE");
 const QCommandLineOption installService(
     "install-service",
     "Start this show at every log-in and restart it after a failure: a systemd user unit.");
@@ -292,6 +299,7 @@ ShowSettings settingsOf(const QCommandLineParser& parser, const QString& folder)
   if (settings.fillsShadows && !settings.watch)
     throw WrongArguments("shadows are filled as a camera sees them: say which, as --watch 1");
   readProjectors(parser, settings);
+  settings.rehearsal = parser.value(rehearseTime);
   if (parser.isSet(oscFeedback)) {
     settings.oscFeedback = networkPlaceFrom(parser.value(oscFeedback));
     if (!settings.oscFeedback)
@@ -340,6 +348,7 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
                      fillShadows,
                      set,
                      setAtTime,
+                     rehearseTime,
                      log,
                      installService,
                      installAutostart,
@@ -359,6 +368,9 @@ ShowArguments parseShowArguments(const QStringList& arguments) {
   if (words.size() != 2 || words[0] != "show")
     throw WrongArguments("usage: relucent show CALIBRATION --content PATH");
   ShowSettings settings = settingsOf(parser, parser.value(log));
+  const bool installs = parser.isSet(installService) || parser.isSet(installAutostart);
+  if (installs && !settings.rehearsal.isEmpty())
+    throw WrongArguments("--rehearse-time is for rehearsals: a show that starts by itself has the real time");
   if (parser.isSet(installService))
     return InstallShow{Start::service, repeatedArguments(parser, settings), settings};
   if (parser.isSet(installAutostart))

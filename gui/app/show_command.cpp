@@ -56,7 +56,8 @@ int run(const PlayShow& play) {
         RELUCENT_ENGLISH_MESSAGE("show.tell-projectors",
                                  "tell it: relucent-cli projectors --calibration {} --pjlink HOST")
             .with(settings.calibration.string()));
-  Show show(settings, [settings](const std::function<void(const QString&)>& warn, const std::string& named) {
+  const auto renderer = [settings](const std::function<void(const QString&)>& warn,
+                                   const std::string& named) {
     Progress quiet;
     return std::make_unique<EngineRenderer>(
         RendererSettings{settings.calibration, settings.canvas, settings.adaptiveRange, settings.brightness,
@@ -66,7 +67,8 @@ int run(const PlayShow& play) {
           SharedGl* shared = SharedGl::instance();
           return shared != nullptr ? shared->host() : nullptr;
         });
-  });
+  };
+  Show show(settings, renderer, clockOf(settings));
   const auto end = [&show] {
     show.stop();
     QGuiApplication::quit();

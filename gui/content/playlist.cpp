@@ -106,9 +106,17 @@ void Playlist::open(qsizetype index) {
 }
 
 void Playlist::skip(const Message& sentence) {
-  const bool isNew = std::find(skipped_.begin(), skipped_.end(), sentence) == skipped_.end();
-  if (isNew && skipped_.size() < mostSentences) skipped_.push_back(sentence);
+  const auto before = std::ranges::find(skipped_, openingIndex_, &Skipped::index);
+  const bool isNew = before == skipped_.end() || before->why != sentence;
+  if (isNew) {
+    forgive(openingIndex_);
+    if (skipped_.size() < mostSentences) skipped_.push_back({openingIndex_, sentence});
+  }
   openNext(openingIndex_);
+}
+
+void Playlist::forgive(qsizetype index) {
+  std::erase_if(skipped_, [index](const Skipped& one) { return one.index == index; });
 }
 
 bool Playlist::nextIsReady(ContentTime now) {
@@ -124,6 +132,8 @@ bool Playlist::nextIsReady(ContentTime now) {
   }
   // Where nothing plays, black is as good as anything until it comes.
   if (opened_.source->isReady() || !current_.source) {
+    // A stream that shows nothing yet is not there again.
+    if (opened_.source->isReady()) forgive(opened_.index);
     next_ = std::exchange(opened_, {});
     next_.begin = now;
     return true;
@@ -192,8 +202,10 @@ ContentPicture Playlist::at(ContentTime time) {
   std::vector<std::shared_ptr<ContentSource>> live;
   for (const auto& source : {current_.source, next_.source, opened_.source})
     if (source && source->live()) live.push_back(source);
+  std::vector<Message> skipped;
+  for (const Skipped& one : skipped_) skipped.push_back(one.why);
   QMutexLocker lock(&statusGuard_);
-  status_ = {current_.index, skipped_};
+  status_ = {current_.index, std::move(skipped)};
   live_.swap(live);  // those of before go after the lock
   return picture;
 }

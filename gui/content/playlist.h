@@ -62,9 +62,8 @@ class Playlist : public ContentSource {
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
   struct Status {
-    qsizetype playing = -1;  // which item; -1 before the first
-    std::vector<Message>
-        skipped;  // the items that could not be read so far, one sentence each, the newest last
+    qsizetype playing = -1;         // which item; -1 before the first
+    std::vector<Message> skipped;   // one sentence for each item that cannot be read now, the newest last
     std::vector<LiveState> live{};  // what may be lost: of the playing item, and of the next one
   };
   /// Another item, from 0, with the usual fade as soon as it is ready. May be called from any thread.
@@ -81,6 +80,12 @@ class Playlist : public ContentSource {
     ContentTime begin{0};  // of the next one, once it is ready
   };
 
+  /// An item that could not be read when it was its turn.
+  struct Skipped {
+    qsizetype index = -1;
+    Message why;
+  };
+
   ContentPicture pictureAt(ContentTime time);
   ContentTime lengthOf(const Playing& item) const;
   ContentTime fadeBetween(const Playing& item, const Playing& next) const;
@@ -90,6 +95,7 @@ class Playlist : public ContentSource {
   void openWanted();
   bool nextIsReady(ContentTime now);
   void skip(const Message& sentence);
+  void forgive(qsizetype index);
   ContentPicture frameOf(const Playing& item, ContentTime time);
 
   PlaylistSettings settings_;
@@ -103,7 +109,7 @@ class Playlist : public ContentSource {
   bool isFresh_ = true;  // it has not begun
   ContentTime last_{0};
   ContentTime tryAgain_{0};  // after nothing could be read
-  std::vector<Message> skipped_;
+  std::vector<Skipped> skipped_;
   mutable QMutex statusGuard_;
   Status status_;
   std::vector<std::shared_ptr<ContentSource>> live_;  // of status_, guarded too

@@ -19,4 +19,11 @@ std::chrono::nanoseconds MachineClock::sleptSinceBoot() {
   return timeOn(CLOCK_BOOTTIME) - timeOn(CLOCK_MONOTONIC);
 }
 
+MachineClock MachineClock::rehearsed(const QString& file) {
+  MachineClock clock;
+  clock.rehearsal = std::make_shared<RehearsalClock>(file);
+  clock.wall = [rehearsal = clock.rehearsal] { return rehearsal->now(); };
+  return clock;
+}
+
 }  // namespace relucent::gui

@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QStandardPaths>
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 #include "output/output_playlist.h"
@@ -24,16 +25,33 @@ namespace relucent::gui {
 namespace {
 
 constexpr std::chrono::seconds noticed{1};  // of sleep
-constexpr int healthInterval = 10'000;      // milliseconds
-constexpr int streamsInterval = 1'000;
-constexpr int shortestPause = 1'000;        // before it is tried again, doubled with every failure ...
-constexpr int longestPause = 60'000;        // ... up to here
-constexpr int aheadOfTime = 60'000;         // a set is prepared
-constexpr int forgivenAfter = 10 * 60'000;  // of playing without one
+constexpr std::chrono::milliseconds healthInterval{10'000};
+constexpr int streamsInterval = 1'000;  // milliseconds
+constexpr std::chrono::milliseconds shortestPause{
+    1'000};  // before it is tried again, doubled with every failure ...
+constexpr std::chrono::milliseconds longestPause{60'000};    // ... up to here
+constexpr int aheadOfTime = 60'000;                          // milliseconds: a set is prepared
+constexpr std::chrono::milliseconds forgivenAfter{600'000};  // of playing without one
 
 /// Where core's command line keeps them, too.
 std::filesystem::path simulatedVenues() {
   return (QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/relucent").toStdString();
+}
+
+/// Nobody takes the lines of a rehearsal for those of a show.
+ShowLog::Mark markOf(const MachineClock& clock) {
+  return [rehearsal = clock.rehearsal] {
+    return rehearsal ? "rehearsal " + rehearsal->now().toString(Qt::ISODate) + ' ' : QString();
+  };
+}
+
+pjlink::Waiting waitingOf(const MachineClock& clock) {
+  if (!clock.rehearsal) return {};
+  using Steady = std::chrono::steady_clock;
+  return {[begin = Steady::now()] { return begin + RehearsalClock::haste * (Steady::now() - begin); },
+          [](std::chrono::milliseconds usual) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(usual) / RehearsalClock::haste);
+          }};
 }
 
 }  // namespace
@@ -45,11 +63,11 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       make_(std::move(make)),
       clock_(std::move(clock)),
       slept_(clock_.slept()),
-      log_(settings_.folder),
+      log_(settings_.folder, markOf(clock_)),
       awake_(tr("A show is playing.")),
       wishes_(settings_.powerOffAfter),
       photographs_(photography ? std::move(photography)
-                               : photographyOf(settings_.calibration, simulatedVenues())) {
+                               : photographyOf(settings_.calibration, simulatedVenues(), waitingOf(clock_))) {
   scheduledSet_ = setAt(settings_.content.sets, clock_.wall().time());
   wantedSet_ = scheduledSet_ && settings_.set.empty() ? scheduledSet_->toStdString() : settings_.set;
   if (settings_.night) nights_.emplace(settings_, clock_.wall());
@@ -60,14 +78,15 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
   connect(&photographs_, &ShowPhotographs::ended, this, &Show::photographed);
   connect(&escape_, &HeldKey::held, this, &Show::endWanted);
   for (const QString& problem : awake_.problems()) log_.warn(problem);
-  health_.setInterval(healthInterval);
+  health_.setInterval(clock_.pause(healthInterval));
   connect(&health_, &QTimer::timeout, this, [this] { look(); });
   streamsLooked_.setInterval(streamsInterval);
   connect(&streamsLooked_, &QTimer::timeout, this, &Show::tellStreams);
   again_.setSingleShot(true);
   connect(&again_, &QTimer::timeout, this, [this] {
     // Displays of projectors that are to be off are not missed, and those that are photographed are not free.
-    if ((!player_ && !wishes().on) || state_ == ShowState::photographing) return again_.start(longestPause);
+    if ((!player_ && !wishes().on) || state_ == ShowState::photographing)
+      return again_.start(clock_.pause(longestPause));
     try {
       open();
       start();
@@ -75,7 +94,7 @@ Show::Show(ShowSettings settings, MakeRenderer make, MachineClock clock, QObject
       tryAgain(error.sentence());
     }
   });
-  projectors_ = watchOf(settings_, wishes());
+  projectors_ = watchOf(settings_, wishes(), clock_);
   if (projectors_) {
     connect(projectors_.get(), &ProjectorWatch::told, this, [this](const Message& sentence) {
       log_.tell(QString::fromStdString(englishSentence(sentence)));
@@ -129,7 +148,7 @@ void Show::open() {
   playing_ = playedBy(settings_.calibration, wantedSet_);
   playsPerfected_ = pipeline::perfectedState(settings_.calibration);
   content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas);
-  toldSkipped_ = 0;
+  toldSkipped_.clear();
   followedItem_ = -1;
   std::vector<ProjectorWindow*> windows;
   for (const auto& window : windows_) windows.push_back(window.get());
@@ -233,7 +252,7 @@ void Show::start() {
   wakeDisplays();
   for (const auto& window : windows_) window->shine();
   isTime() ? play() : rest();
-  QTimer::singleShot(forgivenAfter, player_.get(), [this] { failures_ = 0; });
+  QTimer::singleShot(clock_.pause(forgivenAfter), player_.get(), [this] { failures_ = 0; });
 }
 
 bool Show::isTime() const {
@@ -253,6 +272,7 @@ void Show::rest() {
 }
 
 void Show::look() {
+  if (clock_.rehearsal) clock_.rehearsal->follow();
   std::chrono::nanoseconds slept = clock_.slept();
   if (slept - slept_ > noticed) {
     log_.tell(QString("the machine slept for %1 s")
@@ -276,11 +296,12 @@ void Show::look() {
 
 void Show::tryAgain(const Message& sentence) {
   log_.warn(QString::fromStdString(englishSentence(sentence)));
-  int pause = std::min(longestPause, shortestPause << std::min(failures_, 10));
+  const std::chrono::milliseconds pause =
+      std::min(longestPause, shortestPause * (1 << std::min(failures_, 10)));
   ++failures_;
-  log_.tell(QString("trying again in %1 s").arg(pause / 1000));
+  log_.tell(QString("trying again in %1 s").arg(pause.count() / 1000));
   writeHealth(ShowState::failed);
-  again_.start(pause);
+  again_.start(clock_.pause(pause));
 }
 
 void Show::stop() {
@@ -338,6 +359,7 @@ void Show::tend() {
   makeWay();
   pipeline::NightSettings work = nights_->work();
   work.set = playing_.opened;
+  work.when = now.toUTC().toString(Qt::ISODate).toStdString();
   photographs_.tend(work, settings_.switchesPower);
 }
 
@@ -424,14 +446,24 @@ void Show::setFailed(const std::string& name, const Message& sentence) {
   tellSet("failed", QString::fromStdString(englishSentence(sentence)));
 }
 
+void Show::tellSkipped(const std::vector<Message>& skipped) {
+  const auto lacks = [](const std::vector<Message>& all, const Message& one) {
+    return std::ranges::find(all, one) == all.end();
+  };
+  for (const Message& sentence : skipped)
+    if (lacks(toldSkipped_, sentence))
+      log_.warn(QString::fromStdString("skipped: " + englishSentence(sentence)));
+  for (const Message& sentence : toldSkipped_)
+    if (lacks(skipped, sentence))
+      log_.tell(QString::fromStdString("no longer: " + englishSentence(sentence)));
+  toldSkipped_ = skipped;
+}
+
 void Show::writeHealth(ShowState state) {
   state_ = state;
   tellWatch();
   const Playlist::Status content = content_ ? content_->status() : Playlist::Status{};
-  const std::vector<Message>& skipped = content.skipped;
-  for (; toldSkipped_ < std::ssize(skipped); ++toldSkipped_)
-    log_.warn(QString::fromStdString("skipped: " +
-                                     englishSentence(skipped[static_cast<std::size_t>(toldSkipped_)])));
+  tellSkipped(content.skipped);
   try {
     writeFileAtomically(QDir(settings_.folder).filePath("health.json").toStdString(),
                         QJsonDocument(health()).toJson().toStdString());
@@ -449,7 +481,7 @@ QJsonObject Show::health() const {
                                 {"drawn_by", window->surface().name()}});
   PlayerStatistics statistics = player_ ? player_->statistics() : PlayerStatistics{};
   QJsonObject health{{"state", QString::fromStdString(std::string(relucent::nameOf(state_)))},
-                     {"updated", QDateTime::currentDateTime().toString(Qt::ISODate)},
+                     {"updated", clock_.wall().toString(Qt::ISODate)},
                      {"renderer", renderer_},
                      {"frames", static_cast<qint64>(statistics.frames)},
                      {"late", static_cast<qint64>(statistics.late)},
@@ -465,6 +497,7 @@ QJsonObject Show::health() const {
                      {"failures", failures_},
                      {"peak_memory_bytes", static_cast<qint64>(platform::peakMemoryBytes())},
                      {"displays", displays}};
+  if (clock_.rehearsal) health["rehearsal"] = QJsonObject{{"speed", clock_.rehearsal->speed()}};
   if (nights_) health["night"] = nights_->health(clock_.wall());
   if (nights_ && !nights_->alarm().empty())
     health["alarm"] = QString::fromStdString(englishSentence(nights_->alarm()));

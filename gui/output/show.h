@@ -123,6 +123,7 @@ class Show : public QObject, private RemoteActions {
   void beginWatch(std::unique_ptr<WatchSource> source);
   void tellWatch();
   void tellStreams();
+  void tellSkipped(const std::vector<Message>& skipped);
   void photographed(const QString& work, const QString& verdict, const QString& sentence);
 
   ShowSettings settings_;
@@ -138,7 +139,7 @@ class Show : public QObject, private RemoteActions {
   HeldKey escape_{Qt::Key_Escape, endsAfter};
   QTimer health_, again_, streamsLooked_;
   int failures_ = 0;
-  qsizetype toldSkipped_ = 0;
+  std::vector<Message> toldSkipped_;  // that stand in the log
   ShowState state_ = ShowState::starting;
   std::unique_ptr<OscServer> server_;
   std::unique_ptr<RemoteControl> control_;

@@ -6,6 +6,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include <QDir>
+#include <utility>
 #include <vector>
 
 #include "relucent/base/error.h"
@@ -19,7 +20,7 @@ constexpr std::size_t older = 4;
 
 }  // namespace
 
-ShowLog::ShowLog(const QString& folder) {
+ShowLog::ShowLog(const QString& folder, Mark mark) : mark_(std::move(mark)) {
   std::string file = QDir(folder).filePath("show.log").toStdString();
   try {
     QDir().mkpath(folder);
@@ -40,12 +41,16 @@ ShowLog::ShowLog(const QString& folder) {
 
 ShowLog::~ShowLog() = default;
 
+std::string ShowLog::lineOf(const QString& sentence) const {
+  return forLogLine((mark_() + sentence).toStdString());
+}
+
 void ShowLog::tell(const QString& sentence) {
-  logger_->info(forLogLine(sentence.toStdString()));
+  logger_->info(lineOf(sentence));
 }
 
 void ShowLog::warn(const QString& sentence) {
-  logger_->warn(forLogLine(sentence.toStdString()));
+  logger_->warn(lineOf(sentence));
 }
 
 }  // namespace relucent::gui

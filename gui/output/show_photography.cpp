@@ -44,8 +44,9 @@ struct WhyNot {
 
 class CalibratedPhotography : public ShowPhotography {
  public:
-  CalibratedPhotography(std::filesystem::path calibration, std::filesystem::path cache)
-      : calibration_(std::move(calibration)), cache_(std::move(cache)) {}
+  CalibratedPhotography(std::filesystem::path calibration, std::filesystem::path cache,
+                        pjlink::Waiting waiting)
+      : calibration_(std::move(calibration)), cache_(std::move(cache)), waiting_(std::move(waiting)) {}
 
   Message whyNot() const override {
     try {
@@ -74,12 +75,12 @@ class CalibratedPhotography : public ShowPhotography {
                              Progress& progress) override {
     std::optional<Devices> devices;
     pipeline::NightRecord night;
-    night.when = utcNow();
+    night.when = work.when.empty() ? utcNow() : work.when;
     try {
       const pipeline::CalibrateSettings settings =
           pipeline::settingsOf(CalibrationFolder::open(calibration_, CalibrationFolder::Access::read));
       pipeline::ProjectorWarmUp warmUp(switchesOn ? settings.network : pipeline::NetworkProjectors(),
-                                       settings.rig);
+                                       settings.rig, waiting_);
       warmUp.switchOn(progress);
       devices.emplace(*this, progress);
       warmUp.awaitSteadyLight(devices->rig(), progress);
@@ -118,6 +119,7 @@ class CalibratedPhotography : public ShowPhotography {
   }
 
   std::filesystem::path calibration_, cache_;
+  pjlink::Waiting waiting_;
 };
 
 Message sentenceOf(const pipeline::PerfectedImage& image) {
@@ -133,8 +135,8 @@ Message sentenceOf(const pipeline::PerfectedImage& image) {
 }  // namespace
 
 std::unique_ptr<ShowPhotography> photographyOf(const std::filesystem::path& calibration,
-                                               const std::filesystem::path& cache) {
-  return std::make_unique<CalibratedPhotography>(calibration, cache);
+                                               const std::filesystem::path& cache, pjlink::Waiting waiting) {
+  return std::make_unique<CalibratedPhotography>(calibration, cache, std::move(waiting));
 }
 
 ShowPhotographs::ShowPhotographs(std::unique_ptr<ShowPhotography> photography, QObject* parent)

@@ -15,6 +15,7 @@
 #include "relucent/pipeline/night.h"
 #include "relucent/pipeline/perfect.h"
 #include "relucent/pipeline/verify.h"
+#include "relucent/pjlink/waiting.h"
 
 namespace relucent::gui {
 
@@ -40,8 +41,10 @@ class ShowPhotography {
 
 /// By the devices that a calibration names. Pictures change three times a second at most, at night too: an
 /// audience, or whoever cleans, may be there.
+/// `waiting`: how projectors are waited for at night.
 std::unique_ptr<ShowPhotography> photographyOf(const std::filesystem::path& calibration,
-                                               const std::filesystem::path& cache);
+                                               const std::filesystem::path& cache,
+                                               pjlink::Waiting waiting = {});
 
 /// Photographs on another thread, and tells what comes of it.
 class ShowPhotographs : public QObject {

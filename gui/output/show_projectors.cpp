@@ -68,7 +68,8 @@ pjlink::Wanted ProjectorWishes::at(const QDateTime& now, bool plays, bool black)
   return {!isOver, isDark};
 }
 
-std::unique_ptr<ProjectorWatch> watchOf(const ShowSettings& settings, const pjlink::Wanted& wanted) {
+std::unique_ptr<ProjectorWatch> watchOf(const ShowSettings& settings, const pjlink::Wanted& wanted,
+                                        const MachineClock& clock) {
   if (settings.projectors.empty()) return nullptr;
   std::vector<WatchedProjector> projectors;
   for (const ShowProjector& projector : settings.projectors) {
@@ -77,6 +78,9 @@ std::unique_ptr<ProjectorWatch> watchOf(const ShowSettings& settings, const pjli
     keeping.sent = projector.sent;
     keeping.switchesPower = settings.switchesPower;
     keeping.closesShutter = settings.closesShutter;
+    for (std::chrono::milliseconds* time :
+         {&keeping.interval, &keeping.soon, &keeping.longestPause, &keeping.obeys})
+      *time = clock.pause(*time);
     projectors.push_back({projector.address, std::move(keeping)});
   }
   return std::make_unique<ProjectorWatch>(std::move(projectors), wanted);

@@ -26,7 +26,8 @@ class ProjectorWishes {
 };
 
 /// Looks after the projectors of the settings; nullptr: none is on the network.
-std::unique_ptr<ProjectorWatch> watchOf(const ShowSettings& settings, const pjlink::Wanted& wanted);
+std::unique_ptr<ProjectorWatch> watchOf(const ShowSettings& settings, const pjlink::Wanted& wanted,
+                                        const MachineClock& clock);
 
 /// As health.json has them.
 QJsonArray toJson(const std::vector<ProjectorState>& projectors);

@@ -108,6 +108,24 @@ std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibra
   return projectors;
 }
 
+MachineClock clockOf(const ShowSettings& settings) {
+  if (settings.rehearsal.isEmpty()) return {};
+  // Nobody's lamps are switched on and off thirty times within minutes.
+  using calibration::CalibrationFolder;
+  const pipeline::RigSettings rig =
+      pipeline::settingsOf(CalibrationFolder::open(settings.calibration, CalibrationFolder::Access::read))
+          .rig;
+  if (!std::holds_alternative<venue::VenueSettings>(rig))
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("show.rehearses-real-devices",
+                                         "this calibration has real devices, and days within seconds are for "
+                                         "simulated ones"),
+                RELUCENT_ENGLISH_MESSAGE("show.rehearse-simulated",
+                                         "calibrate a simulated venue for it: relucent-cli venues"),
+                settings.calibration.string());
+  return MachineClock::rehearsed(settings.rehearsal);
+}
+
 PlaylistSettings contentOf(const QString& path) {
   if (addressOf(path).kind != ContentAddress::Kind::file) {
     if (const ContentAddress address = addressOf(path); address.kind == ContentAddress::Kind::stream)

@@ -11,6 +11,7 @@
 
 #include "content/playlist.h"
 #include "output/daily_hours.h"
+#include "output/machine_clock.h"
 #include "output/screen_identity.h"
 #include "relucent/compensation/brightness.h"
 #include "relucent/compensation/viewer.h"
@@ -54,6 +55,7 @@ struct ShowSettings {
   std::optional<pipeline::WatchSettings> watch{};  // by which camera the show is watched; none: by none
   bool fillsShadows = false;                       // of whoever it sees in a projector's light, by the others
   std::string set{};  // of the calibration, at first; empty: as the content's times say, else the one in use
+  QString rehearsal{};  // file of its time, see RehearsalClock; empty: it is none
 };
 
 /// The projectors of a calibration that are on the network. Throws: as CalibrationFolder::open(),
@@ -64,6 +66,11 @@ std::vector<ShowProjector> showProjectorsOf(const std::filesystem::path& calibra
 /// each projector a display of exactly its size that is not the operator's, in the order of their positions.
 /// Throws: Error{input} with the present displays if that is ambiguous.
 std::vector<ScreenIdentity> displaysFor(const std::vector<QSize>& projectors, const QStringList& named);
+
+/// The show's time: the computer's, or a rehearsal's.
+/// Throws: Error{input} for a rehearsal with a calibration of real devices; as CalibrationFolder::open(),
+/// RehearsalClock.
+MachineClock clockOf(const ShowSettings& settings);
 
 /// The content at a path: a playlist's file, or anything that a playlist item may name.
 /// Throws: as readPlaylist(), streamAddressFrom().

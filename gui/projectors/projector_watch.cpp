@@ -47,7 +47,7 @@ class ProjectorWatch::Watcher {
     while (!ends_) {
       const pjlink::Wanted wanted = wanted_;
       lock.unlock();
-      std::chrono::seconds pause{};
+      std::chrono::milliseconds pause{};
       try {
         pjlink::Kept kept = keeper_.keep(wanted, std::chrono::steady_clock::now(), progress);
         pause = kept.pause;

@@ -272,6 +272,8 @@ class TestShowArguments : public QObject {
     QTest::newRow("a night within the hours")
         << right + QStringList{"--schedule", "09:00-18:00", "--night", "17:59"} << "outside the hours";
     QTest::newRow("an alarm without nights") << right + QStringList{"--alarm", "./call.sh"} << "--night";
+    QTest::newRow("a rehearsal to install")
+        << right + QStringList{"--rehearse-time", "time", "--install-service"} << "real time";
     QTest::newRow("no time between") << right + QStringList{"--schedule", "09:00-09:00"} << "HH:MM-HH:MM";
   }
   void wrongOnesAreNamed() {

@@ -145,7 +145,11 @@ class TestPlaylist : public QObject {
     QVERIFY(late.save(folder_.filePath("gone.png")));
     QCOMPARE(grey(settledAt(playlist, 2s)), 10);
     QCOMPARE(grey(settledAt(playlist, 3s)), 77);
+    QVERIFY(playlist.status().skipped.empty());
+    // What is lost once more is named once more.
     QFile::remove(folder_.filePath("gone.png"));
+    for (ContentTime time = 4s; time < 7s; time += 500ms) settledAt(playlist, time);
+    QCOMPARE(playlist.status().skipped.size(), std::size_t{1});
   }
 
   void nothingAtAllIsNothingAndComesBack() {

@@ -333,6 +333,26 @@ class TestShow : public QObject {
     QVERIFY(log().contains("gone.png"));
   }
 
+  /// Law: each loss of a file is told, and each return, however often.
+  void whatIsLostAgainIsToldAgain() {
+    ShowSettings wanted = settings({picture("a.png", 3), picture("b.png", 4)});
+    for (PlaylistItem& item : wanted.content.items) item.seconds = 0.1;
+    auto show = showOf(wanted);
+    show->start();
+    const auto told = [&](const char* what) {
+      show->look();
+      return log().count(what);
+    };
+    for (int time = 1; time <= 2; ++time) {
+      QVERIFY(QFile::rename(folder_->filePath("b.png"), folder_->filePath("away.png")));
+      QTRY_COMPARE(told("warning skipped: "), time);
+      QCOMPARE(health()["skipped"].toInt(), 1);
+      QVERIFY(QFile::rename(folder_->filePath("away.png"), folder_->filePath("b.png")));
+      QTRY_COMPARE(told("no longer: "), time);
+      QCOMPARE(health()["skipped"].toInt(), 0);
+    }
+  }
+
   void displaysAreChosenBySizeOrName() {
     QCOMPARE(displaysFor({projectorSize}, {}).front().connector, QString("DUMMY1"));
     QCOMPARE(displaysFor({projectorSize}, {"DUMMY0"}).front().connector,

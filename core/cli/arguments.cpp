@@ -45,6 +45,8 @@ constexpr Subcommand subcommands[] = {
     {"repair", "Make a calibration fit what has become of its venue, or go back to what it was",
      addRepairOptions},
     {"night", "Repair, perfect and prove a calibration between two shows, unattended", addNightOptions},
+    {"rehearse-day", "Rehearse days of a simulated venue around the show, from power on to power off",
+     addRehearseOptions},
     {"import", "Make a calibration from patterns and photographs taken elsewhere", addImportOptions},
     {"plan", "Write patterns to photograph without a connection, for import", addPlanOptions},
     {"compensate", "Compute the pattern that makes the surface look like an image", addCompensateOptions},

@@ -29,6 +29,7 @@
 #include "relucent/pipeline/storage.h"
 #include "relucent/pipeline/tidy.h"
 #include "relucent/pipeline/verify.h"
+#include "relucent/rehearsal/venue_days.h"
 #include "relucent/report/report.h"
 
 namespace relucent::cli {
@@ -99,6 +100,10 @@ struct TendNight {
   venue::Changes changes;  // of a simulated venue, to rehearse
   bool history = false;    // of the nights so far, instead
   std::filesystem::path cache;
+};
+/// Days of a venue around the program relucent.
+struct RehearseDays {
+  rehearsal::DaysSettings settings;
 };
 struct ImportPictures {
   std::filesystem::path calibration;
@@ -201,9 +206,10 @@ struct Bench {
   std::optional<engine::EngineBenchSettings> engine{};               // these devices alone
   std::filesystem::path cache;
 };
-using Command = std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove,
-                             Repair, TendNight, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export,
-                             Relight, Separate, Difference, Report, Tidy, Masks, Sets, Projectors, Bench>;
+using Command =
+    std::variant<PrintText, ListVenues, ListDevices, CheckRig, Calibrate, Resume, Verify, Prove, Repair,
+                 TendNight, RehearseDays, Perfect, ImportPictures, Plan, Compensate, Evaluate, Export,
+                 Relight, Separate, Difference, Report, Tidy, Masks, Sets, Projectors, Bench>;
 
 struct Arguments {
   Command command;

@@ -11,6 +11,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/terminal_text.h"
 #include "relucent/calibration/calibration_folder.h"
+#include "relucent/cli/day_document.h"
 #include "relucent/cli/devices_document.h"
 #include "relucent/cli/interruption.h"
 #include "relucent/cli/projectors_document.h"
@@ -22,6 +23,7 @@
 #include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/platform/process.h"
 #include "relucent/report/acquisition_chart.h"
 
 namespace relucent::cli {
@@ -165,6 +167,25 @@ struct Executor {
         pipeline::tendCalibration(command.calibration, settings, command.cache, progress);
     CommandResult outcome = outcomeOf(night);
     if (isAlarm(night)) outcome.status = remeasure;
+    return outcome;
+  }
+
+  CommandResult operator()(const RehearseDays& command) const {
+    refuse(problems(command.settings));
+    rehearsal::DaysSettings settings = command.settings;
+    const bool isTemporary = settings.out.empty();
+    if (isTemporary)
+      settings.out =
+          std::filesystem::temp_directory_path() / fmt::format("relucent-day-{}", platform::processNumber());
+    rehearsal::DaysResult result = rehearsal::rehearseDays(settings, progress);
+    const bool held = allHeld(result);
+    if (isTemporary && held) {
+      std::error_code ignored;
+      std::filesystem::remove_all(settings.out, ignored);
+      result.out.clear();
+    }
+    CommandResult outcome = outcomeOf(result);
+    if (!held) outcome.status = remeasure;
     return outcome;
   }
 

@@ -142,6 +142,7 @@ std::function<Command()> addProveOptions(CLI::App* sub);
 std::function<Command()> addPerfectOptions(CLI::App* sub);
 std::function<Command()> addRepairOptions(CLI::App* sub);
 std::function<Command()> addNightOptions(CLI::App* sub);
+std::function<Command()> addRehearseOptions(CLI::App* sub);
 std::function<Command()> addImportOptions(CLI::App* sub);
 std::function<Command()> addPlanOptions(CLI::App* sub);
 std::function<Command()> addCompensateOptions(CLI::App* sub);

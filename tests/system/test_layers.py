@@ -160,7 +160,7 @@ def system_breaches(source):
 JSON_HEADERS = {"calibration/json.h", "calibration/enum_json.h", "calibration/results_json.h", "nlohmann/json.hpp"}
 JSON_FILES = re.compile(
     r"core/calibration/|core/devices/recording/recording_files\.cpp|core/pipeline/(settings_json|stored_settings|network_projectors|kept_photographs|masks_file|sets|measured_again|acquisition_record|drift_record|night_record|perfected|picture_error_json|proof_record|stills|plan|json|versions)\.|"
-    r"core/cli/(commands|devices_document|projectors_document)\.")
+    r"core/rehearsal/(show_health|venue_folder)\.|core/cli/(commands|day_document|devices_document|projectors_document)\.")
 
 
 def json_breaches(source):

@@ -14,12 +14,6 @@
 namespace relucent::rehearsal {
 namespace {
 
-struct Unref {
-  void operator()(gpointer object) const { g_object_unref(object); }
-};
-template <typename Object>
-using Owned = std::unique_ptr<Object, Unref>;
-
 [[noreturn]] void failPort(int port, GError* error) {
   const std::string why = error != nullptr ? error->message : "";
   g_clear_error(&error);
@@ -68,6 +62,12 @@ class SocketVisitor : public Visitor {
 }  // namespace
 
 class LoopbackServer::Impl {
+  struct Unref {
+    void operator()(gpointer object) const { g_object_unref(object); }
+  };
+  template <typename Object>
+  using Owned = std::unique_ptr<Object, Unref>;
+
  public:
   Impl(int port, Serve serve) : serve_(std::move(serve)), cancel_(g_cancellable_new()) {
     GError* error = nullptr;

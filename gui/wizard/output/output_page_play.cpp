@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// What Output plays: the playlist, the set in use, and the output that shows them.
+#include "wizard/output/output_page.h"
+#include "wizard/session/method_name.h"
+
+namespace relucent::gui {
+
+void OutputPage::setPlaylist(const PlaylistSettings& settings) {
+  try {
+    playlist_.set(settings);
+  } catch (...) {
+    tell(failureOf(std::current_exception()));
+  }
+  if (playlist_.isEmpty())
+    close();
+  else
+    projection_.setList(settings);
+}
+
+void OutputPage::edit(const QString& what, const PlaylistSettings& after) {
+  if (after == playlist_.settings()) return;
+  changeUndoably(what, playlist_.settings(), after,
+                 [this](const PlaylistSettings& settings) { setPlaylist(settings); });
+}
+
+void OutputPage::addFiles(const QStringList& files) {
+  edit(tr("Add to the playlist"), playlist_.withAdded(files));
+}
+
+void OutputPage::removeItem(qsizetype index) {
+  edit(tr("Remove from the playlist"), playlist_.without(index));
+}
+
+void OutputPage::moveItem(qsizetype index, qsizetype by) {
+  edit(tr("Order of the playlist"), playlist_.withMoved(index, by));
+}
+
+void OutputPage::setRepeat(bool repeat) {
+  PlaylistSettings after = playlist_.settings();
+  after.loop = repeat;
+  edit(tr("Repeat"), after);
+}
+
+void OutputPage::setFade(double seconds) {
+  PlaylistSettings after = playlist_.settings();
+  after.fadeSeconds = seconds;
+  edit(tr("Cross-fade"), after);
+}
+
+QString OutputPage::whyNoSets() const {
+  if (session_.setsFailure()) return session_.setsFailure()->what + ' ' + session_.setsFailure()->advice;
+  if (playsEarlier()) return tr("The earlier correction plays. Show the new one first.");
+  return session_.whyLocked(stepName);
+}
+
+void OutputPage::useSet(const std::string& name) {
+  if (!whyNoSets().isEmpty() || name == sets().nameInUse()) return;
+  const bool plays = isOpen() && !earlier_;
+  try {
+    session_.changeSets([&](calibration::CalibrationFolder& folder) { pipeline::useSet(folder, name); });
+  } catch (...) {
+    return tell(failureOf(std::current_exception()));
+  }
+  if (!plays) return;
+  playsFrom_ = session_.shownFrom();
+  projection_.useSet(name);
+  tellAll();
+}
+
+void OutputPage::setTimes(const QList<SetTime>& times) {
+  PlaylistSettings after = playlist_.settings();
+  after.sets = times;
+  edit(tr("Times of sets"), after);
+}
+
+QString OutputPage::stillMethod() const {
+  const compensation::Method method = session_.settings().content.method;
+  return method == compensation::Method::refined ? QString() : methodName(method);
+}
+
+void OutputPage::open() {
+  if (isOpen() || projection_.isOpening() || projectorWithoutScreen() || playlist_.isEmpty() ||
+      !session_.areDevicesFree())
+    return;
+  std::vector<std::optional<ScreenIdentity>> screens;
+  for (const auto& screen : chosen_) {
+    const OutputScreen& wanted = screens_[*screen];
+    screens.push_back(wanted.isPageOnly ? std::nullopt : std::optional(wanted.identity));
+  }
+  std::filesystem::path results = session_.path();
+  try {
+    earlier_ = nullptr;
+    if (ResultsBeside::areNeeded(session_)) earlier_ = std::make_unique<ResultsBeside>(results);
+  } catch (...) {
+    return tell(failureOf(std::current_exception()));
+  }
+  if (earlier_) results = earlier_->path();
+  playsFrom_ = session_.shownFrom();
+  projection_.open({results, playlist_.settings(), session_.settings().content.fit, screens});
+}
+
+void OutputPage::close() {
+  projection_.close();
+}
+
+void OutputPage::renew() {
+  if (!renew_->isEnabled()) return;
+  reopen_ = true;  // the show goes on
+  close();
+  reopen_ = false;
+  open();
+}
+
+}  // namespace relucent::gui

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// What Output does about what plays by photographs: proof, drift, repair, perfecting, the report.
+#include <algorithm>
+#include <utility>
+
+#include "output/default_picture.h"
+#include "wizard/output/output_page.h"
+
+namespace relucent::gui {
+
+void OutputPage::whileClosed(const std::function<void()>& work) {
+  if (!proof_.isPossible() || projection_.isOpening()) return;
+  // A real camera would photograph the show.
+  if (isOpen() && !session_.isSimulated()) {
+    reopen_ = true;
+    close();
+  }
+  work();
+}
+
+void OutputPage::verify() {
+  // What plays now: once the output is closed nothing does.
+  if (!mayProve()) return;
+  whileClosed(
+      [this, picture = pictureToProve(), canvas = canvasOfPicture()] { proof_.photograph(picture, canvas); });
+}
+
+void OutputPage::repair() {
+  if (!proof_.isPossible() || !proof_.mayFlash()) return;
+  whileClosed([this, picture = pictureToProve()] { proof_.startRepair(picture); });
+}
+
+/// What was repaired is shown at once: it was photographed, and is better.
+void OutputPage::repairEnded() {
+  if (playsEarlier() && proof_.repair() && proof_.repair()->end == pipeline::RepairEnd::repaired) renew();
+  proofEnded();
+}
+
+void OutputPage::perfect() {
+  if (!mayProve()) return;
+  whileClosed([this, picture = pictureToProve(), canvas = canvasOfPicture()] {
+    perfecting_.lookAt(picture, canvas);
+    perfecting_.start();
+  });
+}
+
+/// What plays now, on the canvas that it plays on.
+void OutputPage::lookAtPicture() {
+  if (!playlist_.isEmpty()) perfecting_.lookAt(pictureToProve(), canvasOfPicture());
+}
+
+Canvas OutputPage::canvasOfPicture() const {
+  return isOpen() ? projection_.canvas()
+                  : OutputProjection::canvasFor(playlist_.settings(), session_.settings().content.fit);
+}
+
+/// What stands on the projectors is looked for again.
+void OutputPage::perfectingEnded(bool isOther) {
+  if (isOther && isOpen()) {
+    reopen_ = true;
+    close();
+  }
+  proofEnded();
+}
+
+void OutputPage::proofEnded() {
+  if (std::exchange(reopen_, false)) open();
+}
+
+void OutputPage::pushBack() {
+  whileClosed([this] { Q_EMIT nudgeWanted(); });
+}
+
+void OutputPage::pushedBack(bool atItsPlace) {
+  if (atItsPlace) proof_.cameraPushedBack();
+  proofEnded();
+}
+
+QString OutputPage::pictureToProve() const {
+  const QList<PlaylistItem>& items = playlist_.settings().items;
+  qsizetype now = projection_.playing();
+  if (now >= 0 && now < items.size() && OutputPlaylist::isStill(items[now])) return items[now].path;
+  auto still = std::find_if(items.begin(), items.end(), OutputPlaylist::isStill);
+  return still != items.end() ? still->path : defaultPicture();
+}
+
+void OutputPage::report() {
+  if (proof_.isPossible()) proof_.report(pictureToProve());
+}
+
+}  // namespace relucent::gui

@@ -70,10 +70,20 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
                                                "{}: {} patterns from No. {} on were photographed again",
                                                "{}: {} pattern from No. {} on was photographed again")
                            .with(what, as::count(patterns), as::label(first + 1)));
+  if (supervision.endedBy)
+    findings.push_back(
+        RELUCENT_MESSAGE("acquisition.ended-by-change",
+                         "measuring ended with a change: {}; photographs from No. {} on are left out")
+            .with(supervision.endedBy->what, as::label(supervision.endedBy->first + 1)));
   for (const auto& [asked, what] : supervision.accepted)
     findings.push_back(RELUCENT_MESSAGE("acquisition.alarm-skipped", "accepted before pattern {}: {}")
                            .with(as::label(asked.first + 1), what));
   return findings;
+}
+
+std::optional<transport::FoundChange> changeOf(const std::optional<sentinels::Alarm>& alarm) {
+  if (!alarm) return std::nullopt;
+  return transport::FoundChange{alarm->what, alarm->kind == sentinels::AlarmKind::moved};
 }
 
 /// Tells of the tree's progress, and from every level on what there is still to do.
@@ -188,14 +198,25 @@ class Measurement {
             std::vector<CameraStack>(verificationSizes, CameraStack(3 * rows, 0.0f))};
   }
 
+  static void forgetVerification(VerifiedTransport& verified) {
+    std::ranges::fill(verified.flagged, 0);
+    for (CameraStack& residual : verified.residual) std::ranges::fill(residual, 0.0f);
+    verified.error = 0.0;
+  }
+
   /// Whoever asked to stop and keep waits for the test patterns alone.
   std::optional<sentinels::Interruption> verify(VerifiedTransport& verified, const TreeContext& context,
                                                 Progress& progress) const {
     const AcquisitionSettings& settings = run_.settings;
     if (progress.stopAndKeep()) return verifyOnly(verified, context, settings, progress);
     if (auto interrupted = context.watch.check(progress)) return interrupted;
-    if (auto interrupted = verifyAndRepair(verified, context, settings, progress)) return interrupted;
-    return context.watch.check(progress);
+    const int confirmed = context.watch.confirmed();
+    std::optional<sentinels::Interruption> interrupted =
+        verifyAndRepair(verified, context, settings, progress);
+    if (!interrupted) interrupted = context.watch.check(progress);
+    // Test patterns that no look has confirmed say nothing of T.
+    if (interrupted && context.watch.confirmed() == confirmed) forgetVerification(verified);
+    return interrupted;
   }
 
   transport::Acquisition finished(VerifiedTransport verified, Floods better, int stoppedAt,
@@ -220,7 +241,8 @@ class Measurement {
         .patterns = run_.shots.shots() - shotsBefore_,
         .exposures = run_.shots.exposures() - exposuresBefore_,
         .stoppedAt = stoppedAt,
-        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_)};
+        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_),
+        .changed = changeOf(supervision_.endedBy)};
   }
 
   const AcquisitionRun& run_;
@@ -238,6 +260,7 @@ transport::Acquisition acquire(const AcquisitionRun& run, Progress& progress) {
   if (run.settings.singleExposure) used.exposures = {used.exposures.back()};
   sentinels::AcquisitionObserver nobody;
   sentinels::Supervision supervision{run.handler, run.observer ? *run.observer : nobody};
+  supervision.isEnding = [&progress] { return progress.stopAndKeep(); };
   const AcquisitionRun adapted{run.shots, used, run.settings};
   const int shotsBefore = run.shots.shots();
   while (true) {

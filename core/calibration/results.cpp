@@ -219,6 +219,7 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"cost", toJson(cost)}};
   if (acquisition.expected) values["expected_quality"] = toJson(*acquisition.expected);
   if (repair) values["repair"] = toJson(*repair);
+  if (acquisition.changed) values["changed"] = toJson(*acquisition.changed);
   return folder.store(Stage::acquisition, inputs, values, [&](const fs::path& path) {
     transport::saveTransport(path / "transport.npz", acquisition.transport, transport::StoredValues::codes);
     image::writeStack(path, "black", acquisition.black, cameras, radianceUnits);
@@ -264,6 +265,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     acquisition.stoppedAt = values.value("stopped_at", 0);
     acquisition.expected = expectedFrom(values);
     acquisition.findings = values.at("findings").get<std::vector<Message>>();
+    acquisition.changed = changedFrom(values);
     return acquisition;
   });
 }

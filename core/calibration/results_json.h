@@ -41,6 +41,9 @@ std::optional<RepairNote> repairFrom(const Json& values);
 Json toJson(const transport::ExpectedQuality& expected);
 /// None: the document has none, as those of earlier versions.
 std::optional<transport::ExpectedQuality> expectedFrom(const Json& values);
+Json toJson(const transport::FoundChange& changed);
+/// None: nothing had changed when it ended.
+std::optional<transport::FoundChange> changedFrom(const Json& values);
 /// As lists of width and height.
 std::vector<Size> sizesFrom(const Json& json);
 

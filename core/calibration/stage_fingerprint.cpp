@@ -23,7 +23,7 @@ std::string fingerprintOfResult(const CalibrationFolder& folder, Stage stage) {
     return earlier ? hashOf(Json{{"inputs", inputs}, {"earlier", earlier->inputs}}) : inputs;
   }
   const auto result = resultFrom<Stage::acquisition>(*measured);
-  if (result.stoppedAt == 0) return inputs;
+  if (result.isWhole()) return inputs;
   const int patterns = result.cost ? result.cost->patterns : 0;
   return hashOf(Json{{"inputs", inputs}, {"stopped_at", result.stoppedAt}, {"patterns", patterns}});
 }

@@ -99,6 +99,19 @@ std::optional<transport::ExpectedQuality> expectedFrom(const Json& values) {
   return expected;
 }
 
+Json toJson(const transport::FoundChange& changed) {
+  return {{"what", changed.what}, {"moved", changed.moved}};
+}
+
+std::optional<transport::FoundChange> changedFrom(const Json& values) {
+  if (!values.contains("changed")) return std::nullopt;
+  const Json& stored = values.at("changed");
+  transport::FoundChange changed;
+  take(stored, "what", changed.what);
+  take(stored, "moved", changed.moved);
+  return changed;
+}
+
 std::vector<Size> sizesFrom(const Json& json) {
   std::vector<Size> sizes;
   for (const Json& size : json) sizes.push_back({size.at(0), size.at(1)});
@@ -164,6 +177,7 @@ void read(const StageResult& stored, AcquisitionResult& result) {
     take(values, "stopped_at", result.stoppedAt);
     result.expected = expectedFrom(values);
     take(values, "findings", result.findings);
+    result.changed = changedFrom(values);
     take(values, result.cost);
     result.repair = repairFrom(values);
   });

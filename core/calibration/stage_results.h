@@ -10,6 +10,7 @@
 #include "relucent/base/message.h"
 #include "relucent/base/raster.h"
 #include "relucent/transport/expected_quality.h"
+#include "relucent/transport/found_change.h"
 
 /// What the results of the stages say, one struct a stage: what the manifest keeps of them for people and for
 /// later stages. The large parts are files beside it (results.h). What a manifest of an earlier version lacks
@@ -67,6 +68,9 @@ struct AcquisitionResult {
   std::vector<Message> findings;
   std::optional<StageCost> cost;     // of the measurement; of a repaired one that of the first
   std::optional<RepairNote> repair;  // none: it was measured, and nothing else
+  std::optional<transport::FoundChange> changed{};  // with which it ended; none: nothing had changed
+  /// It was not ended early, by somebody or by a change: there is nothing to go on with.
+  bool isWhole() const { return stoppedAt == 0 && !changed; }
 };
 
 struct ThresholdResult {

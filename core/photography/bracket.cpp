@@ -2,7 +2,9 @@
 #include "relucent/photography/bracket.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace relucent::photography {
 namespace {
@@ -32,19 +34,71 @@ double contradiction(const rig::RawFrame& longer, const rig::RawFrame& shorter,
   return apart > sigmas * std::sqrt(variance) ? apart / expected : 0.0;
 }
 
-}  // namespace
+/// Two exposures, one after the other, and how much they contradict each other.
+struct Neighbours {
+  double apart = 0.0;
+  std::size_t camera = 0;
+  const rig::RawFrame *longer = nullptr, *shorter = nullptr;
+  bool isLongerFirst = true;
+};
 
-double bracketContradiction(const rig::Shot& shot, const std::vector<hdr::CameraModel>& cameras) {
-  double largest = 0.0;
+/// Those that do most.
+Neighbours mostApart(const rig::Shot& shot, const std::vector<hdr::CameraModel>& cameras) {
+  Neighbours largest;
   for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
     for (std::size_t k = 1; k < shot.frames.size(); ++k) {
-      const rig::RawFrame* longer = &shot.frames[k - 1][camera];
-      const rig::RawFrame* shorter = &shot.frames[k][camera];
-      if (longer->seconds < shorter->seconds) std::swap(longer, shorter);
-      largest = std::max(largest, contradiction(*longer, *shorter, cameras[camera]));
+      Neighbours two{0.0, camera, &shot.frames[k - 1][camera], &shot.frames[k][camera], true};
+      if (two.longer->seconds < two.shorter->seconds) {
+        std::swap(two.longer, two.shorter);
+        two.isLongerFirst = false;
+      }
+      two.apart = contradiction(*two.longer, *two.shorter, cameras[camera]);
+      if (two.apart > largest.apart) largest = two;
     }
   }
   return largest;
+}
+
+/// Light that falls alike on both exposures looks alike in both: none is brighter than `longest` can show.
+image::Image viewOf(const rig::RawFrame& frame, double longest, const hdr::CameraModel& model) {
+  const double seconds = hdr::trueSeconds(model, frame.seconds);
+  image::Image view(frame.signal.size(), 1);
+  std::array<double, 3> most{};
+  for (std::size_t c = 0; c < 3; ++c)
+    most[c] = model.response[c](nearSaturation * model.saturation) / longest;
+  for (std::size_t i = 0; i < view.data().size(); ++i) {
+    double light = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto signal = static_cast<double>(frame.signal.data()[3 * i + c]);
+      light += std::min(most[c], model.response[c](signal) / seconds);
+    }
+    view.data()[i] = static_cast<float>(light);
+  }
+  return view;
+}
+
+std::vector<std::uint8_t> saturatedIn(const rig::RawFrame& frame, const hdr::CameraModel& model) {
+  const std::vector<float>& signals = frame.signal.data();
+  std::vector<std::uint8_t> saturated(signals.size() / 3, 0);
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    if (static_cast<double>(signals[i]) >= nearSaturation * model.saturation) saturated[i / 3] = 1;
+  return saturated;
+}
+
+}  // namespace
+
+double bracketContradiction(const rig::Shot& shot, const std::vector<hdr::CameraModel>& cameras) {
+  return mostApart(shot, cameras).apart;
+}
+
+std::optional<ContradictoryViews> contradictoryViews(const rig::Shot& shot,
+                                                     const std::vector<hdr::CameraModel>& cameras) {
+  const Neighbours two = mostApart(shot, cameras);
+  if (!(two.apart > 0.0)) return std::nullopt;
+  const hdr::CameraModel& model = cameras[two.camera];
+  const double longest = hdr::trueSeconds(model, two.longer->seconds);
+  return ContradictoryViews{two.camera, two.isLongerFirst, viewOf(*two.longer, longest, model),
+                            viewOf(*two.shorter, longest, model), saturatedIn(*two.longer, model)};
 }
 
 }  // namespace relucent::photography

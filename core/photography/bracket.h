@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "relucent/hdr/hdr.h"
+#include "relucent/image/image.h"
 
 namespace relucent::photography {
 
@@ -10,5 +15,16 @@ namespace relucent::photography {
 /// over the pixels that the longer exposure shows well, the largest over all exposures and cameras. Zero
 /// where that is within 6 standard deviations of its noise, and where there is one exposure only.
 double bracketContradiction(const rig::Shot& shot, const std::vector<hdr::CameraModel>& cameras);
+
+/// The two exposures, one after the other, of one camera that contradict each other most.
+struct ContradictoryViews {
+  std::size_t camera = 0;
+  bool isLongerFirst = true;
+  image::Image longer, shorter;         // radiance, colours summed; no more than the longer one can show
+  std::vector<std::uint8_t> saturated;  // per pixel: in the longer one, in any colour
+};
+/// Of a shot of several exposures. None where no exposures contradict each other.
+std::optional<ContradictoryViews> contradictoryViews(const rig::Shot& shot,
+                                                     const std::vector<hdr::CameraModel>& cameras);
 
 }  // namespace relucent::photography

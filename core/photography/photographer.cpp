@@ -6,7 +6,6 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
-#include "relucent/photography/bracket.h"
 
 namespace relucent::photography {
 namespace {
@@ -130,6 +129,13 @@ bool Photographer::needsShorter(const hdr::HdrFrame& frame, const std::vector<De
   return false;
 }
 
+void Photographer::compareExposures(const rig::Shot& shot) {
+  contradiction_ = bracketContradiction(shot, linearization_.cameras);
+  contradictory_.reset();
+  if (contradiction_ >= worthALook)
+    contradictory_ = photography::contradictoryViews(shot, linearization_.cameras);
+}
+
 hdr::HdrFrame Photographer::take(const ProjectorStack& pattern, const std::vector<Demand>& demands,
                                  const Progress& progress, const Meanwhile& meanwhile) {
   require(demands.size() == cameras_.count(), "{} demands for {} camera pixels", demands.size(),
@@ -151,7 +157,7 @@ hdr::HdrFrame Photographer::take(const ProjectorStack& pattern, const std::vecto
     shot.frames.push_back(std::move(again.frames.front()));
     frame = hdr::mergeBracket(shot, linearization_.cameras, cameras_);
   }
-  contradiction_ = bracketContradiction(shot, linearization_.cameras);
+  compareExposures(shot);
   return frame;
 }
 
@@ -168,7 +174,7 @@ hdr::HdrFrame Photographer::takeAt(const ProjectorStack& pattern, const std::vec
   for (std::size_t projector = 0; projector < projectors_.devices(); ++projector)
     encoded.push_back(image::imageFromStack(pattern, projectors_, projector));
   rig::Shot shot = shoot(encoded, exposures, progress, meanwhile);
-  contradiction_ = bracketContradiction(shot, linearization_.cameras);
+  compareExposures(shot);
   return hdr::mergeBracket(shot, linearization_.cameras, cameras_);
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "relucent/linearization/linearization.h"
+#include "relucent/photography/bracket.h"
 
 namespace relucent::photography {
 
@@ -47,6 +49,9 @@ class Photographer {
 
   /// How much the exposures of the last photograph contradict each other, see bracket.h.
   double contradiction() const { return contradiction_; }
+  /// Those that do, where it is worth a look (worthALook, relative).
+  static constexpr double worthALook = 0.02;
+  const std::optional<ContradictoryViews>& contradictoryViews() const { return contradictory_; }
 
   /// How often the last photograph was taken again because some pixel that is needed was overexposed.
   int overexposed() const { return overexposed_; }
@@ -65,6 +70,7 @@ class Photographer {
   rig::Shot shoot(const std::vector<image::Image>& encoded, const std::vector<std::size_t>& exposures,
                   const Progress& progress, const Meanwhile& meanwhile);
   bool needsShorter(const hdr::HdrFrame& frame, const std::vector<Demand>& demands) const;
+  void compareExposures(const rig::Shot& shot);
 
   rig::ShotTaker& shots_;
   const linearization::Linearization& linearization_;
@@ -72,6 +78,7 @@ class Photographer {
   Rasters projectors_;
   std::vector<std::uint8_t> cameraOf_;  // per row
   double contradiction_ = 0.0;
+  std::optional<ContradictoryViews> contradictory_;
   int overexposed_ = 0;
   std::vector<double> saturation_;  // per camera: linear signal that no channel should reach
 };

@@ -11,6 +11,7 @@ namespace relucent::sentinels {
 
 // As the record calls them.
 constexpr EnumName<AlarmKind> alarmNames[]{{AlarmKind::flicker, "flicker"},
+                                           {AlarmKind::unsteady, "unsteady"},
                                            {AlarmKind::ambientChanged, "ambient_changed"},
                                            {AlarmKind::lampChanged, "lamp_changed"},
                                            {AlarmKind::moved, "moved"},

@@ -87,7 +87,7 @@ void keepPhotographs(CalibrationFolder& folder, KeptPhotographs kept) {
 bool isComplete(const CalibrationFolder& folder) {
   const auto measured = currentResultOf(folder, Stage::acquisition);
   return measured && currentResultOf(folder, Stage::linearization) &&
-         calibration::resultFrom<Stage::acquisition>(*measured).stoppedAt == 0;
+         calibration::resultFrom<Stage::acquisition>(*measured).isWhole();
 }
 
 std::vector<fs::path> removablePhotographs(const CalibrationFolder& folder, KeptPhotographs kept) {

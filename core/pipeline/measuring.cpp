@@ -230,7 +230,7 @@ transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig
                                      Progress& progress) {
   const std::string inputs = calibration::fingerprintOf(folder, calibration::Stage::acquisition);
   const auto done = folder.find(calibration::Stage::acquisition, inputs);
-  const bool isWhole = done && calibration::resultFrom<calibration::Stage::acquisition>(*done).stoppedAt == 0;
+  const bool isWhole = done && calibration::resultFrom<calibration::Stage::acquisition>(*done).isWhole();
   transport::Acquisition acquisition =
       isWhole ? calibration::loadAcquisition(*done)
               : acquired(folder, rig, linearization, handler, observer, outlook, room, progress);

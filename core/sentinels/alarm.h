@@ -10,6 +10,7 @@ namespace relucent::sentinels {
 /// What a sentinel can find wrong while the light transport is being measured.
 enum class AlarmKind {
   flicker,          // the light differs between exposures of one pattern
+  unsteady,         // exposures of one pattern differ: by flicker, or by something that moved
   ambientChanged,   // light that is not the projectors'
   lampChanged,      // the projectors became brighter or dimmer
   moved,            // a camera or a projector was shifted or turned
@@ -22,7 +23,7 @@ enum class AlarmKind {
 
 /// Whether a measurement that goes on in spite of it may still be of use. All else has to be put right.
 constexpr bool isAcceptable(AlarmKind kind) {
-  return kind == AlarmKind::flicker || kind == AlarmKind::ambientChanged || kind == AlarmKind::lampChanged ||
+  return kind == AlarmKind::flicker || kind == AlarmKind::unsteady || kind == AlarmKind::ambientChanged || kind == AlarmKind::lampChanged ||
          kind == AlarmKind::moved || kind == AlarmKind::localChange;
 }
 

@@ -233,6 +233,34 @@ std::optional<Alarm> inspectFullLight(const Rasters& cameras, std::size_t camera
   return changed;
 }
 
+/// Whether one brightness of all explains how the exposures differ. By the light of places, whose noise is
+/// little.
+bool isOfBrightness(const photography::ContradictoryViews& views) {
+  constexpr int across = 8, down = 6;
+  constexpr double mostLeft = 0.25;  // squared
+  const Size size = views.longer.size();
+  std::vector<double> before(across * down, 0.0), after(before);
+  for (std::size_t i = 0; i < size.count(); ++i) {
+    if (views.saturated[i]) continue;
+    const Pixel at = pixelAt(size, i);
+    const auto place = static_cast<std::size_t>(at.y * down / size.height * across + at.x * across / size.width);
+    before[place] += static_cast<double>(views.longer.data()[i]);
+    after[place] += static_cast<double>(views.shorter.data()[i]);
+  }
+  double product = 0.0, square = 0.0, apart = 0.0, left = 0.0;
+  for (std::size_t place = 0; place < before.size(); ++place) {
+    product += before[place] * after[place];
+    square += before[place] * before[place];
+  }
+  const double gain = square > 0.0 ? product / square : 1.0;
+  for (std::size_t place = 0; place < before.size(); ++place) {
+    const double difference = after[place] - before[place], rest = after[place] - gain * before[place];
+    apart += difference * difference;
+    left += rest * rest;
+  }
+  return left < mostLeft * apart;
+}
+
 /// Light-weighted centres of what is lit in one colour of the reference picture, and of what is not.
 struct Halves {
   Eigen::Vector2d lit = Eigen::Vector2d::Zero(), dark = Eigen::Vector2d::Zero();
@@ -318,6 +346,36 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline) {
                      "alarm.switch-off-eco-modes",
                      "switch off its automatic brightness and eco modes, let it warm up, then try again"));
   return std::nullopt;
+}
+
+Alarm flickerAlarm(double apart) {
+  return alarm(AlarmKind::flicker,
+               RELUCENT_MESSAGE("alarm.light-flickers",
+                                "the light flickers: photographs of one pattern differ by {} %")
+                   .with(as::share(apart, as::decimals(1))),
+               RELUCENT_MESSAGE("alarm.switch-off-dimmed-lamps",
+                                "switch off dimmed and fluorescent lamps and the projector's power saving, "
+                                "then try again"));
+}
+
+Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views) {
+  // The longer one has less noise, which moving it must not smooth away.
+  Movement movement = movementBetween(std::vector<ViewPair>{{views.longer, views.shorter}});
+  if (!views.isLongerFirst) movement = {-movement.x, -movement.y, -movement.degrees, movement.explains};
+  if (movement.explains && reachOf(movement, views.longer.size()) > movementLimit)
+    return movedAlarm(
+        views.camera, movement,
+        RELUCENT_MESSAGE("alarm.put-it-back", "put it back to within half a pixel, then try again"));
+  if (isOfBrightness(views)) return flickerAlarm(apart);
+  return alarm(
+      AlarmKind::unsteady,
+      RELUCENT_MESSAGE("alarm.photographs-differ",
+                       "photographs of one pattern differ by {} %: the light flickers, or something moved "
+                       "between them")
+          .with(as::share(apart, as::decimals(1))),
+      RELUCENT_MESSAGE("alarm.steady-all",
+                       "see that camera, projector and surface stand still, switch off dimmed and fluorescent "
+                       "lamps and the projector's power saving, then try again"));
 }
 
 std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,

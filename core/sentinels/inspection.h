@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "relucent/photography/bracket.h"
 #include "relucent/photography/references.h"
 #include "relucent/sentinels/observer.h"
 
@@ -47,6 +48,15 @@ std::optional<Alarm> inspect(const Check& now, const Baseline& baseline);
 /// unmixed per camera pixel by the floods; the halves' centres of light span a frame, whose handedness tells.
 std::optional<Alarm> inspectOrientation(const hdr::ProjectedLight& light, std::size_t projector,
                                         const photography::References& references, bool mayBeMirrored);
+
+/// Photographs of one pattern differ by that share of their light, and the light is known to be why.
+Alarm flickerAlarm(double apart);
+
+/// What made exposures of one pattern differ by that share of their light. A rigid movement that leaves less
+/// than half of the difference which the brightness of all does not explain: something moved. Places that
+/// differ alike, the mean square over 8x6 of them to a quarter: the light flickers. Neither: either may be,
+/// and both are said.
+Alarm inspectContradiction(double apart, const photography::ContradictoryViews& views);
 
 /// Compares all projectors at full light with the first of their floods, colour by colour: what moved, or
 /// came into the view, since the first photograph. Each colour's brightness is taken out: lamps drift, and

@@ -25,21 +25,8 @@ ProjectorStack white(const Rasters& projectors) {
   return ProjectorStack(3 * projectors.count(), 1.0f);
 }
 
-Alarm flickerAlarm(double apart, const Message& safe) {
-  return {AlarmKind::flicker,
-          RELUCENT_MESSAGE("alarm.light-flickers",
-                           "the light flickers: photographs of one pattern differ by {} %")
-              .with(as::share(apart, as::decimals(1))),
-          safe,
-          RELUCENT_MESSAGE(
-              "alarm.switch-off-dimmed-lamps",
-              "switch off dimmed and fluorescent lamps and the projector's power saving, then try again")};
-}
-
 constexpr auto safeBeforeTransport = RELUCENT_MESSAGE("alarm.safe-before-light-transport",
                                                       "every photograph before the light transport is safe");
-constexpr auto safeBeforeCheck =
-    RELUCENT_MESSAGE("alarm.safe-before-check", "every photograph up to the previous check is safe");
 
 }  // namespace
 
@@ -116,7 +103,7 @@ std::optional<Interruption> Watch::inspectReferences(const Check& check, const P
   std::optional<Alarm> alarm = inspectFloods(light, references_);
   // What moved among the floods makes their sums differ too.
   if (!alarm && references_.flicker > roundsLimit)
-    alarm = flickerAlarm(references_.flicker, safeBeforeTransport);
+    alarm = flickerAlarm(references_.flicker);
   return alarm ? handle(*alarm, 0) : std::nullopt;
 }
 
@@ -174,14 +161,20 @@ std::optional<Interruption> Watch::handle(const Alarm& raised, int doubtful) {
   auto& accepted = supervision_.accepted;
   const std::pair asked{shot, alarm.kind};
   if (accepted.contains(asked)) return std::nullopt;
-  Answer answer = supervision_.handler ? supervision_.handler(alarm) : Answer::retry;
+  const auto isEnding = [this] { return supervision_.isEnding && supervision_.isEnding(); };
+  Answer answer = supervision_.handler && !isEnding() ? supervision_.handler(alarm) : Answer::retry;
+  // Perhaps since it was asked.
+  if (answer == Answer::retry && isEnding()) answer = Answer::keepAndStop;
   if (answer == Answer::skip) {
     accepted.emplace(asked, alarm.what);
     return std::nullopt;
   }
   shots_.forgetFrom(doubtful);
   accepted.erase(accepted.lower_bound({doubtful + 1, AlarmKind{}}), accepted.end());
-  if (answer == Answer::keepAndStop) return Interruption::keepAndStop;
+  if (answer == Answer::keepAndStop) {
+    supervision_.endedBy = alarm;
+    return Interruption::keepAndStop;
+  }
   if (!supervision_.handler)
     throw Error(ErrorKind::device, alarm.what,
                 RELUCENT_MESSAGE("alarm.by-resuming", "{} by resuming the calibration; {}")
@@ -193,10 +186,16 @@ std::optional<Interruption> Watch::handle(const Alarm& raised, int doubtful) {
 }
 
 std::optional<Interruption> Watch::inspectBracket() {
-  double apart = photographer_.contradiction();
-  flicker_ = std::max(flicker_, apart);
-  if (apart < reading_limit::flicker) return std::nullopt;
-  return handle(flickerAlarm(apart, safeBeforeCheck), trusted_);
+  const double apart = photographer_.contradiction();
+  if (apart < reading_limit::flicker) {
+    flicker_ = std::max(flicker_, apart);
+    return std::nullopt;
+  }
+  static_assert(photography::Photographer::worthALook <= reading_limit::flicker);
+  const Alarm alarm = inspectContradiction(apart, *photographer_.contradictoryViews());
+  // What moved says nothing of the light.
+  if (alarm.kind != AlarmKind::moved) flicker_ = std::max(flicker_, apart);
+  return handle(alarm, trusted_);
 }
 
 double Watch::power() const {

@@ -29,6 +29,11 @@ struct Supervision {
     int first = 0, patterns = 0;
   };
   std::vector<Again> again{};
+  /// Whether whoever measures wants it to end with what there is: then nobody is asked to put anything right
+  /// for it. Empty: nobody does.
+  std::function<bool()> isEnding{};
+  /// The alarm that it ended with; none: it did not.
+  std::optional<Alarm> endedBy{};
   /// Several times from the same pattern on for the same reason are one.
   void remember(const Alarm& alarm);
 };
@@ -43,7 +48,8 @@ struct WatchSettings {
 /// - e becomes the mean of all blacks so far or, where it has changed, the new one;
 /// - the lamp's power follows from the reference picture, continued as a straight line until the next check;
 /// - sentinels compare the view with the first one, see inspection.h, or with what was accepted since. On
-///   an alarm the handler is asked; unless it is accepted, an Interruption is returned in place of a result;
+///   an alarm the handler is asked, or, where the measurement is to end anyway, it ends with what is safe;
+///   unless it is accepted, an Interruption is returned in place of a result;
 /// - the observer is told of both.
 /// A device that is given up (rig/device_given_up.h) is an Interruption too: keepAndStop.
 /// Frames come out as light: less e, in units of the lamp's power at the first check.

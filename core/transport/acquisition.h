@@ -8,6 +8,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/transport/expected_quality.h"
+#include "relucent/transport/found_change.h"
 #include "relucent/transport/transport_matrix.h"
 
 namespace relucent::transport {
@@ -31,6 +32,7 @@ struct Acquisition {
       0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
   std::optional<ExpectedQuality> expected{};  // of dense patterns
   std::vector<Message> findings;              // sentences
+  std::optional<FoundChange> changed{};       // with which it ended; none: nothing had changed
 };
 
 }  // namespace relucent::transport

@@ -3,6 +3,7 @@
 
 #include <QtTest>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -39,9 +40,16 @@ class FaultyVenue {
   }
   transport::Acquisition run(const sentinels::AlarmHandler& handler, rig::ShotLog& log,
                              sentinels::AcquisitionObserver& observer) {
+    return run(handler, log, observer, progress_);
+  }
+  transport::Acquisition run(const sentinels::AlarmHandler& handler, rig::ShotLog& log,
+                             sentinels::AcquisitionObserver& observer, Progress progress) {
     rig::Rig rig = venue_.rig(faults);
+    if (before)
+      for (std::unique_ptr<rig::Camera>& camera : rig.cameras)
+        camera = std::make_unique<AskingCamera>(std::move(camera), before);
     rig::ShotTaker shots(rig, log, stage);
-    return acquisition::acquire({shots, linearization_, acquisition_, handler, &observer}, progress_);
+    return acquisition::acquire({shots, linearization_, acquisition_, handler, &observer}, progress);
   }
   /// Without faults, once.
   const transport::Acquisition& sound() {
@@ -55,8 +63,27 @@ class FaultyVenue {
   }
 
   std::shared_ptr<venue::FaultSchedule> faults = std::make_shared<venue::FaultSchedule>();
+  /// Each photograph, from the next run on; empty: nothing happens.
+  std::function<void(const rig::CaptureRequest&)> before;
 
  private:
+  class AskingCamera : public rig::Camera {
+   public:
+    AskingCamera(std::unique_ptr<rig::Camera> camera, std::function<void(const rig::CaptureRequest&)> before)
+        : camera_(std::move(camera)), before_(std::move(before)) {}
+    std::string name() const override { return camera_->name(); }
+    Size size() const override { return camera_->size(); }
+    rig::ExposureRange exposures() const override { return camera_->exposures(); }
+    rig::RawFrame capture(const rig::CaptureRequest& request) override {
+      before_(request);
+      return camera_->capture(request);
+    }
+
+   private:
+    std::unique_ptr<rig::Camera> camera_;
+    std::function<void(const rig::CaptureRequest&)> before_;
+  };
+
   static venue::VenueSettings settings() {
     venue::VenueSettings settings;
     settings.name = "corner";

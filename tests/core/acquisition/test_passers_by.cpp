@@ -71,6 +71,59 @@ class TestPassersBy : public QObject {
           relativeError(covered.transport.apply(pattern), venue_.sound().transport.apply(pattern)));
   }
 
+  void aChangeWhileItIsToEnd_data() {
+    QTest::addColumn<DeviceFault>("fault");
+    QTest::addColumn<int>("asked");  // the photograph before which it is asked to stop and keep; none: the last
+    QTest::newRow("bumped amid the patterns") << fault(FaultKind::shiftedCamera, 45, 2.0) << 46;
+    QTest::newRow("room light amid the patterns") << fault(FaultKind::ambient, 45, 0.05) << 46;
+    QTest::newRow("bumped at the end") << fault(FaultKind::shiftedCamera, -1, 2.0) << -1;
+  }
+  /// Law: whoever has asked to stop and keep is asked about no alarm. What no look has confirmed is left out,
+  /// the change is said, and put right it goes on as if nothing had happened.
+  void aChangeWhileItIsToEnd() {
+    QFETCH(DeviceFault, fault);
+    QFETCH(int, asked);
+    const Acquisition& sound = venue_.sound();
+    QVERIFY(!sound.changed);
+    // Of the test patterns, which two photographs of a look follow.
+    const int last = sound.patterns - 3;
+    if (fault.first < 0) fault.first = last;
+    if (asked < 0) asked = last;
+    venue_.faults->faults = {fault};
+    struct Sink : ProgressSink {
+      void progressed(double, const Message&) override {}
+    } sink;
+    StopRequest stop;
+    venue_.before = [&](const CaptureRequest& request) {
+      if (request.shot.number >= asked) stop.ask(StopRequest::Kind::keep);
+    };
+    int questions = 0;
+    MemoryLog log;
+    AcquisitionObserver nobody;
+    const Acquisition kept = venue_.run(
+        [&](const Alarm&) {
+          ++questions;
+          return Answer::retry;
+        },
+        log, nobody, Progress(sink, stop));
+    venue_.before = {};
+    venue_.faults->faults.clear();
+    QCOMPARE(questions, 0);
+    QVERIFY(kept.changed.has_value());
+    QCOMPARE(kept.changed->moved, fault.kind == FaultKind::shiftedCamera);
+    const auto isSaid = [&](const Message& finding) {
+      return english(finding).find(english(kept.changed->what)) != std::string::npos;
+    };
+    QCOMPARE(std::ranges::count_if(kept.findings, isSaid), 1);
+    QCOMPARE(kept.stoppedAt > 0, asked != last);
+    QVERIFY(flaggedIn(kept) <= flaggedIn(sound));
+    if (asked == last) QVERIFY(kept.transport == sound.transport);
+    for (const auto& [number, shot] : log.shots) QVERIFY(number < fault.first);
+    const Acquisition whole = venue_.run({}, log);
+    QVERIFY(whole.transport == sound.transport && whole.flagged == sound.flagged);
+    QVERIFY(!whole.changed && whole.stoppedAt == 0);
+  }
+
  private:
   Acquisition keptAfter(const DeviceFault& fault) {
     venue_.faults->faults = {fault};

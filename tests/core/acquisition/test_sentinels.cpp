@@ -78,6 +78,45 @@ class TestSentinels : public QObject {
     QCOMPARE(a.patterns, venue_->sound().patterns);
   }
 
+  void aBumpBetweenTwoExposures_data() {
+    QTest::addColumn<int>("which");
+    QTest::newRow("of a pattern") << 0;
+    QTest::newRow("of the reference picture of a check") << 1;
+  }
+  /// Law: a bump between two photographs of one pattern is told as one, and not as flicker; put right and tried
+  /// again, it leaves no trace.
+  void aBumpBetweenTwoExposures() {
+    QFETCH(int, which);
+    venue_->faults->faults.clear();
+    MemoryLog sound;
+    Listening listening;
+    venue_->run({}, sound, listening);
+    int shot = 60;
+    if (which == 1)
+      shot = std::ranges::find_if(listening.readings, [](const Reading& one) { return one.shot > 60; })->shot - 1;
+    while (sound.shots.at(shot).frames.size() < 2) ++shot;
+    bool isOver = false;
+    venue_->before = [&](const CaptureRequest& request) {
+      const bool hasBumped =
+          request.shot.number > shot || (request.shot.number == shot && request.exposure > 0);
+      venue_->faults->faults.clear();
+      if (hasBumped && !isOver) venue_->faults->faults = {fault(FaultKind::shiftedCamera, 0, 3.0)};
+    };
+    std::vector<Alarm> alarms;
+    MemoryLog log;
+    const Acquisition a = venue_->run(
+        [&](const Alarm& alarm) {
+          alarms.push_back(alarm);
+          isOver = true;
+          return Answer::retry;
+        },
+        log);
+    venue_->before = {};
+    QCOMPARE(alarms.size(), std::size_t{1});
+    QVERIFY2(alarms[0].kind == AlarmKind::moved, english(alarms[0].what).c_str());
+    QVERIFY(a.transport == venue_->sound().transport);
+  }
+
   /// What is off before the first pattern of T need not go back: nothing has been measured yet that asks for
   /// it. It says so, and that the light is sound.
   void aBumpBeforeTheFirstLook_data() {

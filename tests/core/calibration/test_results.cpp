@@ -159,6 +159,7 @@ class TestResults : public QObject {
     before.patterns = 805;
     before.exposures = 1551;
     before.findings = {RELUCENT_ENGLISH_MESSAGE("test.room", "the room light changed")};
+    before.changed = FoundChange{RELUCENT_ENGLISH_MESSAGE("test.moved", "the camera moved"), true};
 
     CalibrationFolder folder = CalibrationFolder::create(root_ / "c", {}, {});
     StageResult result = storeAcquisition(folder, "f", before, {});
@@ -183,6 +184,9 @@ class TestResults : public QObject {
     QCOMPARE(after.patterns, before.patterns);
     QCOMPARE(after.exposures, before.exposures);
     QVERIFY(after.findings == before.findings);
+    QVERIFY(after.changed == before.changed);
+    QVERIFY(resultFrom<Stage::acquisition>(result).changed == before.changed);
+    QVERIFY(!resultFrom<Stage::acquisition>(result).isWhole());
 
     fs::resize_file(result.folder / "flood-2.exr", 20);
     QVERIFY_EXCEPTION_THROWN(loadAcquisition(result), Error);

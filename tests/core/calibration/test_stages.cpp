@@ -160,6 +160,10 @@ class TestStages : public QObject {
     measure({{"stopped_at", 8}, {"cost", cost}});  // further, though not to the next level
     QVERIFY(stand(StageProgress::stale));
     decide();
+    const Json changed{{"what", Message::plain("it moved")}, {"moved", true}};
+    measure({{"stopped_at", 0}, {"cost", cost}, {"changed", changed}});
+    QVERIFY(stand(StageProgress::stale));
+    decide();
     measure({{"stopped_at", 0}, {"cost", cost}});
     QVERIFY(stand(StageProgress::stale));
     decide();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <QtTest>
+#include <algorithm>
 #include <cmath>
 
 #include "relucent/base/random.h"
 #include "relucent/photography/bracket.h"
+#include "relucent/sentinels/inspection.h"
 #include "relucent/sentinels/movement.h"
 
 using namespace relucent;
@@ -38,6 +40,38 @@ Image movedView(double shiftX, double shiftY, double degrees) {
   return image;
 }
 
+/// Two exposures of one pattern, between which the view may become another. `longest`: what the longer one
+/// has of the brightest place, of full scale.
+Shot twoExposures(const Image& before, const Image& after, double longest, bool isLongerFirst) {
+  const float brightest = *std::ranges::max_element(before.data());
+  Shot shot;
+  for (bool isLonger : {isLongerFirst, !isLongerFirst}) {
+    const Image& view = shot.frames.empty() ? before : after;
+    const double seconds = isLonger ? 0.1 : 0.02;
+    RawFrame frame{Image(view.size(), 3), 0, seconds};
+    for (std::size_t i = 0; i < frame.signal.data().size(); ++i) {
+      Random random{5, static_cast<std::uint64_t>(isLonger), i};
+      const double light = static_cast<double>(view.data()[i / 3] / brightest);
+      frame.signal.data()[i] =
+          static_cast<float>(std::min(1.0, longest * light * seconds / 0.1 + 1e-3 * random.normal()));
+    }
+    shot.frames.push_back({std::move(frame)});
+  }
+  return shot;
+}
+
+Image scaled(Image view, double by) {
+  for (float& value : view.data()) value *= static_cast<float>(by);
+  return view;
+}
+
+/// A quarter of the view hidden.
+Image covered(Image view) {
+  for (int y = 12; y < 36; ++y)
+    for (int x = 16; x < 48; ++x) view.at(x, y, 0) = 0.0f;
+  return view;
+}
+
 Shot bracketOf(double second, double noise) {
   Shot shot;
   for (int k = 0; k < 2; ++k) {
@@ -55,6 +89,9 @@ Shot bracketOf(double second, double noise) {
 }
 
 }  // namespace
+
+Q_DECLARE_METATYPE(Image)
+Q_DECLARE_METATYPE(AlarmKind)
 
 class TestInspection : public QObject {
   Q_OBJECT
@@ -130,6 +167,53 @@ class TestInspection : public QObject {
     Shot shot = bracketOf(1.0, 0.0);
     shot.frames.resize(1);
     QCOMPARE(bracketContradiction(shot, {CameraModel()}), 0.0);
+    QVERIFY(!contradictoryViews(shot, {CameraModel()}));
+  }
+
+  void whatExposuresDifferBy_data() {
+    QTest::addColumn<Image>("after");
+    QTest::addColumn<AlarmKind>("kind");
+    QTest::newRow("brighter") << scaled(movedView(0, 0, 0), 1.04) << AlarmKind::flicker;
+    QTest::newRow("much darker") << scaled(movedView(0, 0, 0), 0.7) << AlarmKind::flicker;
+    QTest::newRow("moved") << movedView(2.0, -1.0, 0) << AlarmKind::moved;
+    QTest::newRow("turned") << movedView(0, 0, 4.0) << AlarmKind::moved;
+    QTest::newRow("moved, and brighter") << scaled(movedView(-2.0, 1.0, 0), 1.1) << AlarmKind::moved;
+    QTest::newRow("hidden") << covered(movedView(0, 0, 0)) << AlarmKind::unsteady;
+  }
+  /// Law: a change of all light is told as flicker and a movement as one, whatever the longer exposure
+  /// saturates and whichever came first; what is neither is told as perhaps both.
+  void whatExposuresDifferBy() {
+    QFETCH(Image, after);
+    QFETCH(AlarmKind, kind);
+    CameraModel model;
+    model.readNoise = 1e-3;
+    model.gain = 0.0;
+    for (double longest : {0.9, 1.6})
+      for (bool isLongerFirst : {true, false}) {
+        const Shot shot = twoExposures(movedView(0, 0, 0), after, longest, isLongerFirst);
+        const auto views = contradictoryViews(shot, {model});
+        // Where the longer one is dark nothing is compared.
+        if (!views && kind == AlarmKind::unsteady && !isLongerFirst) continue;
+        QVERIFY(views && views->isLongerFirst == isLongerFirst);
+        const double apart = bracketContradiction(shot, {model});
+        const Alarm alarm = inspectContradiction(apart, *views);
+        const std::string what = english(alarm.what);
+        QVERIFY2(alarm.kind == kind, what.c_str());
+        QVERIFY(!alarm.advice.empty() && !alarm.safe.empty());
+        if (kind == AlarmKind::unsteady)
+          QVERIFY(what.find("flickers") != std::string::npos && what.find("moved") != std::string::npos);
+      }
+  }
+  /// From the earlier photograph to the later one.
+  void aMovementIsToldInItsDirection() {
+    for (bool isLongerFirst : {true, false}) {
+      const Shot shot = twoExposures(movedView(0, 0, 0), movedView(3.0, 0, 0), 0.9, isLongerFirst);
+      const Alarm alarm = inspectContradiction(0.1, contradictoryViews(shot, {CameraModel()}).value());
+      QCOMPARE(alarm.kind, AlarmKind::moved);
+      QVERIFY2(english(alarm.what).find("shifted by 3.") != std::string::npos ||
+                   english(alarm.what).find("shifted by 2.") != std::string::npos,
+               english(alarm.what).c_str());
+    }
   }
 };
 

@@ -66,8 +66,8 @@ struct AcquisitionResult {
       0;  // side of the finest blocks, projector pixels, if it was stopped and kept; 0: as fine as asked for
   std::optional<transport::ExpectedQuality> expected;  // when it ended; of dense patterns
   std::vector<Message> findings;
-  std::optional<StageCost> cost;     // of the measurement; of a repaired one that of the first
-  std::optional<RepairNote> repair;  // none: it was measured, and nothing else
+  std::optional<StageCost> cost;                    // of the measurement; of a repaired one that of the first
+  std::optional<RepairNote> repair;                 // none: it was measured, and nothing else
   std::optional<transport::FoundChange> changed{};  // with which it ended; none: nothing had changed
   /// It was not ended early, by somebody or by a change: there is nothing to go on with.
   bool isWhole() const { return stoppedAt == 0 && !changed; }

@@ -23,8 +23,8 @@ enum class AlarmKind {
 
 /// Whether a measurement that goes on in spite of it may still be of use. All else has to be put right.
 constexpr bool isAcceptable(AlarmKind kind) {
-  return kind == AlarmKind::flicker || kind == AlarmKind::unsteady || kind == AlarmKind::ambientChanged || kind == AlarmKind::lampChanged ||
-         kind == AlarmKind::moved || kind == AlarmKind::localChange;
+  return kind == AlarmKind::flicker || kind == AlarmKind::unsteady || kind == AlarmKind::ambientChanged ||
+         kind == AlarmKind::lampChanged || kind == AlarmKind::moved || kind == AlarmKind::localChange;
 }
 
 /// A finding that pauses the measurement.

@@ -243,7 +243,8 @@ bool isOfBrightness(const photography::ContradictoryViews& views) {
   for (std::size_t i = 0; i < size.count(); ++i) {
     if (views.saturated[i]) continue;
     const Pixel at = pixelAt(size, i);
-    const auto place = static_cast<std::size_t>(at.y * down / size.height * across + at.x * across / size.width);
+    const auto place =
+        static_cast<std::size_t>(at.y * down / size.height * across + at.x * across / size.width);
     before[place] += static_cast<double>(views.longer.data()[i]);
     after[place] += static_cast<double>(views.shorter.data()[i]);
   }
@@ -373,9 +374,10 @@ Alarm inspectContradiction(double apart, const photography::ContradictoryViews& 
                        "photographs of one pattern differ by {} %: the light flickers, or something moved "
                        "between them")
           .with(as::share(apart, as::decimals(1))),
-      RELUCENT_MESSAGE("alarm.steady-all",
-                       "see that camera, projector and surface stand still, switch off dimmed and fluorescent "
-                       "lamps and the projector's power saving, then try again"));
+      RELUCENT_MESSAGE(
+          "alarm.steady-all",
+          "see that camera, projector and surface stand still, switch off dimmed and fluorescent "
+          "lamps and the projector's power saving, then try again"));
 }
 
 std::optional<Alarm> inspectFloods(const hdr::ProjectedLight& white,

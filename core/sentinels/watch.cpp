@@ -102,8 +102,7 @@ std::optional<Interruption> Watch::inspectReferences(const Check& check, const P
   const hdr::ProjectedLight light(*std::move(seen), check.black);
   std::optional<Alarm> alarm = inspectFloods(light, references_);
   // What moved among the floods makes their sums differ too.
-  if (!alarm && references_.flicker > roundsLimit)
-    alarm = flickerAlarm(references_.flicker);
+  if (!alarm && references_.flicker > roundsLimit) alarm = flickerAlarm(references_.flicker);
   return alarm ? handle(*alarm, 0) : std::nullopt;
 }
 

@@ -73,7 +73,7 @@ class TestPassersBy : public QObject {
 
   void aChangeWhileItIsToEnd_data() {
     QTest::addColumn<DeviceFault>("fault");
-    QTest::addColumn<int>("asked");  // the photograph before which it is asked to stop and keep; none: the last
+    QTest::addColumn<int>("asked");  // before which photograph to stop and keep; below nothing: the last
     QTest::newRow("bumped amid the patterns") << fault(FaultKind::shiftedCamera, 45, 2.0) << 46;
     QTest::newRow("room light amid the patterns") << fault(FaultKind::ambient, 45, 0.05) << 46;
     QTest::newRow("bumped at the end") << fault(FaultKind::shiftedCamera, -1, 2.0) << -1;

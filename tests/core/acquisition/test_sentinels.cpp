@@ -83,8 +83,8 @@ class TestSentinels : public QObject {
     QTest::newRow("of a pattern") << 0;
     QTest::newRow("of the reference picture of a check") << 1;
   }
-  /// Law: a bump between two photographs of one pattern is told as one, and not as flicker; put right and tried
-  /// again, it leaves no trace.
+  /// Law: a bump between two photographs of one pattern is told as one, and not as flicker; put right and
+  /// tried again, it leaves no trace.
   void aBumpBetweenTwoExposures() {
     QFETCH(int, which);
     venue_->faults->faults.clear();
@@ -93,7 +93,9 @@ class TestSentinels : public QObject {
     venue_->run({}, sound, listening);
     int shot = 60;
     if (which == 1)
-      shot = std::ranges::find_if(listening.readings, [](const Reading& one) { return one.shot > 60; })->shot - 1;
+      shot =
+          std::ranges::find_if(listening.readings, [](const Reading& one) { return one.shot > 60; })->shot -
+          1;
     while (sound.shots.at(shot).frames.size() < 2) ++shot;
     bool isOver = false;
     venue_->before = [&](const CaptureRequest& request) {

@@ -30,25 +30,30 @@ void HeldKey::watch(QWindow& window) {
 }
 
 void HeldKey::letGo() {
-  isDown_ = false;
   time_.stop();
   release_.stop();
+  if (std::exchange(isDown_, false)) Q_EMIT released();
 }
 
 /// Others get every event, too.
 bool HeldKey::eventFilter(QObject*, QEvent* event) {
-  // Whoever lets it go at another window is not heard of here.
-  if (event->type() == QEvent::FocusOut || event->type() == QEvent::Hide) letGo();
-  if (event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) return false;
-  const auto* key = static_cast<const QKeyEvent*>(event);
-  if (key->key() != key_ || key->isAutoRepeat()) return false;
-  if (event->type() == QEvent::KeyRelease) {
-    release_.start(certainlyUp);
-    return false;
-  }
-  release_.stop();
-  if (!std::exchange(isDown_, true)) time_.start(enough_);
+  take(*event);
   return false;
+}
+
+void HeldKey::take(const QEvent& event) {
+  // Whoever lets it go at another window is not heard of here.
+  if (event.type() == QEvent::FocusOut || event.type() == QEvent::WindowDeactivate ||
+      event.type() == QEvent::Hide)
+    letGo();
+  if (event.type() != QEvent::KeyPress && event.type() != QEvent::KeyRelease) return;
+  const auto& key = static_cast<const QKeyEvent&>(event);
+  if (key.key() != key_ || key.isAutoRepeat()) return;
+  if (event.type() == QEvent::KeyRelease) return release_.start(certainlyUp);
+  release_.stop();
+  if (std::exchange(isDown_, true)) return;
+  time_.start(enough_);
+  Q_EMIT pressed();
 }
 
 }  // namespace relucent::gui

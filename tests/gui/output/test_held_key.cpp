@@ -58,6 +58,32 @@ class TestHeldKey : public QObject {
     QCOMPARE(held.size(), 1);
   }
 
+  void aKeyGoesDownAndUpOnce_data() { aKeyThatIsHeldCountsOnce_data(); }
+  /// Law: between its going down and up a key is down, however the keyboard repeats it.
+  void aKeyGoesDownAndUpOnce() {
+    QFETCH(bool, isTold);
+    QWindow window;
+    HeldKey original(Qt::Key_A);
+    original.watch(window);
+    QSignalSpy pressed(&original, &HeldKey::pressed), released(&original, &HeldKey::released);
+    send(window, QEvent::KeyPress, Qt::Key_A);
+    QVERIFY(pressed.size() == 1 && original.isDown());
+    for (int repeat = 0; repeat < 8; ++repeat) {
+      QTest::qWait(10);
+      send(window, QEvent::KeyRelease, Qt::Key_A, isTold);
+      send(window, QEvent::KeyPress, Qt::Key_A, isTold);
+    }
+    QVERIFY(pressed.size() == 1 && released.isEmpty());
+    send(window, QEvent::KeyRelease, Qt::Key_A);
+    QTRY_COMPARE(released.size(), 1);
+    QVERIFY(!original.isDown());
+    // Another window has the keys: it is not heard of any more.
+    send(window, QEvent::KeyPress, Qt::Key_A);
+    QEvent away(QEvent::WindowDeactivate);
+    QCoreApplication::sendEvent(&window, &away);
+    QVERIFY(pressed.size() == 2 && released.size() == 2);
+  }
+
   void whatIsLetGoOfDoesNotCount_data() {
     QTest::addColumn<QList<int>>("events");
     QTest::newRow("let go of") << QList<int>{QEvent::KeyRelease};

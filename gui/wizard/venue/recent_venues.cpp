@@ -50,12 +50,13 @@ QList<RecentVenue> RecentVenues::list() const {
     venue.folder = entry.mid(bar + 1);
     venue.name = QFileInfo(venue.folder).fileName();
     if (!QFileInfo::exists(venue.folder)) continue;
+    // Of one that is being measured again, the one before, though nobody else may look into it now.
+    venue.picture = thumbnailOf(venue.folder);
     try {
       auto folder = calibration::CalibrationFolder::open(venue.folder.toStdString(),
                                                          calibration::CalibrationFolder::Access::read);
       venue.state = stateOf(folder);
       venue.isInterrupted = photographsInterrupted(folder) > 0;
-      venue.picture = thumbnailOf(venue.folder);
       venue.simulated = std::holds_alternative<venue::VenueSettings>(pipeline::settingsOf(folder).rig);
     } catch (const Error&) {
       // It stays on the list: opening it tells what is wrong.

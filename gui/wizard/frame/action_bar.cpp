@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "theme/action_button.h"
 #include "theme/theme.h"
 
 namespace relucent::gui {
@@ -122,10 +123,11 @@ void ActionBar::refresh() {
     primary_->setLayoutDirection(primary->glyph() == Icon::next ? against : reading);
     primary_->setMinimumWidth(std::max(primary_->minimumWidth(), primary_->sizeHint().width()));
   }
-  primary_->setEnabled(primary != nullptr && primary->isEnabled());
+  const QString hint = hintText(page);
+  setPossible(primary_, primary != nullptr && primary->isEnabled(), hint);
   back_->setVisible(wizard_.canGoBack());
   back_->setIcon(iconOf(Icon::back, colours().text));
-  hint_->setText(page.hint());
+  hint_->setText(hint);
   if (page.hasRemedy())
     hint_->setCursor(Qt::PointingHandCursor);
   else
@@ -136,6 +138,16 @@ void ActionBar::refresh() {
   progress_->setStyleSheet(fraction ? QString() : QString("QProgressBar { background: transparent; }"));
   refreshSecondary(page.secondary());
   arrange();
+}
+
+/// What the page says, and why secondary actions are not possible where that is something else.
+QString ActionBar::hintText(const PageModel& page) const {
+  QStringList lines{page.hint()};
+  for (const PageCommand* command : page.secondary())
+    if (!command->isEnabled() && !command->whyNot().isEmpty() && !lines.contains(command->whyNot()))
+      lines << command->whyNot();
+  lines.removeAll(QString());
+  return lines.join('\n');
 }
 
 void ActionBar::resizeEvent(QResizeEvent* event) {
@@ -182,7 +194,8 @@ void ActionBar::refreshSecondary(const std::vector<PageCommand*>& commands) {
     const PageCommand& command = *commands[i];
     buttons_[i]->setText(command.text());
     buttons_[i]->setIcon(iconOf(command.glyph(), command.isEnabled() ? colours().text : colours().disabled));
-    buttons_[i]->setEnabled(command.isEnabled());
+    setPossible(buttons_[i], command.isEnabled(),
+                command.whyNot().isEmpty() ? hint_->text() : command.whyNot());
     if (buttons_[i]->shortcut() != command.shortcut()) buttons_[i]->setShortcut(command.shortcut());
     keepWidth(*buttons_[i], command);
   }

@@ -15,7 +15,8 @@
 
 namespace relucent::gui {
 
-/// Back; the time or a reason; secondary actions; the one primary action, named by its verb. Where the window
+/// Back; the time or a reason, of every action here that is not possible; secondary actions; the one primary
+/// action, named by its verb. Where the window
 /// is narrow, time or reason stand in a row of their own above. While a page is shown its buttons do not
 /// become narrower, so that none moves under the pointer; and the second click of a double click is only for
 /// what the first one was for: where that has made room for another action, it does nothing.
@@ -38,6 +39,7 @@ class ActionBar : public QFrame {
  private:
   void refresh();
   void refreshSecondary(const std::vector<PageCommand*>& commands);
+  QString hintText(const PageModel& page) const;
   void arrange();
   void keepWidth(QPushButton& button, const PageCommand& command);
   bool isMeantForAnother(const QPushButton& button, const QMouseEvent& press);

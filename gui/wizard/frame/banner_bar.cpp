@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "wizard/frame/banner_bar.h"
 
+#include "theme/action_button.h"
 #include "theme/theme.h"
 
 namespace relucent::gui {
@@ -49,7 +50,10 @@ void BannerBar::refresh() {
   button_->setText(banner->command->text());
   button_->setIcon(
       iconOf(banner->command->glyph(), banner->command->isEnabled() ? colours().text : colours().disabled));
-  button_->setEnabled(banner->command->isEnabled());
+  // The action bar says it too.
+  const QString& whyNot = banner->command->whyNot();
+  setPossible(button_, banner->command->isEnabled(),
+              whyNot.isEmpty() ? wizard_.currentPage().hint() : whyNot);
   button_->setToolTip(banner->command->toolTip());
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "theme/action_button.h"
+
 namespace relucent::gui {
 
 NameDialog::NameDialog(const QString& objects, Question question, QWidget* parent)
@@ -37,7 +39,8 @@ QWidget* NameDialog::buttonRow(const QString& objects) {
   auto* buttons = new QWidget;
   auto* row = new QHBoxLayout(buttons);
   row->setContentsMargins(0, 0, 0, 0);
-  row->addStretch(1);
+  row->addWidget(whyNot_ = labelOf({}, "note"), 1);
+  whyNot_->setObjectName(objects + "-why-not");
   QPushButton* cancel = buttonOf(tr("Cancel"));
   cancel->setObjectName(objects + "-cancel");
   do_ = buttonOf(question_.action, "primary");
@@ -57,7 +60,13 @@ void NameDialog::look() {
   const QString name = name_->text().trimmed(), problem = question_.problem(name_->text());
   wrong_->setVisible(!problem.isEmpty());
   wrong_->setText(problem);
-  do_->setEnabled(problem.isEmpty() && !name.isEmpty() && name != question_.present);
+  const QString whyNot = !problem.isEmpty()          ? problem
+                         : name.isEmpty()            ? tr("Type a name.")
+                         : name == question_.present ? tr("It has this name.")
+                                                     : QString();
+  setPossible(do_, whyNot);
+  // What is wrong stands in a note of its own.
+  whyNot_->setText(problem.isEmpty() ? whyNot : QString());
   // A dialog that is seen does not grow by itself.
   if (isVisible()) resize(width(), std::max(height(), layout()->totalHeightForWidth(width())));
 }

@@ -37,6 +37,7 @@ class NameDialog : public QDialog {
   Question question_;
   QLineEdit* name_;
   Note* wrong_;
+  QLabel* whyNot_ = nullptr;
   QPushButton* do_ = nullptr;
 };
 

@@ -74,7 +74,8 @@ class PageModel : public QObject {
   virtual QString title() const { return name(); }
   virtual QString subtitle() const = 0;  // what this step is for
   virtual StepStatus status() const = 0;
-  /// Beside the buttons: the time, or why the primary command is not possible.
+  /// Beside the buttons: the time, or why the primary command is not possible. Why another one is not
+  /// (PageCommand::whyNot()) the action bar adds to it.
   virtual QString hint() const { return {}; }
   /// What the hint says can be changed on this page: remedyWanted() asks where.
   virtual bool hasRemedy() const { return false; }

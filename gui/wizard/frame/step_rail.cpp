@@ -63,18 +63,18 @@ StepButton::StepButton(int number, QWidget* parent) : QAbstractButton(parent), n
   connect(&Theme::instance(), &Theme::changed, this, qOverload<>(&QWidget::update));
 }
 
-void StepButton::show(const QString& name, const StepStatus& status, bool current, bool locked) {
+void StepButton::show(const QString& name, const StepStatus& status, bool current, const QString& whyLocked) {
+  const bool locked = !whyLocked.isEmpty();
   setText(name);
   status_ = status;
   current_ = current;
   locked_ = locked;
-  setEnabled(!locked);
   QString state = stateText(status, current, locked);
   setAccessibleName(StepRail::tr("Step %1, %2, %3").arg(number_).arg(name, state));
-  setAccessibleDescription(status.result);
-  setToolTip(!narrow_                  ? status.result
-             : status.result.isEmpty() ? name
-                                       : QString("%1: %2").arg(name, status.result));
+  const QString& said = locked ? whyLocked : status.result;
+  setAccessibleDescription(said);
+  setEnabled(!locked);
+  setToolTip(!narrow_ ? said : said.isEmpty() ? name : QString("%1: %2").arg(name, said));
   update();
 }
 
@@ -242,8 +242,11 @@ void StepRail::setNarrow(bool narrow) {
 void StepRail::refresh() {
   // Of the venue that is open, also while another one is thought of: that has nothing yet.
   venue_->setWhole(session_.isOpen() ? session_.name() : tr("No venue open"));
-  for (std::size_t i = 0; i < steps_.size(); ++i)
-    steps_[i]->show(wizard_.page(i).name(), wizard_.statusOf(i), i == wizard_.current(), wizard_.isLocked(i));
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const std::optional<std::size_t> before = wizard_.lockedBy(i);
+    const QString why = before ? tr("Opens once %1 is done.").arg(wizard_.page(*before).name()) : QString();
+    steps_[i]->show(wizard_.page(i).name(), wizard_.statusOf(i), i == wizard_.current(), why);
+  }
 }
 
 }  // namespace relucent::gui

@@ -17,7 +17,8 @@ class StepButton : public QAbstractButton {
 
  public:
   StepButton(int number, QWidget* parent = nullptr);
-  void show(const QString& name, const StepStatus& status, bool current, bool locked);
+  /// `whyLocked`: why it cannot be opened; empty: it can.
+  void show(const QString& name, const StepStatus& status, bool current, const QString& whyLocked);
   /// Number or shape alone; name and result are in the tool tip.
   void setNarrow(bool narrow);
   QSize sizeHint() const override;

@@ -48,10 +48,10 @@ std::optional<Banner> Wizard::banner() const {
   return currentPage().banner();
 }
 
-bool Wizard::isLocked(std::size_t index) const {
+std::optional<std::size_t> Wizard::lockedBy(std::size_t index) const {
   for (std::size_t before = 0; before < index; ++before)
-    if (!isUsable(pages_[before]->status())) return true;
-  return false;
+    if (!isUsable(pages_[before]->status())) return before;
+  return std::nullopt;
 }
 
 bool Wizard::go(std::size_t index) {

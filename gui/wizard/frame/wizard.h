@@ -28,7 +28,9 @@ class Wizard : public QObject {
   std::optional<Banner> banner() const;
 
   /// A page opens when all before it have a result, perhaps an old one.
-  bool isLocked(std::size_t index) const;
+  bool isLocked(std::size_t index) const { return lockedBy(index).has_value(); }
+  /// The step that has to be done before; none: it can be opened.
+  std::optional<std::size_t> lockedBy(std::size_t index) const;
   /// What is changed on the page of before is kept. False, with nothing changed, if it is locked.
   bool go(std::size_t index);
   void next();

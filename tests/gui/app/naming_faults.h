@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QAbstractButton>
 #include <QAbstractScrollArea>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
 #include <QAccessible>
+#include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
+#include <QScrollBar>
 #include <QStringList>
 #include <QTableWidget>
 #include <QWidget>
 
+#include "theme/controls.h"
+
 namespace relucent::gui {
 
 /// What a screen reader has no words for: a widget that takes the focus and has no name or is said to be
-/// filler, a table's cell that says nothing.
+/// filler, a control that cannot be used and does not say why, a table's cell that says nothing.
 class NamingFaults {
  public:
   /// Of all that is visible in a window.
@@ -20,6 +28,9 @@ class NamingFaults {
     for (QWidget* widget : window.findChildren<QWidget*>()) {
       if (!widget->isVisible()) continue;
       if (takesFocus(*widget)) faults << faultOf(*widget);
+      if (isClosed(*widget) && widget->accessibleDescription().trimmed().isEmpty())
+        faults << QString("%1 %2 \"%3\" does not say why it cannot be used")
+                      .arg(widget->metaObject()->className(), widget->objectName(), widget->accessibleName());
       if (const auto* table = qobject_cast<const QTableWidget*>(widget)) faults << silentCells(*table);
     }
     faults.removeAll(QString());
@@ -32,6 +43,18 @@ class NamingFaults {
     const bool scrollsOnly = QString(widget.metaObject()->className()) == "QScrollArea";
     return widget.isEnabled() && (widget.focusPolicy() & Qt::TabFocus) != 0 &&
            widget.focusProxy() == nullptr && !scrollsOnly;
+  }
+
+  /// By itself, not with what it stands in.
+  static bool isClosed(const QWidget& widget) {
+    const bool isControl = qobject_cast<const QAbstractButton*>(&widget) != nullptr ||
+                           qobject_cast<const QComboBox*>(&widget) != nullptr ||
+                           qobject_cast<const QAbstractSlider*>(&widget) != nullptr ||
+                           qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
+                           qobject_cast<const QLineEdit*>(&widget) != nullptr ||
+                           qobject_cast<const Segmented*>(&widget) != nullptr;
+    return isControl && widget.testAttribute(Qt::WA_ForceDisabled) &&
+           qobject_cast<const QScrollBar*>(&widget) == nullptr;
   }
 
   static QString faultOf(QWidget& widget) {

@@ -8,10 +8,13 @@
 #include <QTextDocumentFragment>
 #include <QtTest>
 
+#include "theme/action_button.h"
 #include "theme/readout.h"
 #include "theme/theme.h"
 
 using namespace relucent::gui;
+
+Q_DECLARE_METATYPE(std::optional<Icon>)
 
 class TestControls : public QObject {
   Q_OBJECT
@@ -25,6 +28,43 @@ class TestControls : public QObject {
     QVERIFY(readout.minimumSizeHint().width() >
             QFontMetrics(typeOf(type::readout, QFont::DemiBold)).horizontalAdvance("239,7 ms"));
     QVERIFY(readout.minimumSizeHint().width() > usual);
+  }
+
+  void aButtonSaysWhyItCannotBePressed_data() {
+    QTest::addColumn<std::optional<Icon>>("icon");
+    QTest::newRow("with an icon") << std::optional(Icon::drift);
+    QTest::newRow("without") << std::optional<Icon>();
+  }
+  /// Law: the reason is painted, told and asks for room across, none down; gone, all is as before.
+  void aButtonSaysWhyItCannotBePressed() {
+    QFETCH(std::optional<Icon>, icon);
+    Theme::instance().apply(Look::dark);
+    ActionButton button(icon, "Check for drift");
+    button.setAccessibleDescription("Ten photographs.");
+    const QSize usual = button.sizeHint();
+    const auto painted = [&button] {
+      button.resize(270, button.sizeHint().height());
+      return button.grab().toImage();
+    };
+    const QImage open = painted();
+    const QString reason = "Confirm that the room is clear, and tell everybody.";
+    button.setWhyNot(reason);
+    QVERIFY(!button.isEnabled());
+    QCOMPARE(button.accessibleDescription(), "Ten photographs. " + reason);
+    QCOMPARE(whyNotPossible(button), reason);
+    QCOMPARE(button.sizeHint().height(), usual.height());
+    QVERIFY(button.sizeHint().width() > QFontMetrics(typeOf(type::note)).horizontalAdvance(reason));
+    QCOMPARE(button.minimumSizeHint().height(), usual.height());
+    QVERIFY(button.minimumSizeHint().width() <= usual.width());
+    const QImage closed = painted();
+    button.setWhyNot("Another reason.");
+    QVERIFY(painted() != closed);  // it is seen
+    QCOMPARE(button.accessibleDescription(), QString("Ten photographs. Another reason."));
+    button.setWhyNot({});
+    QVERIFY(button.isEnabled());
+    QCOMPARE(button.accessibleDescription(), QString("Ten photographs."));
+    QCOMPARE(button.sizeHint(), usual);
+    QCOMPARE(painted(), open);
   }
 
   /// Law: what cannot be chosen is fainter than what can, not drawn twice.

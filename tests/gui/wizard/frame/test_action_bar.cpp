@@ -45,11 +45,11 @@ class ScriptedPage : public PageModel {
   void updateCommands() override {
     hold_->show(isHeld ? "Go on with all of it" : "Hold");
     dark_->show(isDark ? "Make it visible again" : "Dark");
-    end_->show("End");
+    end_->showUnless(whyNoEnd, "End");
   }
 
   QStringList done;
-  QString sentence;
+  QString sentence, whyNoEnd;
   int step = 0;
   bool isHeld = false, isDark = false;
 
@@ -154,6 +154,41 @@ class TestActionBar : public QObject {
                               .arg(hint->height())
                               .arg(hint->heightForWidth(hint->width()))));
     }
+  }
+
+  void aSecondaryActionSaysWhyItIsNotPossible_data() {
+    QTest::addColumn<int>("width");  // of the bar, beside the rail, in windows of 1366 and 960 pixels
+    QTest::newRow("1366") << 1142;
+    QTest::newRow("960") << 896;
+  }
+  /// Law: the reason stands in the bar, once, and is told; the bar is as high as without it.
+  void aSecondaryActionSaysWhyItIsNotPossible() {
+    QFETCH(int, width);
+    const auto heightNow = [&] {
+      page_->refresh();
+      bar_->resize(width, bar_->height());
+      bar_->layout()->activate();
+      QCoreApplication::sendPostedEvents();
+      return bar_->height();
+    };
+    page_->sentence = "Measured in 5 minutes";
+    const int before = heightNow();
+    page_->whyNoEnd = "To end it, confirm that the room is clear.";
+    QCOMPARE(heightNow(), before);
+    const auto* hint = bar_->findChild<QLabel*>("hint");
+    QCOMPARE(hint->text(), page_->sentence + '\n' + page_->whyNoEnd);
+    QVERIFY(hint->height() >= hint->heightForWidth(hint->width()));
+    QVERIFY(!button("secondary-2")->isEnabled());
+    QCOMPARE(button("secondary-2")->accessibleDescription(), page_->whyNoEnd);
+    // The page says it itself.
+    page_->sentence = page_->whyNoEnd;
+    heightNow();
+    QCOMPARE(hint->text(), page_->whyNoEnd);
+    page_->whyNoEnd.clear();
+    page_->sentence = "Measured in 5 minutes";
+    heightNow();
+    QCOMPARE(hint->text(), page_->sentence);
+    QVERIFY(button("secondary-2")->isEnabled() && button("secondary-2")->accessibleDescription().isEmpty());
   }
 
   /// Law: once all was shown, nothing moves under the pointer.

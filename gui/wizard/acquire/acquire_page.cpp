@@ -106,18 +106,6 @@ void AcquirePage::makeCommands() {
   retry_ = addCommand(Icon::play, begins);
 }
 
-PageCommand* AcquirePage::answering(Icon icon, sentinels::Answer answer) {
-  return addCommand(icon, [this, answer] { this->answer(answer); });
-}
-
-void AcquirePage::answer(sentinels::Answer answer) {
-  asking_.reset();
-  if (answer == sentinels::Answer::retry) session_.putRight();
-  question_->give(answer);
-  tellProgress();
-  tellStatus();
-}
-
 AcquirePage::~AcquirePage() {
   finish();
 }
@@ -134,6 +122,7 @@ StepStatus AcquirePage::status() const {
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(share), hasResult};
   switch (session_.progress(calibration::Stage::acquisition)) {
     case calibration::StageProgress::done:
+      if (session_.foundChange()) return {StepState::coarse, tr("Ended by a change")};
       if (const int blocks = stoppedAt(); blocks > 0)
         return {StepState::coarse, tr("Stopped at %1 px").arg(blocks)};
       if (const auto poor = session_.poorQuality())
@@ -171,7 +160,11 @@ QString AcquirePage::hint() const {
     return tr("Measuring begins in %n second(s). Leave the room dark and still.", nullptr,
               secondsLeftToLeave_);
   if (!session_.areDevicesFree()) return tr("The devices are in use at %1.").arg(session_.devicesUserName());
-  if (isDone() && stoppedAt() > 0 && !session_.mayMeasure())
+  if (afterChange() == goOnMeasuring_ && session_.mayMeasure())
+    return tr("Put right what changed, then go on measuring.");
+  if (afterChange() == measureAnew_ && session_.mayMeasure())
+    return tr("Measure again as it stands now, or put it back and go on measuring.");
+  if (isDone() && wasEndedEarly() && !session_.mayMeasure())
     return tr("To go on measuring, confirm that the room is clear.");
   if (isDoubtful() && !session_.mayMeasure()) return tr("To measure again, confirm that the room is clear.");
   if (isDone())
@@ -191,9 +184,13 @@ void AcquirePage::updateCommands() {
   const bool isNew = isStale() && again_ == 0;
   start_->setGlyph(isNew ? Icon::retry : Icon::play);
   start_->show(isNew ? tr("Measure again") : kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
-  measureAnew_->show(tr("Measure again"), mayStart);
+  // Devices in use are the hint's own matter.
+  const auto why = [&](const QString& unclear) {
+    return !session_.areDevicesFree() ? session_.whyInUse() : mayStart ? QString() : unclear;
+  };
+  measureAnew_->showUnless(why(tr("To measure again, confirm that the room is clear.")), tr("Measure again"));
   measureAnew_->setToolTip(mayStart ? tr("Takes every photograph again. What is measured stays until then.")
-                                    : tr("Confirm that the room is clear."));
+                                    : measureAnew_->whyNot());
   startNow_->show(tr("Start now"));
   stay_->show(tr("Not now"));
   next_->show(tr("Show threshold"), !isMeasuring());
@@ -204,8 +201,9 @@ void AcquirePage::updateCommands() {
   return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));
   return_->setToolTip(tr("The earlier measurement is used again, with all that followed from it."));
   goOnWithDisk_->show(tr("Go on now"));
-  goOnMeasuring_->show(tr("Go on measuring"), mayStart);
-  goOnMeasuring_->setToolTip(mayStart ? QString() : hint());
+  goOnMeasuring_->showUnless(why(tr("To go on measuring, confirm that the room is clear.")),
+                             tr("Go on measuring"));
+  goOnMeasuring_->setToolTip(goOnMeasuring_->whyNot());
   answer_->show(tr("Answer"));
   retryAlarm_->show(tr("Try again"));
   keepAtAlarm_->show(tr("Stop and keep"));
@@ -217,12 +215,15 @@ void AcquirePage::updateCommands() {
 PageCommand* AcquirePage::primary() const {
   if (isCountingDown()) return startNow_;
   if (isDoubtful()) return measureAnew_;
+  if (PageCommand* leadsOn = afterChange()) return leadsOn;
   return isMeasuring() || isDone() ? next_ : start_;
 }
 
 std::vector<PageCommand*> AcquirePage::secondary() const {
   if (isCountingDown()) return {stay_};
   if (isDoubtful()) return {next_};
+  if (const PageCommand* leadsOn = afterChange())
+    return {leadsOn == measureAnew_ ? goOnMeasuring_ : measureAnew_, next_};
   if (isDone()) return {measureAnew_};
   PageCommand* const pause = isPaused() ? resume_ : pause_;
   if (isMeasuringAgain()) return {return_, pause, keep_};
@@ -237,6 +238,7 @@ std::optional<Banner> AcquirePage::banner() const {
   if (isMeasuring() || isCountingDown()) return std::nullopt;
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
+  if (const auto change = session_.foundChange(); change && isDone()) return changedBanner(*change);
   if (progress == calibration::StageProgress::done && stoppedAt() > 0) return stoppedBanner();
   if (isDoubtful()) return onMeasurement(session_, nullptr);
   if (progress == calibration::StageProgress::open && kept_ > 0)
@@ -260,11 +262,11 @@ bool AcquirePage::isStale() const {
 }
 
 bool AcquirePage::needsConsentNow() const {
-  return !session_.mayMeasure() && (!isDone() || stoppedAt() > 0 || isDoubtful());
+  return !session_.mayMeasure() && (!isDone() || wasEndedEarly() || isDoubtful());
 }
 
 bool AcquirePage::isDoubtful() const {
-  return isDone() && stoppedAt() == 0 && session_.poorQuality().has_value();
+  return isDone() && !wasEndedEarly() && session_.poorQuality().has_value();
 }
 
 QString AcquirePage::whyLocked() const {
@@ -275,6 +277,23 @@ QString AcquirePage::whyLocked() const {
 void AcquirePage::countKept() {
   kept_ = session_.isOpen() ? session_.photographsKept(calibration::Stage::acquisition) : 0;
   again_ = kept_ > 0 ? session_.photographsSince(calibration::Stage::acquisition) : 0;
+}
+
+/// What moved may stand where it stands from now on; anything else is put right, and looked at when it goes
+/// on.
+PageCommand* AcquirePage::afterChange() const {
+  const auto change = session_.foundChange();
+  if (!isDone() || !change) return nullptr;
+  return change->moved ? measureAnew_ : goOnMeasuring_;
+}
+
+Banner AcquirePage::changedBanner(const transport::FoundChange& change) const {
+  const int blocks = stoppedAt();
+  return {Banner::Kind::amber,
+          blocks > 0 ? tr("Measuring was stopped at blocks of %1 px: something had changed").arg(blocks)
+                     : tr("Measuring ended, and something had changed"),
+          fullSentence(change.what) + ' ' +
+              tr("What was photographed since the look before is left out, all before it is kept.")};
 }
 
 Banner AcquirePage::stoppedBanner() const {
@@ -405,60 +424,6 @@ void AcquirePage::finish() {
   asking_.reset();
   question_->setClosed(true);
   session_.live().resume();
-}
-
-void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) {
-  PageCommand* goOn = sentinels::isAcceptable(alarm.kind) && !isPutRight ? skipAlarm_ : nullptr;
-  QStringList advice;
-  if (!isPutRight) advice << fullSentence(alarm.advice);
-  advice << whatAnswersDo(alarm, goOn != nullptr);
-  Failure failure{ErrorKind::device, fullSentence(alarm.what), advice.join('\n'),
-                  QString::fromStdString(fmt::format("{}; {}; {}", alarm.what, alarm.safe, alarm.advice)),
-                  AcquisitionTrace::headingOf(alarm.kind)};
-  if (isPutRight) {
-    failure.heading = tr("The camera is back at its place");
-    failure.what = tr("It had moved while it measured, and looks again where it looked.");
-  }
-  FailureReport report{failure, fullSentence(alarm.safe), retryAlarm_, keepAtAlarm_, goOn};
-  if (viewBefore_.empty()) viewBefore_ = session_.live().floodlight().signal;
-  if (alarm.kind == sentinels::AlarmKind::moved && !viewBefore_.empty() && !isPutRight)
-    report.repair = pushBack_;
-  report.isPutRight = isPutRight_ = isPutRight;
-  alarm_ = alarm;
-  asking_ = std::make_unique<QObject>();
-  report.reason = asking_.get();
-  tellProgress();
-  tellStatus();
-  Q_EMIT failed(report);
-  Q_EMIT asks();
-}
-
-/// In the words of the buttons.
-QString AcquirePage::whatAnswersDo(const sentinels::Alarm& alarm, bool mayGoOn) const {
-  QStringList answers;
-  if (alarm.patterns > 0)
-    answers << groupedText(tr("“%1” photographs %n pattern(s) again, from No. %2 on, and goes on from there.",
-                              nullptr, alarm.patterns),
-                           alarm.patterns)
-                   .arg(retryAlarm_->text())
-                   .arg(alarm.first + 1);
-  else
-    answers << tr("“%1” looks once more, and goes on.").arg(retryAlarm_->text());
-  if (mayGoOn)
-    answers << tr("“%1” keeps all as it is: what changed will be wrong, and the report says so.")
-                   .arg(skipAlarm_->text());
-  return answers.join('\n');
-}
-
-/// Whoever has closed the question finds it here again.
-Banner AcquirePage::alarmBanner() const {
-  return {Banner::Kind::amber,
-          isPutRight_ ? tr("The camera is back at its place") : AcquisitionTrace::headingOf(alarm_->kind),
-          isPutRight_ ? tr("Measuring waits for your answer.") : fullSentence(alarm_->what), answer_};
-}
-
-void AcquirePage::askAgain(bool isPutRight) {
-  if (alarm_ && isAsking()) askAboutAlarm(*alarm_, isPutRight);
 }
 
 void AcquirePage::ended() {

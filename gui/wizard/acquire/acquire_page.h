@@ -59,7 +59,7 @@ class AcquirePage : public DevicePage {
   PageCommand* insteadOfWaiting() const override { return isMeasuring() ? keep_ : nullptr; }
   QString whyLocked() const override;
   bool wasInterrupted() const override {
-    return !isMeasuring() && again_ > 0 && !(isDone() && stoppedAt() == 0);
+    return !isMeasuring() && again_ > 0 && !(isDone() && !wasEndedEarly());
   }
   void finish() override;
 
@@ -121,6 +121,8 @@ class AcquirePage : public DevicePage {
   std::optional<transport::ExpectedQuality> expectedQuality() const;
   /// Side of the finest blocks if it was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const { return session_.stoppedAt(); }
+  /// It was stopped, or something had changed: it can be gone on with.
+  bool wasEndedEarly() const { return session_.wasEndedEarly(); }
   /// It was begun again since, and has not ended: photographs that are in the journal; 0: it was not.
   int photographsOfNew() const { return again_; }
   /// What is worth knowing of the measurement, in sentences.
@@ -190,6 +192,9 @@ class AcquirePage : public DevicePage {
   void begin();
   void stay();
   Banner stoppedBanner() const;
+  Banner changedBanner(const transport::FoundChange& change) const;
+  /// Done, and something had changed when it ended: what leads on.
+  PageCommand* afterChange() const;
   std::optional<WorkLeft> expected(const acquisition::AcquisitionSettings& settings) const;
   acquisition::AcquisitionSettings settingsOf(Fineness fineness) const;
   /// Before it was measured about as many pixels as the projector has, where the cameras have more.

@@ -11,6 +11,7 @@
 #include "relucent/base/time_left.h"
 #include "relucent/pipeline/pictures.h"
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -127,7 +128,7 @@ QWidget* storagePart(AcquirePage& model) {
   auto refresh = [&model, part, box, meaning, removed] {
     removed->setVisible(model.session().werePhotographsRemoved());
     part->setVisible(!model.isMeasuring() && !model.isDone());
-    box->setEnabled(model.whyLocked().isEmpty());
+    setPossible(box, model.whyLocked());
     box->setCurrentIndex(box->findData(static_cast<int>(model.keptPhotographs())));
     switch (model.keptPhotographs()) {
       case Kept::everything:
@@ -169,7 +170,9 @@ QWidget* resultPart(AcquirePage& model) {
     part->setVisible(model.verificationError().has_value());
     patterns->setValue(count(cost.patterns));
     photographs->setValue(count(cost.exposures));
-    error->setValue(percentText(model.verificationError().value_or(0.0)));
+    // Test patterns that were not confirmed tell nothing.
+    const double off = model.verificationError().value_or(0.0);
+    error->setValue(off > 0.0 ? percentText(off) : QString::fromUtf8("–"));
     const QString differ = AcquirePage::tr(
         "Test patterns are predicted from the measurement, then photographed: this is how far the two "
         "differ, the photographs' noise included.");
@@ -280,7 +283,6 @@ QWidget* planOf(AcquirePage& model) {
     const QString why = model.whyLocked();
     locked->setText(why);
     locked->setVisible(!why.isEmpty());
-    for (Choice* choice : choices) choice->setEnabled(why.isEmpty());
     group->button(static_cast<int>(model.fineness()))->setChecked(true);
     for (Fineness fineness : {Fineness::fast, Fineness::usual, Fineness::fine}) {
       const std::optional<WorkLeft> work = model.expected(fineness);
@@ -292,6 +294,7 @@ QWidget* planOf(AcquirePage& model) {
           work ? groupedText(AcquirePage::tr("%n photograph(s)", nullptr, work->exposures), work->exposures) +
                      "\n" + text(expectedDuration(work->seconds))
                : QString());
+      setPossible(choices[at], why);
     }
     start->setVisible(!model.isDone());
   };

@@ -22,6 +22,8 @@ QString reasonOf(sentinels::AlarmKind kind) {
   switch (kind) {
     case sentinels::AlarmKind::flicker:
       return AcquisitionTrace::tr("the light flickered");
+    case sentinels::AlarmKind::unsteady:
+      return AcquisitionTrace::tr("the light flickered, or something moved");
     case sentinels::AlarmKind::ambientChanged:
       return AcquisitionTrace::tr("the room light changed");
     case sentinels::AlarmKind::lampChanged:
@@ -68,6 +70,8 @@ QString AcquisitionTrace::headingOf(sentinels::AlarmKind kind) {
   switch (kind) {
     case sentinels::AlarmKind::flicker:
       return tr("The light flickers");
+    case sentinels::AlarmKind::unsteady:
+      return tr("The light flickers, or something moves");
     case sentinels::AlarmKind::ambientChanged:
       return tr("Room light changed");
     case sentinels::AlarmKind::lampChanged:
@@ -209,7 +213,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
                          tr("Its light drifted by %1 and is corrected.")
                              .arg(fineShare(std::abs(now.lamp - 1.0)))}
             : WatchState{false, true, tr("Projector"), {}},
-       {true, even, even ? tr("No flicker") : tr("The light flickers"),
+       {true, even, even ? tr("No flicker") : tr("The light flickers, or something moves"),
         // One exposure alone has nothing to differ from.
         now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))
                           : tr("No difference between photographs of one pattern was found.")}}};

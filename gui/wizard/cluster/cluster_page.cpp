@@ -255,7 +255,7 @@ QString ClusterPage::hint() const {
   if (!result_) return tr("Reading the light transport");
   if (const QString why = whyLocked(); !why.isEmpty()) return why;
   if (result_->sizes.empty())
-    return session_.stoppedAt() > 0 ? tr("What was measured is too coarse to group. Go on measuring.")
+    return session_.wasEndedEarly() ? tr("What was measured is too coarse to group. Go on measuring.")
                                     : tr("No light is strong enough to group.");
   if (isChanged()) return tr("Changed: it is applied as soon as you go on.");
   return sizesText();

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 
+#include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/frame/page_model.h"
 #include "wizard/session/session.h"
@@ -12,7 +13,7 @@ namespace relucent::gui {
 /// Where a result stands that follows from the measurement: one that was stopped early, or that fits nothing,
 /// is no plain tick.
 inline StepState doneOn(const Session& session) {
-  if (session.stoppedAt() > 0) return StepState::coarse;
+  if (session.wasEndedEarly()) return StepState::coarse;
   return session.poorQuality() ? StepState::doubtful : StepState::done;
 }
 
@@ -25,6 +26,14 @@ inline bool areClustersFollowed(const Session& session) {
 /// What stands above the pages that use a measurement which was stopped early, or which fits nothing; none:
 /// neither. `toAcquire`: leads to where it can be gone on with, or begun again.
 inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {
+  if (const auto change = session.foundChange())
+    return Banner{
+        Banner::Kind::amber,
+        QCoreApplication::translate("StoppedEarly", "Measuring ended because something had changed"),
+        fullSentence(change->what) + ' ' +
+            QCoreApplication::translate("StoppedEarly",
+                                        "What follows is of before. See at Acquire what helps."),
+        toAcquire};
   if (const int blocks = session.stoppedAt(); blocks > 0)
     return Banner{
         Banner::Kind::amber,
@@ -45,7 +54,7 @@ inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* 
 }
 /// The command's words on those pages: it leads to Acquire, where it begins once all is ready.
 inline QString toAcquireText(const Session& session) {
-  return session.stoppedAt() > 0 ? QCoreApplication::translate("StoppedEarly", "Go on at Acquire")
+  return session.wasEndedEarly() ? QCoreApplication::translate("StoppedEarly", "Go on at Acquire")
                                  : QCoreApplication::translate("StoppedEarly", "Go to Acquire");
 }
 

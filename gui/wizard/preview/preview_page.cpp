@@ -276,7 +276,7 @@ std::optional<compensation::Corners> PreviewPage::corners() const {
 /// A place where nothing can be shown is no failure: the sentence stands beside the picture.
 void PreviewPage::refuse(const Failure& failure) {
   if (failure.kind == ErrorKind::input)
-    problem_ = session_.stoppedAt() > 0
+    problem_ = session_.wasEndedEarly()
                    ? tr("What was measured is too coarse to place content. Go on measuring.")
                    : failure.what + ' ' + failure.advice;
   else
@@ -387,7 +387,7 @@ void PreviewPage::updateCommands() {
   accept_->show(tr("Go to output"), preview_ != nullptr && engine_ != nullptr && whyLocked().isEmpty());
   const QString why = whyNotShining();
   shine_->setGlyph(isShining() ? Icon::stop : Icon::projector);
-  shine_->show(isShining() ? tr("Stop shining") : tr("Shine on surface"), why.isEmpty());
+  shine_->showUnless(why, isShining() ? tr("Stop shining") : tr("Shine on surface"));
   shine_->setToolTip(why.isEmpty() ? tr("Shows this picture on the surface until you stop it or leave.")
                                    : why);
   compare_->show(shinesCorrected_ ? tr("Show uncorrected") : tr("Show corrected"));
@@ -455,15 +455,16 @@ bool PreviewPage::keepPlacement() {
   }
 }
 
-bool PreviewPage::mayPerfect() const {
+QString PreviewPage::whyNotPerfect() const {
+  if (!preview_) return tr("There is no preview yet.");
+  if (isShining()) return tr("A picture is on the surface.");
   // Real projectors show the output: the camera would photograph that.
-  const bool isInTheWay = session_.underWay().show && !session_.isSimulated();
-  return preview_ && perfecting_.isPossible() && !isInTheWay && !isShining() &&
-         session_.whyLocked(step()).isEmpty();
+  if (session_.underWay().show && !session_.isSimulated()) return tr("The output is open. Close it first.");
+  return perfecting_.whyNot();
 }
 
 void PreviewPage::perfect() {
-  if (mayPerfect() && keepPlacement()) perfecting_.start();
+  if (whyNotPerfect().isEmpty() && keepPlacement()) perfecting_.start();
 }
 
 void PreviewPage::lookAtPicture() {

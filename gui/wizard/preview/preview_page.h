@@ -107,7 +107,7 @@ class PreviewPage : public DevicePage {
   void setShinesCorrected(bool corrected);
   /// Accepts the placement, and corrects the picture in it by photographs of itself.
   void perfect();
-  bool mayPerfect() const;
+  QString whyNotPerfect() const;
   Perfecting& perfecting() { return perfecting_; }
   MaskEditing& masks() { return masks_; }
   /// Why it cannot shine now; empty: it can, or does.

@@ -42,7 +42,7 @@ int photographsInterrupted(const calibration::CalibrationFolder& folder) {
   const std::optional<calibration::StageResult> stored = calibration::resultOf(folder, stage);
   // What is complete was not interrupted, whatever the times of copied files say.
   const bool isComplete = progress == calibration::StageProgress::done && stored &&
-                          calibration::resultFrom<stage>(*stored).stoppedAt == 0;
+                          calibration::resultFrom<stage>(*stored).isWhole();
   return isComplete ? 0 : photographsSince(folder.path(), stored, stage);
 }
 

@@ -329,6 +329,11 @@ int Session::stoppedAt() const {
   return measured ? measured->stoppedAt : 0;
 }
 
+std::optional<transport::FoundChange> Session::foundChange() const {
+  const auto& measured = figures<calibration::Stage::acquisition>();
+  return measured ? measured->changed : std::nullopt;
+}
+
 std::optional<double> Session::poorQuality() const {
   const auto& measured = figures<calibration::Stage::acquisition>();
   if (!measured || !measured->expected || !transport::isPoor(*measured->expected)) return std::nullopt;

@@ -192,6 +192,10 @@ class Session : public QObject {
   const std::string& correction() const { return correction_; }
   /// Side of the finest blocks if acquisition was stopped and kept, projector pixels; 0: nothing is missing.
   int stoppedAt() const;
+  /// What had changed when acquisition ended, so that it was; none: nothing.
+  std::optional<transport::FoundChange> foundChange() const;
+  /// By somebody or by a change: it can be gone on with.
+  bool wasEndedEarly() const { return stoppedAt() > 0 || foundChange().has_value(); }
   /// dB that are expected of corrected pictures where they will be no better than uncorrected; see
   /// transport::isPoor(). None: they will be.
   std::optional<double> poorQuality() const;
@@ -299,6 +303,12 @@ class Session : public QObject {
   /// Why a step can keep no settings now, in a sentence: work of another step has the calibration. Empty: it
   /// can.
   QString whyLocked(const StepName& step) const;
+  /// Why the devices cannot be used now, a sentence; empty: they can.
+  QString whyInUse() const {
+    return areDevicesFree() ? QString() : tr("The devices are in use at %1.").arg(devicesUserName());
+  }
+  /// Why nothing is measured now that shows patterns; empty: it may be.
+  QString whyNoPatterns() const { return mayMeasure() ? QString() : tr("Confirm that the room is clear."); }
 
  Q_SIGNALS:
   /// Another calibration, or none.

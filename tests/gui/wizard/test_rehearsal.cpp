@@ -6,8 +6,10 @@
 #include <QtTest>
 
 #include "relucent/calibration/results.h"
+#include "text/message_text.h"
 #include "wizard/acquire/acquire_page.h"
 #include "wizard/devices/nudge.h"
+#include "wizard/devices/on_measurement.h"
 #include "wizard/frame/wizard.h"
 #include "wizard/venue/venue_page.h"
 
@@ -204,6 +206,54 @@ class TestRehearsal : public QObject {
     acquire_->stopAndKeep();
     QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
     QVERIFY(!acquire_->isHeldUp() && told_->isEmpty());
+  }
+
+  void whatHappensWhileItIsToEnd_data() {
+    QTest::addColumn<Surprise>("surprise");
+    QTest::addColumn<QString>("onwards");
+    QTest::addColumn<QString>("besides");
+    QTest::newRow("a bump") << Surprise::bump << "Measure again"
+                            << "Go on measuring";
+    QTest::newRow("light") << Surprise::roomLight << "Go on measuring"
+                           << "Measure again";
+  }
+  /// Law: stopped while something has just happened, nobody is asked. What is kept is named as stopped early
+  /// and as changed, on every page; what leads on is what can be right, and put right it ends as if nothing
+  /// had happened.
+  void whatHappensWhileItIsToEnd() {
+    QFETCH(Surprise, surprise);
+    QFETCH(QString, onwards);
+    QFETCH(QString, besides);
+    rehearse({surprise});
+    session_->live().setLeastInterval(30);
+    const auto stopping = connect(acquire_.get(), &AcquirePage::progressChanged, acquire_.get(), [&] {
+      if (acquire_->isMeasuring() && !acquire_->isStopping() && session_->surprises()->hasHappened(surprise))
+        acquire_->stopAndKeep();
+    });
+    QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
+    disconnect(stopping);
+    session_->live().setLeastInterval(0);
+    QVERIFY(told_->isEmpty() && acquire_->isDone() && acquire_->wasEndedEarly());
+    const auto change = session_->foundChange();
+    QVERIFY(change && change->moved == (surprise == Surprise::bump));
+    QCOMPARE(acquire_->status().state, StepState::coarse);
+    QCOMPARE(acquire_->primary()->text(), onwards);
+    QVERIFY(acquire_->primary()->isEnabled() && !acquire_->hint().isEmpty());
+    QCOMPARE(acquire_->secondary().front()->text(), besides);
+    const std::optional<Banner> banner = acquire_->banner();
+    QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command == nullptr);
+    QVERIFY2(banner->sentence.contains("changed"), qPrintable(banner->sentence));
+    QVERIFY2(banner->more.contains(fullSentence(change->what)), qPrintable(banner->more));
+    QVERIFY2(acquire_->findings().join(' ').contains("left out"), qPrintable(acquire_->findings().join('|')));
+    const std::optional<Banner> elsewhere = onMeasurement(*session_, acquire_->primary());
+    QVERIFY(elsewhere && elsewhere->sentence.contains("changed"));
+    QCOMPARE(doneOn(*session_), StepState::coarse);
+    if (surprise == Surprise::bump) return;
+    // The light is off again.
+    session_->putRight();
+    acquire_->primary()->trigger();
+    endsAsIfNothingHadHappened(surprise);
+    QVERIFY(!session_->foundChange() && !acquire_->banner());
   }
 
   void aCableThatComesOut() {

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "theme/accessible_role.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "theme/tick.h"
@@ -329,7 +330,8 @@ class CameraInspector {
     column->addWidget(lineOf());
     column->addWidget(checksPart(model));
     column->addWidget(lineOf());
-    column->addWidget(labelOf(CameraPage::tr("Exposures"), "section"));
+    QLabel* exposuresTitle = labelOf(CameraPage::tr("Exposures"), "section");
+    column->addWidget(exposuresTitle);
     auto* buttons = new QHBoxLayout;
     column->addLayout(buttons);
     auto* group = new QButtonGroup(card);
@@ -349,7 +351,7 @@ class CameraInspector {
     column->addWidget(pixelUseView(model));
     column->addStretch(1);
 
-    auto refresh = [&model, histogram, focus, meter, group] {
+    auto refresh = [&model, histogram, focus, meter, group, exposuresTitle] {
       bool seen = model.look().has_value();
       if (seen) {
         histogram->setAxes(axisOf(0.0, 1.0, CameraPage::tr("Signal, share of full")),
@@ -362,10 +364,13 @@ class CameraInspector {
       focus->setValue(isKnown ? focusText(model) : QString::fromUtf8("–"));
       meter->setValue(model.focus());
       const std::vector<double> exposures = model.exposures();
+      exposuresTitle->setText(model.isKept() ? CameraPage::tr("Exposures, kept")
+                                             : CameraPage::tr("Exposures"));
       for (int i = 0; i < 4; ++i) {
         bool used = static_cast<std::size_t>(i) < exposures.size();
         group->button(i)->setVisible(used);
-        group->button(i)->setEnabled(!model.isKept());
+        setPossible(group->button(i), !model.isKept(),
+                    CameraPage::tr("Check again to look with another one."));
         if (used) group->button(i)->setText(exposureText(exposures[static_cast<std::size_t>(i)]));
         if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());
       }

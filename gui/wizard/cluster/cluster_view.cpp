@@ -4,6 +4,7 @@
 #include <QSlider>
 #include <cmath>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/folding_rows.h"
 #include "theme/theme.h"
@@ -136,7 +137,7 @@ class ClusterStage : public QWidget {
     error_->setScale(shown_->errorScale, ClusterPage::tr("error"), true);
     error_->setPicture(shown_->errorPicture);
     error_->setValues(image::Image(shown_->camera, 1, shown_->error));
-    form_->setEnabled(error_->canRise());
+    setPossible(form_, error_->canRise(), ClusterPage::tr("Reliefs need OpenGL, which is not there."));
     QString median = percentText(shown_->statistics.errorMedian);
     error_->setAccessibleName(ClusterPage::tr("Error map, median %1").arg(median));
   }

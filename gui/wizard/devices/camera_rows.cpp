@@ -4,6 +4,7 @@
 #include <QScrollArea>
 
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/devices/camera_ranking.h"
@@ -35,7 +36,8 @@ CameraRows::CameraRows(CameraFinder& finder, const QString& subtitle, Offering o
 }
 
 void CameraRows::refresh() {
-  again_->setEnabled(!finder_.isLooking());
+  again_->setText(finder_.isLooking() ? tr("Looking for cameras") : tr("Look again"));
+  setPossible(again_, finder_.isLooking() ? tr("Looking for cameras") : QString());
   while (QLayoutItem* item = rows_->takeAt(0)) {
     if (QWidget* row = item->widget()) {
       row->hide();  // its own button may be what this follows from: it goes later
@@ -80,7 +82,9 @@ QWidget* CameraRows::rowOf(std::size_t index) {
   const Offer offer = offering_(camera, name);
   QPushButton* choose = buttonOf(offer.text);
   choose->setAccessibleName(offer.accessibleName);
-  choose->setEnabled(camera.usable && offer.isPossible);
+  // The row says it.
+  setPossible(choose, camera.usable && offer.isPossible,
+              camera.usable ? QString() : tr("Cannot be used: %1").arg(fullSentence(camera.problem)));
   connect(choose, &QPushButton::clicked, this, [this, camera] { chosen_(camera); });
   row->addWidget(choose);
   return card;

@@ -82,8 +82,13 @@ void Perfecting::look() {
   });
 }
 
+QString Perfecting::whyNot() const {
+  if (!session_.isOpen()) return tr("No venue is open.");
+  return isRunning() ? tr("The picture is being perfected.") : session_.whyInUse();
+}
+
 void Perfecting::start() {
-  if (!isPossible() || picture_.isEmpty()) return;
+  if (!whyNot().isEmpty() || picture_.isEmpty()) return;
   found_ = std::make_shared<Found>();
   photographs_ = 0;
   outcome_.reset();

@@ -26,8 +26,8 @@ class Perfecting : public QObject {
   void lookAt(const QString& picture, const Canvas& canvas);
 
   bool isRunning() const { return job_.isRunning(); }
-  /// Devices and light transport are free.
-  bool isPossible() const { return session_.isOpen() && !isRunning() && session_.areDevicesFree(); }
+  /// Why none can be started now, a short sentence; empty: devices and light transport are free.
+  QString whyNot() const;
   QString stage() const { return job_.stage(); }
   double fraction() const { return job_.fraction(); }
   /// Photographs of the picture by now.

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -73,7 +74,7 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
   auto* state = new Remark;
   state->setObjectName("perfect-remark");
   column->addWidget(state);
-  QPushButton* perfect = buttonOf(Perfecting::tr("Perfect this picture"));
+  auto* perfect = new ActionButton(Icon::camera, Perfecting::tr("Perfect this picture"));
   perfect->setObjectName("perfect");
   column->addWidget(perfect);
   QPushButton* stop = buttonOf(Perfecting::tr("Stop and keep the best"));
@@ -91,8 +92,7 @@ QWidget* perfectingPart(DevicePage& page, Perfecting& perfecting, const Perfecti
     perfect->setVisible(!perfecting.isRunning());
     perfect->setText(perfecting.known() ? Perfecting::tr("Perfect it again")
                                         : Perfecting::tr("Perfect this picture"));
-    perfect->setEnabled(perfecting.isPossible() && actions.isPossible());
-    perfect->setIcon(iconOf(Icon::camera, perfect->isEnabled() ? colours().text : colours().disabled));
+    perfect->setWhyNot(actions.whyNot());
     stop->setVisible(perfecting.isRunning());
     forget->setVisible(perfecting.known().has_value() && !perfecting.isRunning());
   };

@@ -8,8 +8,8 @@ namespace relucent::gui {
 
 /// What a page says and does.
 struct PerfectingActions {
-  std::function<bool()> isPossible;  // besides Perfecting::isPossible()
-  std::function<void()> start;       // in the end Perfecting::start()
+  std::function<QString()> whyNot;  // why it cannot be started now, a short sentence; empty: it can
+  std::function<void()> start;      // in the end Perfecting::start()
 };
 /// For a page's inspector: whether its picture is corrected by photographs of itself, what the last try came
 /// to, and the buttons.

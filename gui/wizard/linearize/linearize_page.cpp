@@ -104,8 +104,12 @@ void LinearizePage::updateCommands() {
   next_->show(addsUp() ? tr("Plan acquisition") : tr("Continue anyway"));
   measure_->setGlyph(isStale() ? Icon::retry : Icon::play);
   measure_->show(isStale() ? tr("Measure again") : tr("Measure response"), !isMeasuring() && free);
-  stop_->show(tr("Stop"), !job_.isStopping());
-  again_->show(tr("Measure again"), free);
+  stop_->showUnless(job_.isStopping() ? tr("Stopping after the photograph under way.") : QString(),
+                    tr("Stop"));
+  again_->showUnless(!session_.areDevicesFree() ? session_.whyInUse()
+                     : free                     ? QString()
+                                                : tr("To measure again, confirm that the room is clear."),
+                     tr("Measure again"));
   return_->show(tr("Keep the earlier one"), session_.areDevicesFree());
   return_->setToolTip(tr("The earlier curves are used again, with all that followed from them."));
   retry_->show(tr("Try again"));

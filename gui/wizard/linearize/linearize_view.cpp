@@ -7,6 +7,7 @@
 
 #include "relucent/base/message.h"
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/image_view.h"
@@ -255,7 +256,7 @@ QWidget* inspectorOf(LinearizePage& model) {
     using Kind = Remark::Kind;
     levels->setCurrentIndex(levels->findData(model.levels()));
     const QString why = model.whyLocked();
-    levels->setEnabled(why.isEmpty());
+    setPossible(levels, why);
     locked->setText(why);
     locked->setVisible(!why.isEmpty());
     QStringList times;

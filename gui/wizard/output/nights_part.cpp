@@ -7,6 +7,7 @@
 
 #include "jobs/failure.h"
 #include "relucent/base/error.h"
+#include "theme/action_button.h"
 #include "theme/theme.h"
 #include "wizard/output/nights_chart.h"
 #include "wizard/output/nights_dialog.h"
@@ -19,11 +20,10 @@ NightsPart::NightsPart(OutputPage& page, QWidget* parent) : QWidget(parent), pag
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(labelOf(tr("Every night"), "section"));
   auto* row = new QHBoxLayout;
-  QLabel* when = labelOf(tr("Look after the picture"), "note");
-  row->addWidget(when, 1);
+  row->addWidget(what_ = labelOf(tr("Look after the picture"), "note"), 1);
   row->addWidget(when_ = new QComboBox);
   when_->setObjectName("night-time");
-  when_->setAccessibleName(when->text());
+  when_->setAccessibleName(what_->text());
   when_->addItem(tr("never"), QTime());
   constexpr int darkHours = 8;
   for (int hour = 0; hour < darkHours; ++hour)
@@ -53,7 +53,9 @@ void NightsPart::showTime() {
   if (when_->findData(at) < 0)
     when_->addItem(tr("at %1").arg(QLocale().toString(at, QLocale::ShortFormat)), at);
   when_->setCurrentIndex(when_->findData(at));
-  when_->setEnabled(page_.isInstallable());
+  const QString why = page_.isInstallable() ? QString() : tr("No show of a rehearsal is looked after.");
+  setPossible(when_, why);
+  what_->setText(why.isEmpty() ? tr("Look after the picture") : why);
 }
 
 void NightsPart::showEvent(QShowEvent* event) {
@@ -69,11 +71,11 @@ void NightsPart::reload() {
       nights_ = pipeline::nightsOf(page_.session().path());
     } catch (const Error&) {
       const Failure failure = failureOf(std::current_exception());
-      open_->setEnabled(false);
+      setPossible(open_, failure.what);
       return last_->show(Remark::Kind::warning, failure.what, failure.advice);
     }
   }
-  open_->setEnabled(!nights_.empty());
+  setPossible(open_, nights_.empty() ? tr("There was no night yet") : QString());
   if (nights_.empty())
     return last_->show(
         Remark::Kind::watch, tr("There was no night yet"),

@@ -33,6 +33,7 @@ class NightsPart : public QWidget {
   OutputPage& page_;
   std::vector<pipeline::NightRecord> nights_;
   Remark* last_;
+  QLabel* what_;
   QComboBox* when_;
   QPushButton* open_;
 };

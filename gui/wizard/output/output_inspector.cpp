@@ -5,6 +5,7 @@
 #include <QDir>
 #include <cmath>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -160,19 +161,19 @@ QWidget* proofPart(OutputPage& page) {
   auto* found = new Remark;
   found->setObjectName("proof-remark");
   column->addWidget(found);
-  QPushButton* take = buttonOf(OutputPage::tr("Take verification photograph"));
+  auto* take = new ActionButton(Icon::camera, OutputPage::tr("Take verification photograph"));
   take->setObjectName("verify");
   take->setToolTip(OutputPage::tr("Ctrl+Shift+V"));
   column->addWidget(take);
   auto* changed = new Remark;
   changed->setObjectName("drift-remark");
   column->addWidget(changed);
-  QPushButton* drift = buttonOf(OutputPage::tr("Check for drift"));
+  auto* drift = new ActionButton(Icon::drift, OutputPage::tr("Check for drift"));
   drift->setObjectName("check-drift");
   drift->setToolTip(OutputPage::tr("Photographs the test patterns of the measurement again, ten or so."));
   column->addWidget(drift);
   column->addWidget(repairPart(page));
-  QPushButton* push = buttonOf(OutputPage::tr("Put the camera back"));
+  auto* push = new ActionButton(Icon::camera, OutputPage::tr("Put the camera back"));
   push->setObjectName("push-back");
   push->setToolTip(
       OutputPage::tr("Shows full light, and where the camera has to be turned to look where it looked."));
@@ -188,15 +189,11 @@ QWidget* proofPart(OutputPage& page) {
   auto refresh = [=, &page] {
     showProof(*found, page);
     showDrift(*changed, page.proof().drift());
-    take->setEnabled(page.mayProve());
-    drift->setEnabled(page.proof().isPossible() && page.proof().mayFlash());
-    push->setEnabled(page.proof().isPossible());
-    push->setIcon(iconOf(Icon::camera, push->isEnabled() ? colours().text : colours().disabled));
-    take->setIcon(iconOf(Icon::camera, take->isEnabled() ? colours().text : colours().disabled));
-    drift->setIcon(iconOf(Icon::drift, drift->isEnabled() ? colours().text : colours().disabled));
+    take->setWhyNot(page.whyNotProve());
+    drift->setWhyNot(page.whyNoPatterns());
+    push->setWhyNot(page.whyNoPhotograph());
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
-  QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
   return part;
 }
 
@@ -228,7 +225,7 @@ QWidget* handOverPart(OutputPage& page) {
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(labelOf(OutputPage::tr("Hand over"), "section"));
-  QPushButton* report = buttonOf(OutputPage::tr("Save report"));
+  auto* report = new ActionButton(Icon::report, OutputPage::tr("Save report"));
   report->setObjectName("report");
   column->addWidget(report);
   QLabel* written = labelOf({}, "note");
@@ -244,8 +241,7 @@ QWidget* handOverPart(OutputPage& page) {
   QObject::connect(report, &QPushButton::clicked, &page, &OutputPage::report);
   QObject::connect(remove, &QPushButton::clicked, &page, &OutputPage::askToRemoveInstalled);
   auto refresh = [=, &page] {
-    report->setEnabled(page.proof().isPossible());
-    report->setIcon(iconOf(Icon::report, report->isEnabled() ? colours().text : colours().disabled));
+    report->setWhyNot(page.whyNoPhotograph());
     written->setVisible(!page.reportFile().isEmpty());
     written->setText(OutputPage::tr("Written to %1, and for paper to report.pdf beside it.")
                          .arg(QDir::toNativeSeparators(page.reportFile())));
@@ -281,7 +277,7 @@ QWidget* outputInspector(OutputPage& page) {
   column->addWidget(proofPart(page));
   column->addWidget(lineOf());
   column->addWidget(perfectingPart(page, page.perfecting(),
-                                   {[&page] { return page.mayProve(); }, [&page] { page.perfect(); }}));
+                                   {[&page] { return page.whyNotProve(); }, [&page] { page.perfect(); }}));
   column->addWidget(lineOf());
   column->addWidget(new NightsPart(page));
   column->addWidget(lineOf());

@@ -48,6 +48,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     projection_.mirrorProjector(projector());
     wished_.clear();
     reportFile_.clear();
+    overruled_.reset();
     nightAt_ = {};
     listScreens();
     detectInstalledShow();
@@ -89,6 +90,7 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&projection_, &OutputProjection::progressed, this, &OutputPage::tellProgress);
   connect(&projection_, &OutputProjection::changed, this, [this] {
     session_.setShowing(isOpen() || reopen_);
+    if (isOpen() != second_.isActive()) isOpen() ? second_.start() : second_.stop();
     lookAtPicture();
     tellProgress();
     tellResult();
@@ -98,6 +100,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
     playsFrom_.clear();  // another one than is in use
     tellAll();
   });
+  second_.setInterval(1000);
+  connect(&second_, &QTimer::timeout, this, &OutputPage::followTimes);
   connect(qApp, &QGuiApplication::screenAdded, this, &OutputPage::listScreens);
   connect(qApp, &QGuiApplication::screenRemoved, this, &OutputPage::listScreens);
   listScreens();
@@ -115,6 +119,7 @@ void OutputPage::finish() {
 }
 
 void OutputPage::enter() {
+  isLookedAt_ = true;
   listScreens();
   lookAtPicture();
   detectInstalledShow();
@@ -198,10 +203,10 @@ void OutputPage::updateCommands() {
   renew_->show(tr("Show the new correction"), session_.areDevicesFree() && !projectorWithoutScreen());
   review_->show(tr("Look at it first"));
   endChart_->show(tr("Show the playlist"));
-  prove_->show(tr("Take verification photograph"), mayProve());
-  checkDrift_->show(tr("Check for drift"), proof_.isPossible() && proof_.mayFlash());
-  repair_->show(tr("Repair the calibration"), proof_.isPossible() && proof_.mayFlash());
-  pushBack_->show(tr("Put the camera back"), proof_.isPossible());
+  prove_->showUnless(whyNotProve(), tr("Take verification photograph"));
+  checkDrift_->showUnless(whyNoPatterns(), tr("Check for drift"));
+  repair_->showUnless(whyNoPatterns(), tr("Repair the calibration"));
+  pushBack_->showUnless(whyNoPhotograph(), tr("Put the camera back"));
   measureAgain_->show(tr("Measure again"));
   aimAgain_->show(tr("Aim again"));
   goOnMeasuring_->show(toAcquireText(session_));

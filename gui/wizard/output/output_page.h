@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QTimer>
+
 #include "output/output_playlist.h"
 #include "output/output_projection.h"
 #include "wizard/devices/device_page.h"
@@ -42,6 +44,7 @@ class OutputPage : public DevicePage {
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   void enter() override;
+  void leave() override { isLookedAt_ = false; }
   void finish() override;
 
   const std::vector<OutputScreen>& screens() const { return screens_; }
@@ -70,8 +73,14 @@ class OutputPage : public DevicePage {
   void useSet(const std::string& name);
   /// Why no other one can be chosen now; empty: it can.
   QString whyNoSets() const;
-  /// When the installed show changes sets.
+  /// When the show changes sets: the installed one, and this one while it plays and the page is looked at, so
+  /// that nothing changes under the hands of whoever works at Preview. What is chosen by hand stays until the
+  /// next of these times.
   void setTimes(const QList<SetTime>& times);
+  /// Looks what they say now; each second while it plays.
+  void followTimes();
+  /// Of the day; tests have their own.
+  void setClock(std::function<QTime()> now) { now_ = std::move(now); }
 
   bool isOpen() const { return projection_.isOpen(); }
   /// It is open, and a projector's screen is unplugged.
@@ -100,8 +109,13 @@ class OutputPage : public DevicePage {
   void renew();
 
   const OutputProof& proof() const { return proof_; }
-  /// Only what is on the projectors is proved.
-  bool mayProve() const { return proof_.isPossible() && !playsEarlier() && !isScreenLost(); }
+  /// Why nothing is photographed now, a short sentence; empty: it can be.
+  QString whyNoPhotograph() const;
+  /// Why the picture is not proved nor perfected now: only what is on the projectors is.
+  QString whyNotProve() const;
+  bool mayProve() const { return whyNotProve().isEmpty(); }
+  /// Why no patterns are photographed now.
+  QString whyNoPatterns() const;
   /// Projects the picture that plays and photographs it. Real devices have the output closed meanwhile.
   void verify();
   /// Corrects the picture that plays by photographs of itself; as verify().
@@ -162,6 +176,7 @@ class OutputPage : public DevicePage {
   QString missingScreenOf(std::size_t projector) const;
   QString stepToReview() const;
   std::optional<std::size_t> usualScreen(std::size_t projector) const;
+  void changeSet(const std::string& name);
   void keepScreen();
   void followScreen();
   void projectorChanged() override { projection_.mirrorProjector(projector()); }
@@ -199,6 +214,10 @@ class OutputPage : public DevicePage {
   InstalledShow installed_ = InstalledShow::none;
   QTime nightAt_;
   QString reportFile_;
+  bool isLookedAt_ = false;
+  std::function<QTime()> now_ = [] { return QTime::currentTime(); };
+  QTimer second_;                     // each, while it plays
+  std::optional<QString> overruled_;  // the set of the times that another one was chosen in place of
 };
 
 }  // namespace relucent::gui

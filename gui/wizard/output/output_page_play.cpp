@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What Output plays: the playlist, the set in use, and the output that shows them.
+#include <algorithm>
+
 #include "wizard/output/output_page.h"
 #include "wizard/session/method_name.h"
 
@@ -55,6 +57,23 @@ QString OutputPage::whyNoSets() const {
 
 void OutputPage::useSet(const std::string& name) {
   if (!whyNoSets().isEmpty() || name == sets().nameInUse()) return;
+  overruled_ = setAt(playlist_.settings().sets, now_());
+  changeSet(name);
+}
+
+/// Once somebody looks, and nothing is being photographed.
+void OutputPage::followTimes() {
+  const std::optional<QString> wanted = setAt(playlist_.settings().sets, now_());
+  if (!isOpen() || !isLookedAt_ || !wanted || wanted == overruled_) return;
+  overruled_.reset();
+  const std::string name = wanted->toStdString();
+  const std::vector<std::string> names = sets().names();
+  const bool isThere = std::ranges::find(names, name) != names.end();
+  if (isThere && name != sets().nameInUse() && whyNoPhotograph().isEmpty() && whyNoSets().isEmpty())
+    changeSet(name);
+}
+
+void OutputPage::changeSet(const std::string& name) {
   const bool plays = isOpen() && !earlier_;
   try {
     session_.changeSets([&](calibration::CalibrationFolder& folder) { pipeline::useSet(folder, name); });
@@ -70,6 +89,7 @@ void OutputPage::useSet(const std::string& name) {
 void OutputPage::setTimes(const QList<SetTime>& times) {
   PlaylistSettings after = playlist_.settings();
   after.sets = times;
+  overruled_.reset();
   edit(tr("Times of sets"), after);
 }
 

@@ -8,8 +8,25 @@
 
 namespace relucent::gui {
 
+QString OutputPage::whyNoPhotograph() const {
+  if (perfecting_.isRunning()) return tr("The picture is being perfected.");
+  if (projection_.isOpening()) return tr("The output is being opened.");
+  return proof_.whyNot();
+}
+
+QString OutputPage::whyNotProve() const {
+  if (const QString why = whyNoPhotograph(); !why.isEmpty()) return why;
+  if (isScreenLost()) return tr("The projector's screen is unplugged.");
+  return playsEarlier() ? tr("The earlier correction still plays.") : QString();
+}
+
+QString OutputPage::whyNoPatterns() const {
+  if (const QString why = whyNoPhotograph(); !why.isEmpty()) return why;
+  return session_.whyNoPatterns();
+}
+
 void OutputPage::whileClosed(const std::function<void()>& work) {
-  if (!proof_.isPossible() || projection_.isOpening()) return;
+  if (!whyNoPhotograph().isEmpty()) return;
   // A real camera would photograph the show.
   if (isOpen() && !session_.isSimulated()) {
     reopen_ = true;
@@ -26,7 +43,7 @@ void OutputPage::verify() {
 }
 
 void OutputPage::repair() {
-  if (!proof_.isPossible() || !proof_.mayFlash()) return;
+  if (!whyNoPatterns().isEmpty()) return;
   whileClosed([this, picture = pictureToProve()] { proof_.startRepair(picture); });
 }
 
@@ -85,7 +102,7 @@ QString OutputPage::pictureToProve() const {
 }
 
 void OutputPage::report() {
-  if (proof_.isPossible()) proof_.report(pictureToProve());
+  if (whyNoPhotograph().isEmpty()) proof_.report(pictureToProve());
 }
 
 }  // namespace relucent::gui

@@ -67,6 +67,23 @@ void OutputProof::recall() {
   if (drift_ && drift_->measurement != measurementOf(session_)) drift_.reset();
 }
 
+QString OutputProof::whyNot() const {
+  if (!session_.isOpen()) return tr("No venue is open.");
+  switch (work()) {
+    case Work::photograph:
+      return tr("A photograph is being taken.");
+    case Work::drift:
+      return tr("Drift is being checked.");
+    case Work::repair:
+      return tr("It is being repaired.");
+    case Work::report:
+      return tr("The report is being written.");
+    case Work::none:
+      break;
+  }
+  return session_.whyInUse();
+}
+
 bool OutputProof::holds(const Proof& proof) const {
   const bool isSame = proof.shownFrom.empty() || proof.shownFrom == session_.shownFrom();
   return isSame && proof.content == session_.settings().content && proof.measured == measurementOf(session_);

@@ -54,8 +54,9 @@ class OutputProof : public QObject {
   Work work() const { return job_.isRunning() ? work_ : Work::none; }
   QString stage() const { return job_.stage(); }
   double fraction() const { return job_.fraction(); }
-  /// Devices and light transport are free.
-  bool isPossible() const { return session_.isOpen() && !job_.isRunning() && session_.areDevicesFree(); }
+  /// Why nothing is proved now, a short sentence; empty: devices and light transport are free.
+  QString whyNot() const;
+  bool isPossible() const { return whyNot().isEmpty(); }
   /// A dozen patterns one after the other: people must know.
   bool mayFlash() const { return session_.mayMeasure(); }
 

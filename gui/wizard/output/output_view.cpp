@@ -12,6 +12,8 @@
 #include <QShortcut>
 #include <cmath>
 
+#include "output/held_key.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/folding_rows.h"
 #include "theme/readout.h"
@@ -29,6 +31,11 @@ namespace {
 constexpr double worstDeltaE = 12.0;  // of the map
 constexpr int foldedHeight = 260;     // of cards below each other: a picture that can be judged
 constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
+
+/// The cards say so too.
+QString whyNoShow(const OutputPage& page) {
+  return page.isOpen() ? QString() : OutputPage::tr("The output is closed. Nothing is projected.");
+}
 
 /// Three figures, and the time of every frame in the last minute.
 class PlaybackCard : public Card {
@@ -67,7 +74,7 @@ class PlaybackCard : public Card {
  private:
   void refresh() {
     PlayerStatistics s = page_.projection().statistics();
-    for (QToolButton* button : {nextChart_, figures_}) button->setEnabled(page_.isOpen());
+    for (QToolButton* button : {nextChart_, figures_}) setPossible(button, whyNoShow(page_));
     bool open = page_.isOpen() && s.frames > 0, moves = s.framesPerSecond > 0.0;
     QString none = QString::fromUtf8("–");
     rate_->setValue(open && moves ? decimalText(s.framesPerSecond, 1) : none);
@@ -183,22 +190,28 @@ class OutputStage : public QWidget {
     refreshOn(
         page_, this, [this] { refresh(); }, &OutputPage::settingsChanged, &OutputPage::resultChanged,
         &OutputPage::progressChanged);
+    connect(&original_, &HeldKey::pressed, &page_, [this] { page_.setCompensated(false); });
+    connect(&original_, &HeldKey::released, &page_, [this] { page_.setCompensated(true); });
     qApp->installEventFilter(this);
   }
 
  protected:
   /// Keys are told of in the action bar and the guide: they must not depend on what was clicked last.
   bool eventFilter(QObject* watched, QEvent* event) override {
+    const bool isLeft = event->type() == QEvent::WindowDeactivate && watched == window();
+    if (isLeft || (event->type() == QEvent::Hide && watched == this)) original_.take(*event);
     if ((event->type() != QEvent::KeyPress && event->type() != QEvent::KeyRelease) || !isVisible())
       return false;
     auto* key = static_cast<QKeyEvent*>(event);
     auto* widget = qobject_cast<QWidget*>(watched);
-    if (key->modifiers() != Qt::NoModifier || widget == nullptr || widget->window() != window() ||
-        acceptsText(QApplication::focusWidget()))
-      return false;
+    if (widget == nullptr || widget->window() != window()) return false;
+    const bool isOriginal = key->key() == Qt::Key_A;
+    // Once it is down it goes up, whatever has come between.
+    const bool isMeant = key->modifiers() == Qt::NoModifier && !acceptsText(QApplication::focusWidget());
+    if (!isMeant && !(isOriginal && original_.isDown())) return false;
     const bool isPressed = event->type() == QEvent::KeyPress, isRepeated = key->isAutoRepeat();
-    if (key->key() != Qt::Key_A) return isPressed && (isRepeated ? isSwitch(key->key()) : act(key->key()));
-    if (!isRepeated) page_.setCompensated(!isPressed);
+    if (!isOriginal) return isPressed && (isRepeated ? isSwitch(key->key()) : act(key->key()));
+    original_.take(*key);
     return true;
   }
   void keyPressEvent(QKeyEvent* event) override {
@@ -264,7 +277,7 @@ class OutputStage : public QWidget {
     return card;
   }
   void refresh() {
-    compare_->setEnabled(page_.isOpen());
+    setPossible(compare_, whyNoShow(page_));
     compare_->setCurrent(page_.isCompensated() ? 0 : 1);
     output_->reflect();
     output_->setCaption(figures());
@@ -315,6 +328,7 @@ class OutputStage : public QWidget {
   }
 
   OutputPage& page_;
+  HeldKey original_{Qt::Key_A};
   ViewLink link_;
   Card *projector_, *photograph_;
   Segmented* compare_;

@@ -13,6 +13,7 @@
 #include "content/content_address.h"
 #include "relucent/base/message.h"
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -205,9 +206,10 @@ QWidget* playlistPart(OutputPage& page) {
     fade->setValue(static_cast<int>(std::lround(10.0 * settings.fadeSeconds)));
     fadeRow->setValue(OutputPage::tr("%1 s").arg(numberText(settings.fadeSeconds)));
     bool several = settings.items.size() > 1;
-    for (QToolButton* button : {up, down}) button->setEnabled(several);
+    for (QToolButton* button : {up, down})
+      setPossible(button, several ? QString() : OutputPage::tr("There is nothing else on the list."));
     for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
-    remove->setEnabled(!settings.items.isEmpty());
+    setPossible(remove, settings.items.isEmpty() ? OutputPage::tr("The playlist is empty.") : QString());
     const std::vector<Message> wrong = page.projection().skipped();
     skipped->setVisible(!wrong.empty());
     const QString streams = troubleText(page.projection().live());

@@ -7,8 +7,8 @@
 #include <QVBoxLayout>
 
 #include "text/message_text.h"
+#include "theme/action_button.h"
 #include "theme/controls.h"
-#include "theme/theme.h"
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
@@ -63,13 +63,13 @@ QWidget* repairPart(OutputPage& page) {
   auto* state = new Remark;
   state->setObjectName("repair-remark");
   column->addWidget(state);
-  QPushButton* repair = buttonOf(OutputPage::tr("Repair the calibration"));
+  auto* repair = new ActionButton(Icon::retry, OutputPage::tr("Repair the calibration"));
   repair->setObjectName("repair");
   repair->setToolTip(
       OutputPage::tr("Finds what has changed, measures only that again, and keeps it if a photograph of the "
                      "picture is better by it."));
   column->addWidget(repair);
-  QPushButton* undo = buttonOf(OutputPage::tr("Use the measurement before"));
+  auto* undo = new ActionButton(Icon::back, OutputPage::tr("Use the measurement before"));
   undo->setObjectName("repair-undo");
   undo->setToolTip(OutputPage::tr("Takes the repair back."));
   column->addWidget(undo);
@@ -78,13 +78,11 @@ QWidget* repairPart(OutputPage& page) {
   const auto refresh = [=, &page] {
     const OutputProof& proof = page.proof();
     showState(*state, proof);
-    repair->setEnabled(proof.isPossible() && proof.mayFlash());
-    repair->setIcon(iconOf(Icon::retry, repair->isEnabled() ? colours().text : colours().disabled));
+    repair->setWhyNot(page.whyNoPatterns());
     undo->setVisible(proof.repairNote().has_value());
-    undo->setEnabled(proof.isPossible());
+    undo->setWhyNot(page.whyNoPhotograph());
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
-  QObject::connect(&Theme::instance(), &Theme::changed, part, refresh);
   return part;
 }
 

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 
 namespace relucent::gui {
@@ -27,7 +28,7 @@ SetTimesDialog::SetTimesDialog(const QStringList& sets, const QList<SetTime>& ti
   list_->setAccessibleName(windowTitle());
   column->addWidget(addRow(sets));
   column->addWidget(buttonRow());
-  connect(list_, &QListWidget::currentRowChanged, this, [this](int row) { remove_->setEnabled(row >= 0); });
+  connect(list_, &QListWidget::currentRowChanged, this, &SetTimesDialog::look);
   refresh();
 }
 
@@ -89,7 +90,13 @@ void SetTimesDialog::refresh() {
   list_->clear();
   for (const SetTime& time : times_)
     list_->addItem(tr("%1: %2").arg(QLocale().toString(time.from, QLocale::ShortFormat), time.set));
-  remove_->setEnabled(list_->currentRow() >= 0);
+  // One is always chosen, so that the empty list alone stands against removing.
+  if (list_->count() > 0) list_->setCurrentRow(0);
+  look();
+}
+
+void SetTimesDialog::look() {
+  setPossible(remove_, list_->currentRow() >= 0 ? QString() : tr("There are no times yet."));
 }
 
 }  // namespace relucent::gui

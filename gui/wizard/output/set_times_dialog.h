@@ -27,6 +27,7 @@ class SetTimesDialog : public QDialog {
   QWidget* addRow(const QStringList& sets);
   QWidget* buttonRow();
   void refresh();
+  void look();
 
   QList<SetTime> times_;
   QListWidget* list_;

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
@@ -60,15 +61,14 @@ QWidget* setsPart(OutputPage& page) {
     part->setVisible(!now.isEmpty());
     if (!now.isEmpty()) box->setCurrentIndex(static_cast<int>(page.sets().inUse));
     const QString why = page.whyNoSets();
-    box->setEnabled(why.isEmpty() && now.size() > 1);
-    box->setToolTip(why.isEmpty() ? QString() : plainToolTip(why));
+    setPossible(box, why.isEmpty() && now.size() == 1 ? OutputPage::tr("There is no other set.") : why);
     QStringList lines;
     for (const SetTime& time : page.playlist().settings().sets)
       lines << OutputPage::tr("%1: %2").arg(QLocale().toString(time.from, QLocale::ShortFormat), time.set);
-    when->setText(
-        lines.isEmpty()
-            ? OutputPage::tr("The installed show plays this one all day.")
-            : OutputPage::tr("The installed show changes: %1").arg(QLocale().createSeparatedList(lines)));
+    when->setText(!why.isEmpty()    ? why
+                  : lines.isEmpty() ? OutputPage::tr("The installed show plays this one all day.")
+                                    : OutputPage::tr("The show changes by itself, here too: %1")
+                                          .arg(QLocale().createSeparatedList(lines)));
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::resultChanged);
   return part;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/tick.h"
 #include "views/number_text.h"
@@ -105,7 +106,8 @@ QWidget* lightPart(PreviewPage& page) {
   auto* lift = new QSlider(Qt::Horizontal);
   lift->setRange(0, 20);
   lift->setAccessibleName(PreviewPage::tr("Lift of the blacks, percent"));
-  auto* least = new Tick(PreviewPage::tr("As little as hides where projectors end"));
+  const QString leastLift = PreviewPage::tr("As little as hides where projectors end");
+  auto* least = new Tick(leastLift);
   least->setObjectName("least-lift");
   column->addWidget(black);
   column->addWidget(lift);
@@ -149,7 +151,7 @@ QWidget* lightPart(PreviewPage& page) {
     const double blackLift = settings.blackLift.value_or(isLeast ? found : 0.0);
     least->setVisible(page.projectors() > 1);
     least->setChecked(isLeast);
-    lift->setEnabled(!isLeast);
+    setPossible(lift, isLeast ? leastLift : QString());
     lift->setValue(static_cast<int>(std::lround(100.0 * blackLift)));
     bright->setValue(percentText(settings.reachablePercentile / 100.0));
     black->setValue(percentText(blackLift));

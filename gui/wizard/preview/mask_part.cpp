@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
@@ -40,7 +41,7 @@ QWidget* maskPart(PreviewPage& page) {
   list->setObjectName("masks");
   list->setAccessibleName(PreviewPage::tr("Masks"));
   column->addWidget(list);
-  QPushButton* draw = buttonOf(PreviewPage::tr("Draw a mask"));
+  auto* draw = new ActionButton(PreviewPage::tr("Draw a mask"));
   draw->setObjectName("draw-mask");
   draw->setCheckable(true);
   column->addWidget(draw);
@@ -99,7 +100,7 @@ QWidget* maskPart(PreviewPage& page) {
       list->setFixedHeight(std::min(count, mostRowsInSight) * list->sizeHintForRow(0) +
                            2 * list->frameWidth());
     draw->setChecked(editing.isDrawing());
-    draw->setEnabled(page.preview() != nullptr);
+    draw->setWhyNot(page.preview() == nullptr ? PreviewPage::tr("There is no preview yet.") : QString());
     draw->setText(editing.isDrawing() ? PreviewPage::tr("Stop drawing") : PreviewPage::tr("Draw a mask"));
     const bool begins = editing.isDrawing() && how->isHidden();
     how->setVisible(editing.isDrawing());

@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <algorithm>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -49,7 +50,7 @@ QWidget* previewInspector(PreviewPage& page) {
   auto* fit = new Segmented({PreviewPage::tr("Whole"), PreviewPage::tr("Fill"), PreviewPage::tr("Stretch")});
   fit->setObjectName("fit");
   column->addWidget(fit);
-  QPushButton* automatic = buttonOf(PreviewPage::tr("Place automatically"));
+  auto* automatic = new ActionButton(PreviewPage::tr("Place automatically"));
   automatic->setObjectName("place-automatically");
   automatic->setToolTip(PreviewPage::tr("In the largest upright rectangle that can be reached"));
   column->addWidget(automatic);
@@ -79,7 +80,7 @@ QWidget* previewInspector(PreviewPage& page) {
   column->addWidget(shadow);
   column->addWidget(lineOf());
   column->addWidget(perfectingPart(page, page.perfecting(),
-                                   {[&page] { return page.mayPerfect(); }, [&page] { page.perfect(); }}));
+                                   {[&page] { return page.whyNotPerfect(); }, [&page] { page.perfect(); }}));
   column->addStretch(1);
 
   QObject::connect(change, &QPushButton::clicked, &page, [&page, card] {
@@ -103,7 +104,7 @@ QWidget* previewInspector(PreviewPage& page) {
     const pipeline::ContentSettings& settings = page.settings();
     name->setText(page.pictureName());
     fit->setCurrent(static_cast<int>(std::find(fits.begin(), fits.end(), settings.fit) - fits.begin()));
-    automatic->setEnabled(page.isPlacedByHand());
+    automatic->setWhyNot(page.isPlacedByHand() ? QString() : PreviewPage::tr("It is placed automatically."));
     problem->setVisible(!page.problem().isEmpty());
     problem->setText(page.problem());
     constexpr double worthSaying = 0.01;

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QMenu>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/preview/preview_page.h"
@@ -76,9 +77,10 @@ QWidget* setPart(PreviewPage& page) {
     box->setAccessibleDescription(now.isEmpty() ? box->placeholderText() : QString());
     const QString why = page.whyNoSets();
     const bool isBroken = page.session().setsFailure().has_value();
-    box->setEnabled(why.isEmpty() && !now.isEmpty());
-    more->setEnabled(why.isEmpty());
-    for (QAction* one : {rename, remove}) one->setEnabled(!now.isEmpty());
+    // The action bar, or the note below, says it too.
+    setPossible(box, why.isEmpty() && !now.isEmpty(), why);
+    setPossible(more, why);
+    for (QAction* one : {rename, remove}) one->setVisible(!now.isEmpty());
     problem->setVisible(isBroken);
     problem->setText(isBroken ? why : QString());
   };

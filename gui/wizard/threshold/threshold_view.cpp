@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/folding_rows.h"
 #include "theme/theme.h"
@@ -138,7 +139,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
   auto* typed = new QLineEdit;
   typed->setObjectName("cut-value");
   typed->setAccessibleName(ThresholdPage::tr("Cut, camera signal a second"));
-  QPushButton* usePicked = buttonOf(ThresholdPage::tr("Use picked pixel"));
+  auto* usePicked = new ActionButton(ThresholdPage::tr("Use picked pixel"));
   usePicked->setObjectName("use-picked");
   // Rows of their own: the button's words are long in some languages, the number must not be cut.
   column->addWidget(typed);
@@ -147,7 +148,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
   column->addWidget(refused);
   typed->installEventFilter(new LeavesUndoToThePage(typed));
   column->addWidget(usePicked);
-  QPushButton* suggest = buttonOf({});
+  auto* suggest = new ActionButton(QString());
   suggest->setObjectName("use-suggested");
   column->addWidget(suggest);
   QLabel* why = labelOf({}, "note");
@@ -205,8 +206,10 @@ QWidget* inspectorOf(ThresholdPage& model) {
       typed->setText(typedText(static_cast<double>(model.cut().absolute)));
       typed->setCursorPosition(0);  // where there is too little room, the first digits are seen
     }
-    typed->setEnabled(model.whole().has_value());
-    usePicked->setEnabled(model.pickedLight().has_value());
+    // The hint says it too.
+    const QString reading = model.whole() ? QString() : ThresholdPage::tr("What was measured is being read.");
+    setPossible(typed, reading);
+    usePicked->setWhyNot(model.pickedLight() ? QString() : ThresholdPage::tr("Pick a pixel in a picture."));
     why->setText(reasonText(model));
     strongestStay->setVisible(model.isStrongestKept());
     const QString wrong = refused->property("typed").toString();
@@ -218,7 +221,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
     shareText->setText(ThresholdPage::tr("Below %1 of the strongest light that each camera pixel gets")
                            .arg(percentText(static_cast<double>(model.cut().shareOfRowMax))));
     const bool isUsed = static_cast<float>(model.suggested()) == model.cut().absolute;
-    suggest->setEnabled(model.whole().has_value() && !isUsed);
+    suggest->setWhyNot(reading.isEmpty() && isUsed ? ThresholdPage::tr("It is in use.") : reading);
     suggest->setText(model.suggested() > 0.0
                          ? ThresholdPage::tr("Use suggested, %1").arg(numberText(model.suggested()))
                          : ThresholdPage::tr("Keep everything"));

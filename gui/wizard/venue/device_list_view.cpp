@@ -5,6 +5,7 @@
 #include <QToolButton>
 #include <functional>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
@@ -99,7 +100,7 @@ QWidget* projectorList(VenuePage& model) {
                      [&model, index] { model.removeProjector(index); });
   });
   column->addWidget(rows);
-  QPushButton* add = buttonOf(VenuePage::tr("Add a projector"));
+  auto* add = new ActionButton(VenuePage::tr("Add a projector"));
   add->setObjectName("add-projector");
   QObject::connect(add, &QPushButton::clicked, &model, &VenuePage::addProjector);
   column->addWidget(add);
@@ -107,10 +108,7 @@ QWidget* projectorList(VenuePage& model) {
     const auto screens = model.projectors();
     none->setVisible(screens.empty());
     add->setVisible(!screens.empty());
-    add->setEnabled(model.mayAddProjector());
-    add->setToolTip(add->isEnabled()
-                        ? QString()
-                        : VenuePage::tr("No other screen is there. Plug the next projector in."));
+    add->setWhyNot(model.mayAddProjector() ? QString() : VenuePage::tr("No other screen is plugged in."));
     rows->setCount(screens.size());
     for (std::size_t i = 0; i < screens.size(); ++i) {
       DeviceRow& row = rows->row(i);

@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "wizard/frame/page_view.h"
@@ -105,7 +106,7 @@ QWidget* networkList(VenuePage& model) {
     }
     for (AddressRow* row : *all) row->refresh(count == 1);
     const VenueNetwork& network = model.network();
-    search->setEnabled(!network.isSearching());
+    setPossible(search, network.isSearching() ? VenuePage::tr("Looking for projectors…") : QString());
     found->setVisible(network.isSearching() || network.wasSearched());
     const auto answered = static_cast<int>(network.found().size());
     found->setText(network.isSearching() ? VenuePage::tr("Looking for projectors…")

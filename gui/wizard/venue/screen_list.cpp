@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "relucent/base/error.h"
+#include "theme/action_button.h"
 #include "theme/theme.h"
 #include "wizard/devices/identify_overlay.h"
 #include "wizard/venue/tile.h"
@@ -70,7 +71,7 @@ void ScreenList::fill() {
     auto* gone =
         new Tile(Icon::warning, chosen_->title, VenuePage::tr("Unplugged. Plug it in or choose another."));
     gone->setDashed(true);
-    gone->setEnabled(false);
+    setPossible(gone, VenuePage::tr("Unplugged. Plug it in or choose another."));
     add(gone, chosen_->size);
   }
   row_->addStretch(1);
@@ -96,10 +97,12 @@ void ScreenList::resizeEvent(QResizeEvent* event) {
 }
 
 Tile* ScreenList::tileOf(const ScreenChoice& choice) {
-  auto* tile = new Tile(choice.primary ? Icon::monitor : Icon::projector, choice.title, choice.facts);
+  // Why it cannot be chosen is more than what it is.
+  auto* tile = new Tile(choice.primary ? Icon::monitor : Icon::projector, choice.title,
+                        choice.refusal.isEmpty() ? choice.facts : choice.refusal);
   tile->setObjectName("venue-screen-" + QString::fromStdString(choice.display.connector));
-  tile->setEnabled(choice.refusal.isEmpty());
-  tile->setToolTip(choice.refusal.isEmpty() ? choice.warning : choice.refusal);
+  setPossible(tile, choice.refusal);
+  tile->setToolTip(choice.refusal.isEmpty() ? choice.warning : choice.facts);
   tile->setCheckable(true);
   tile->setAutoExclusive(true);
   auto name = [tile, size = choice.size](bool chosen) {

@@ -4,6 +4,7 @@
 #include <QEvent>
 #include <QProgressBar>
 
+#include "theme/action_button.h"
 #include "theme/theme.h"
 #include "views/number_text.h"
 
@@ -181,7 +182,7 @@ void TidyDialog::refreshButtons() {
                                                      : tr("Close"));
   if (!decides) return;
   const std::uint64_t bytes = tidy_->freedBy(tidy_->kept()).freed();
-  primary_->setEnabled(bytes > 0);
+  setPossible(primary_, bytes > 0 ? QString() : tr("nothing to free"));
   primary_->setText((state == State::choosing ? tr("Free %1…") : tr("Free %1")).arg(bytesText(bytes)));
 }
 

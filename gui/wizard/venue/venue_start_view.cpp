@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QShortcut>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "wizard/frame/page_view.h"
@@ -41,7 +42,7 @@ class RecentRow : public QFrame {
     QPushButton* open = buttonOf(isOpen                ? VenuePage::tr("Is open")
                                  : venue.isInterrupted ? VenuePage::tr("Resume")
                                                        : VenuePage::tr("Open"));
-    open->setEnabled(!isOpen);
+    setPossible(open, isOpen ? VenuePage::tr("Is open") : QString());
     open->setAccessibleName(
         (venue.isInterrupted ? VenuePage::tr("Resume %1") : VenuePage::tr("Open %1")).arg(venue.name));
     QObject::connect(open, &QPushButton::clicked, &model,
@@ -80,13 +81,11 @@ class RecentRow : public QFrame {
     more->setObjectName("more");
     more->setAccessibleName(VenuePage::tr("More for %1").arg(venue.name));
     auto* menu = new QMenu(more);
-    menu->setToolTipsVisible(true);
     more->setMenu(menu);
     const auto add = [menu](const char* name, const QString& text, const QString& problem) {
       QAction* action = menu->addAction(text);
       action->setObjectName(name);
       action->setEnabled(problem.isEmpty());
-      action->setToolTip(problem.isEmpty() ? QString() : plainToolTip(problem));
       return action;
     };
     // Looked at when it is wanted: a show may have been installed since.
@@ -102,6 +101,15 @@ class RecentRow : public QFrame {
               });
       connect(add("remove", VenuePage::tr("Remove…"), model.keeping().whyNotRemoved(venue)),
               &QAction::triggered, &model, [&model, venue] { model.askToRemove(venue); });
+      // In sight, once for what has the same reason.
+      QStringList reasons{model.keeping().whyNotRenamed(venue), model.keeping().whyNotRemoved(venue)};
+      reasons.removeDuplicates();
+      reasons.removeAll(QString());
+      for (const QString& reason : reasons) {
+        QAction* line = menu->addAction(reason);
+        line->setObjectName("reason");
+        line->setEnabled(false);
+      }
     });
     setContextMenuPolicy(Qt::CustomContextMenu);
     connect(this, &QWidget::customContextMenuRequested, menu,
@@ -113,7 +121,7 @@ class RecentRow : public QFrame {
     tidy->setObjectName("tidy");
     tidy->setAccessibleName(VenuePage::tr("Free the disk of what %1 does not need").arg(venue.name));
     const QString problem = model.tidyProblem();
-    tidy->setEnabled(problem.isEmpty());
+    setPossible(tidy, problem);  // said once, above the list
     tidy->setToolTip(plainToolTip(problem.isEmpty() ? tidy->accessibleName() : problem));
     connect(tidy, &QPushButton::clicked, &model, [this, &model, venue] {
       auto* dialog = new TidyDialog(model.tidy(venue), window());
@@ -157,7 +165,14 @@ class StartStage : public QWidget {
                      [&model] { model.setMode(VenuePage::Mode::rehearse); });
     connect(new QShortcut(QKeySequence::New, this), &QShortcut::activated, create, &Tile::click);
     connect(new QShortcut(QKeySequence::Open, this), &QShortcut::activated, open, &Tile::click);
-    all->addWidget(labelOf(VenuePage::tr("Recent"), "heading"));
+    auto* heading = new QHBoxLayout;
+    heading->setSpacing(space::gap);
+    QLabel* title = labelOf(VenuePage::tr("Recent"), "heading");
+    title->setWordWrap(false);
+    heading->addWidget(title);
+    heading->addWidget(whyNotTidied_ = labelOf({}, "note"), 1);
+    whyNotTidied_->setObjectName("why-not-tidied");
+    all->addLayout(heading);
     recent_ = new Card;
     all->addWidget(recent_, 1);
     connect(&model, &VenuePage::statusChanged, this, [this] { refresh(); });
@@ -172,8 +187,10 @@ class StartStage : public QWidget {
   void fill() {
     QList<RecentVenue> venues = model_.recent();
     QStringList now{model_.tidyProblem()};
+    whyNotTidied_->setText(venues.isEmpty() ? QString() : now.front());
     for (const RecentVenue& venue : venues)
-      now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "");
+      now << venue.folder + venue.state + (model_.isOpenNow(venue) ? "*" : "") +
+                 (venue.picture.isNull() ? "" : "+");
     if (now == shown_ && recent_->body()->count() > 0) return;
     shown_ = now;
     const bool hadFocus = recent_->isAncestorOf(window()->focusWidget());
@@ -215,6 +232,7 @@ class StartStage : public QWidget {
 
   VenuePage& model_;
   Card* recent_;
+  QLabel* whyNotTidied_;
   QStringList shown_;
 };
 

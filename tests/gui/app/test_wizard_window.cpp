@@ -460,8 +460,15 @@ class TestWizardWindow : public QObject {
       where->setFocus();
       QTest::keyPress(where, Qt::Key_A);
       QVERIFY(!wizard_->page<OutputPage>().isCompensated());
+      // As some X servers repeat it.
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        QTest::keyRelease(where, Qt::Key_A);
+        QTest::keyPress(where, Qt::Key_A);
+        QCoreApplication::processEvents();
+        QVERIFY(!wizard_->page<OutputPage>().isCompensated());
+      }
       QTest::keyRelease(where, Qt::Key_A);
-      QVERIFY(wizard_->page<OutputPage>().isCompensated());
+      QTRY_VERIFY(wizard_->page<OutputPage>().isCompensated());
       QTest::keyClick(where, Qt::Key_B);
       QVERIFY(wizard_->page<OutputPage>().isBlack());
       QTest::keyClick(where, Qt::Key_B);

@@ -117,6 +117,38 @@ class TestWhatPlays : public QObject {
     QCOMPARE(page_->sets().nameInUse(), std::string("night"));
   }
 
+  /// Law: while the page is looked at and plays, the set is that of the time; what somebody chooses stays
+  /// until the next time.
+  void thePageFollowsTheTimesOfSets() {
+    session().changeSets([](CalibrationFolder& folder) {
+      for (const char* name : {"day", "night"}) pipeline::saveSet(folder, name);
+      pipeline::useSet(folder, "day");
+    });
+    QTime now(17, 0);
+    page_->setClock([&now] { return now; });
+    page_->setTimes({{{8, 0}, "day"}, {{18, 0}, "night"}});
+    const auto inUse = [this] { return page_->sets().nameInUse(); };
+    page_->enter();
+    openOutput();
+    now = QTime(18, 0);
+    QTRY_COMPARE_WITH_TIMEOUT(inUse(), std::string("night"), patience);
+    QVERIFY(page_->isOpen() && !page_->playsEarlier());
+    const auto at = [&](QTime time) {
+      now = time;
+      page_->followTimes();
+      return inUse();
+    };
+    page_->useSet("day");
+    QCOMPARE(at({23, 0}), std::string("day"));
+    QCOMPARE(at({8, 0}), std::string("day"));
+    QCOMPARE(at({18, 30}), std::string("night"));
+    // Whoever works at Preview keeps what is worked on.
+    page_->leave();
+    QCOMPARE(at({9, 0}), std::string("night"));
+    page_->enter();
+    QCOMPARE(at({9, 0}), std::string("day"));
+  }
+
   /// Of one time there is one set, and they stand in the order of the day.
   void timesOfSetsAreKeptInThePlaylist() {
     SetTimesDialog dialog({"day", "night"}, {{{18, 0}, "day"}});

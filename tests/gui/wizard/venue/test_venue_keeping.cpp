@@ -12,6 +12,7 @@
 #include "output/installation.h"
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/calibration/calibration_folder.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/venue/rename_dialog.h"
 #include "wizard/venue/venue_page.h"
@@ -85,6 +86,18 @@ class TestVenueKeeping : public QObject {
     QCOMPARE(own_->session.name(), name);
   }
 
+  /// Law: while somebody measures in it, so that nobody may look into it, a venue keeps its picture on the
+  /// list.
+  void aVenueThatIsMeasuredAgainKeepsItsPicture() {
+    QImage picture(24, 18, QImage::Format_RGB32);
+    picture.fill(Qt::darkYellow);
+    QVERIFY(picture.save(at("Old chapel") + "/thumbnail.png"));
+    QCOMPARE(named(*page_, "Old chapel").picture.size(), picture.size());
+    const auto measuring = calibration::CalibrationFolder::open(
+        own_->path("Old chapel"), calibration::CalibrationFolder::Access::write);
+    QCOMPARE(named(*page_, "Old chapel").picture.size(), picture.size());
+  }
+
   void wrongNamesAreSaid_data() {
     QTest::addColumn<QString>("name");
     QTest::newRow("none") << " ";
@@ -98,7 +111,9 @@ class TestVenueKeeping : public QObject {
     QVERIFY(!VenueKeeping::nameProblem(venue, name).isEmpty());
     RenameDialog dialog(venue);
     auto* rename = dialog.findChild<QPushButton*>("rename-do");
-    QVERIFY(!rename->isEnabled());  // it has that name
+    QVERIFY(!rename->isEnabled());  // it has that name, and says so in sight
+    const auto* why = dialog.findChild<QLabel*>("rename-why-not");
+    QVERIFY(!why->text().isEmpty() && rename->accessibleDescription() == why->text());
     dialog.findChild<QLineEdit*>("rename-name")->setText(name);
     QVERIFY(!rename->isEnabled());
     QSignalSpy told(page_.get(), &PageModel::failed);
@@ -182,8 +197,11 @@ class TestVenueKeeping : public QObject {
       for (const char* name : {"rename", "remove"}) {
         const auto* action = button->menu()->findChild<QAction*>(name);
         QCOMPARE(action->isEnabled(), !isOpen);
-        QCOMPARE(action->toolTip().contains("open"), isOpen);
       }
+      // In sight, once for both.
+      const QList<QAction*> reasons = button->menu()->findChildren<QAction*>("reason");
+      QCOMPARE(reasons.size(), isOpen ? 1 : 0);
+      if (isOpen) QVERIFY(reasons.front()->text().contains("open") && !reasons.front()->isEnabled());
     }
   }
 };

@@ -8,6 +8,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
+#include <QMenu>
 #include <QPushButton>
 #include <QScreen>
 #include <QTemporaryDir>
@@ -20,6 +21,7 @@
 #include "app/wizard_window.h"
 #include "gui/wizard/output/night_history.h"
 #include "relucent/base/message.h"
+#include "relucent/calibration/results.h"
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/venue/venue.h"
 #include "theme/theme.h"
@@ -124,6 +126,45 @@ std::filesystem::path measuredIn(const std::string& which, const QTemporaryDir& 
   Progress silent;
   calibrate(folder, settings, cache, silent);
   return folder;
+}
+
+/// What cannot be used and why, and what asks for names.
+void takeReasons(WizardWindow& wizard, Photographs& photographs) {
+  constexpr std::size_t venue = 0, acquire = 3, preview = 6, output = 7;
+  {
+    const DeviceLease lease = wizard.session().leaseDevices(AcquirePage::stepName, DeviceWork::measurement);
+    photographs.take("08-in-use");
+    for (auto [step, name] : {std::pair(preview, "07-in-use"), {venue, "00-in-use"}}) {
+      wizard.wizard().go(step);
+      photographs.take(name);
+    }
+  }
+  wizard.wizard().go(preview);
+  wizard.window().findChild<QAction*>("save-set")->trigger();
+  photographs.takeDialog("07-save-set", "set-dialog");
+  const std::filesystem::path path = wizard.session().path();
+  wizard.session().close();
+  wizard.wizard().go(venue);
+  wizard.page<VenuePage>().refresh();
+  if (const auto* more = wizard.window().findChild<QPushButton*>("more")) {
+    Q_EMIT more->menu()->aboutToShow();
+    more->menu()->findChild<QAction*>("rename")->trigger();
+    photographs.takeDialog("00-rename", "rename-dialog");
+  }
+  {
+    CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::write);
+    const StageResult stored = folder.latest(Stage::acquisition).value();
+    transport::Acquisition measured = loadAcquisition(stored);
+    measured.changed = transport::FoundChange{
+        Message::plain("a camera or projector has moved: the view of camera 1 is shifted by 2.0, 1.5 pixels"),
+        true};
+    storeAcquisition(folder, stored.inputs, measured,
+                     resultFrom<Stage::acquisition>(stored).cost.value_or(StageCost()));
+  }
+  wizard.session().open(path);
+  wizard.wizard().go(acquire);
+  photographs.take("04-changed");
+  wizard.wizard().go(output);
 }
 
 /// Cameras as a desk with three of them would list them.
@@ -397,6 +438,7 @@ int main(int argc, char** argv) {
   photographs.take("08-out-of-date");
   wizard.page<OutputPage>().close();
   photographs.take("08-closed");
+  takeReasons(wizard, photographs);
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-settings"), Qt::LeftButton);
   photographs.takeDialog("10-settings", "settings");
   QTest::mouseClick(wizard.window().findChild<QPushButton*>("open-help"), Qt::LeftButton);

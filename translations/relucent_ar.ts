@@ -340,6 +340,14 @@
         <source>Go to Acquire</source>
         <translation>إلى «القياس»</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>انتهى القياس لأن شيئًا تغيّر</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>ما يلي من قبل التغيّر. انظر في «القياس» ما يفيد.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -431,6 +439,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>قُبل قبل النمط ⁨{}⁩: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>انتهى القياس بتغيّر: {}؛ تُترك اللقطات من رقم ⁨{}⁩ فصاعدًا</translation>
     </message>
 </context>
 <context>
@@ -555,6 +570,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>تختلف لقطات النمط الواحد بمقدار ⁨{} %⁩: الضوء يرتعش، أو تحرّك شيء بينها</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -608,6 +630,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>كل اللقطات السابقة لقياس نقل الضوء آمنة</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>تأكّد من ثبات الكاميرا وجهاز العرض والسطح، وأطفئ المصابيح المخفّتة ومصابيح الفلورسنت، وأوقف توفير الطاقة في جهاز العرض، ثم أعد المحاولة</translation>
     </message>
 </context>
 <context>
@@ -3644,6 +3673,38 @@
         <source>Reading what was measured</source>
         <translation>قراءة ما قيس</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>الكاميرا في مكانها</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>تنظر إلى حيث كانت تنظر. ربما ارتعش الضوء.</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>أنهاه تغيّر</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>أصلح ما تغيّر، ثم تابع القياس.</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>أعد القياس على الوضع الحالي، أو أعده إلى مكانه وتابع القياس.</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>أُوقف القياس عند كتل ⁨%1 px⁩: تغيّر شيء</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>انتهى القياس وقد تغيّر شيء</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>يُترك ما صُوّر منذ الفحص السابق، ويبقى كل ما قبله.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3790,6 +3851,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>يُنظر إليه ثانية عند الفحص التالي.</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>ارتعش الضوء، أو تحرّك شيء</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>الضوء يرتعش، أو شيء يتحرّك</translation>
     </message>
 </context>
 <context>
@@ -4176,6 +4245,14 @@
         <source>%1 of every picture is seen</source>
         <translation>يظهر %1 من كل صورة</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>التعريضات، محفوظة</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>افحص من جديد لتنظر بتعريض آخر.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4503,6 +4580,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>لا ضوء قوي بما يكفي للتجميع.</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>يحتاج المجسّم إلى OpenGL، وهو غير موجود.</translation>
     </message>
 </context>
 <context>
@@ -4985,6 +5066,14 @@
         <source>Off the curve, % of full</source>
         <translation>البعد عن المنحنى، % من الكامل</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>يتوقف بعد اللقطة الجارية.</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>للقياس من جديد أكّد أن القاعة خالية.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -5098,6 +5187,14 @@ projector %2</source>
     <message>
         <source>Cancel</source>
         <translation>إلغاء</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>اكتب اسمًا.</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>هذا اسمه الحالي.</translation>
     </message>
 </context>
 <context>
@@ -5273,6 +5370,10 @@ projector %2</source>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>يمكن للعرض أن يعتني بالصورة بنفسه ليلًا: يفحص ويُصلح ويحسّن ويتحقق، ويذكر هنا النتيجة. على كاميرته أن تبقى في مكانها.</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>لا يُعتنى بعرض التدريب.</translation>
     </message>
 </context>
 <context>
@@ -6172,8 +6273,36 @@ projector %2</source>
         <translation>يستخدم العرض المثبّت هذه المجموعة طوال اليوم.</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>يبدّل العرض المثبّت: %1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>يجري تحسين الصورة.</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>يُفتح الخرج الآن.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>شاشة جهاز العرض مفصولة.</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>ما زال يُعرض التصحيح السابق.</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>لا شيء آخر في القائمة.</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>قائمة التشغيل فارغة.</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>لا توجد مجموعة أخرى.</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>يتبدّل العرض تلقائيًا، هنا أيضًا: %1</translation>
     </message>
 </context>
 <context>
@@ -6200,6 +6329,29 @@ projector %2</source>
     <message>
         <source>The output goes on as before.</source>
         <translation>يستمر الإخراج كما كان.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>لا يوجد مكان مفتوح.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>تُلتقط صورة الآن.</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>يُفحص الانحراف الآن.</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>يجري الإصلاح.</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>يُكتب التقرير الآن.</translation>
     </message>
 </context>
 <context>
@@ -6277,6 +6429,14 @@ projector %2</source>
     <message>
         <source>Perfect it again</source>
         <translation>تحسينها مجددًا</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>لا يوجد مكان مفتوح.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>يجري تحسين الصورة.</translation>
     </message>
 </context>
 <context>
@@ -6944,6 +7104,18 @@ projector %2</source>
         <source>Remove</source>
         <translation>إزالة</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>موضعها محدَّد تلقائيًا.</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>على السطح صورة.</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>الخرج مفتوح. أغلقه أولًا.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6965,6 +7137,14 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>⁨%1⁩ قيد العمل. يمكن حفظ ما تختاره هنا بعد انتهائه.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>الأجهزة مستخدمة في «%1».</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>أكّد أن القاعة خالية.</translation>
     </message>
 </context>
 <context>
@@ -7039,6 +7219,10 @@ projector %2</source>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>لا توجد أوقات بعد.</translation>
     </message>
 </context>
 <context>
@@ -7540,6 +7724,10 @@ projector %2</source>
         <source>doubtful</source>
         <translation>مشكوك فيه</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>تُفتح عند إتمام «%1».</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7824,6 +8012,18 @@ projector %2</source>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>تم التغيير: يُطبَّق بمجرد المتابعة.</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>تُقرأ نتائج القياس.</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>اختر بكسلًا في صورة.</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>هو المستخدم الآن.</translation>
     </message>
 </context>
 <context>
@@ -8496,10 +8696,6 @@ projector %2</source>
         <translation>إضافة جهاز عرض</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>لا توجد شاشة أخرى. صِل جهاز العرض التالي.</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>جهاز العرض %1</translation>
     </message>
@@ -8715,6 +8911,10 @@ projector %2</source>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>اسمح بها إن كنت تعرف ما تفعله أو تعرف من أعدّ هذا الموقع.</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>لا شاشة أخرى موصولة.</translation>
     </message>
 </context>
 <context>

@@ -332,6 +332,14 @@
         <source>Go to Acquire</source>
         <translation>Zu „Erfassen“</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>Die Messung endete, weil sich etwas geändert hatte</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>Was folgt, ist von davor. Unter „Erfassen“ steht, was hilft.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -423,6 +431,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>vor Muster {} hingenommen: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>die Messung endete mit einer Veränderung: {}; Fotos ab Nr. {} sind weggelassen</translation>
     </message>
 </context>
 <context>
@@ -539,6 +554,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>Fotos desselben Musters unterscheiden sich um {} %: das Licht flackert, oder dazwischen hat sich etwas bewegt</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -592,6 +614,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>alle Fotos vor dem Lichttransport sind sicher</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>achten Sie darauf, dass Kamera, Projektor und Fläche stillstehen, schalten Sie gedimmte Lampen, Leuchtstofflampen und den Energiesparmodus des Projektors aus, dann versuchen Sie es erneut</translation>
     </message>
 </context>
 <context>
@@ -3556,6 +3585,38 @@
         <source>Reading what was measured</source>
         <translation>Gemessenes wird gelesen</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>Die Kamera steht an ihrem Platz</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>Sie sieht, wohin sie sah. Vielleicht hat das Licht geflackert.</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Durch Änderung beendet</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>Beheben Sie, was sich geändert hat, dann messen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>Messen Sie neu, wie es jetzt steht, oder stellen Sie es zurück und messen Sie weiter.</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>Die Messung wurde bei Blöcken von %1 px gestoppt: Etwas hatte sich geändert</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>Die Messung ist zu Ende, und etwas hatte sich geändert</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>Was seit der letzten Kontrolle davor fotografiert wurde, ist weggelassen; alles davor bleibt.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3702,6 +3763,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>Wird bei der nächsten Kontrolle wieder angesehen.</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>das Licht flackerte, oder etwas bewegte sich</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>Das Licht flackert, oder etwas bewegt sich</translation>
     </message>
 </context>
 <context>
@@ -4084,6 +4153,14 @@
         <source>%1 of every picture is seen</source>
         <translation>Von jedem Bild sind %1 zu sehen</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>Belichtungen, behalten</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>Prüfen Sie erneut, um mit einer anderen zu schauen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4387,6 +4464,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>Kein Licht ist stark genug, um Cluster zu bilden.</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>Reliefs brauchen OpenGL, das fehlt.</translation>
     </message>
 </context>
 <context>
@@ -4857,6 +4938,14 @@
         <source>Off the curve, % of full</source>
         <translation>Abstand zur Kurve, % von voll</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>Stoppt nach dem laufenden Foto.</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Um neu zu messen, bestätigen Sie, dass der Raum geräumt ist.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4966,6 +5055,14 @@ Projektor %2</translation>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>Geben Sie einen Namen ein.</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>So heißt es schon.</translation>
     </message>
 </context>
 <context>
@@ -5133,6 +5230,10 @@ Projektor %2</translation>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>Eine Show kann nachts selbst für das Bild sorgen: Sie prüft, repariert, perfektioniert und weist nach, und sagt hier, was dabei herauskam. Ihre Kamera muss stehen bleiben, wo sie ist.</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>Für die Show einer Probe wird nicht gesorgt.</translation>
     </message>
 </context>
 <context>
@@ -6028,8 +6129,36 @@ Projektor %2</translation>
         <translation>Die installierte Show spielt diese den ganzen Tag.</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>Die installierte Show wechselt: %1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>Das Bild wird perfektioniert.</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>Die Ausgabe wird geöffnet.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Projektorbildschirm abgesteckt.</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>Es läuft noch die frühere Korrektur.</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>Sonst ist nichts in der Liste.</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>Die Playlist ist leer.</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>Es gibt keine andere Variante.</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>Die Show wechselt von selbst, auch hier: %1</translation>
     </message>
 </context>
 <context>
@@ -6056,6 +6185,29 @@ Projektor %2</translation>
     <message>
         <source>The output goes on as before.</source>
         <translation>Die Ausgabe läuft weiter wie bisher.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Es ist kein Ort geöffnet.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Ein Foto wird aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>Es wird auf Drift geprüft.</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>Es wird repariert.</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>Der Bericht wird geschrieben.</translation>
     </message>
 </context>
 <context>
@@ -6125,6 +6277,14 @@ Projektor %2</translation>
     <message>
         <source>Perfect it again</source>
         <translation>Noch einmal perfektionieren</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Es ist kein Ort geöffnet.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>Das Bild wird perfektioniert.</translation>
     </message>
 </context>
 <context>
@@ -6792,6 +6952,18 @@ Projektor %2</translation>
         <source>Remove</source>
         <translation>Entfernen</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>Es ist automatisch platziert.</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>Ein Bild ist auf der Fläche.</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>Die Ausgabe ist offen. Erst schließen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6813,6 +6985,14 @@ Projektor %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 arbeitet gerade. Was Sie hier wählen, kann danach übernommen werden.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Die Geräte sind bei „%1“ in Gebrauch.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Erst bestätigen: Raum geräumt.</translation>
     </message>
 </context>
 <context>
@@ -6887,6 +7067,10 @@ Projektor %2</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>Es gibt noch keine Zeiten.</translation>
     </message>
 </context>
 <context>
@@ -7368,6 +7552,10 @@ Projektor %2</translation>
         <source>doubtful</source>
         <translation>zweifelhaft</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>Öffnet sich, wenn „%1“ fertig ist.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7648,6 +7836,18 @@ Projektor %2</translation>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Geändert: Es gilt, sobald Sie weitergehen.</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>Die Messung wird gelesen.</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>Wählen Sie ein Pixel in einem Bild.</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>Er wird verwendet.</translation>
     </message>
 </context>
 <context>
@@ -8308,10 +8508,6 @@ Projektor %2</translation>
         <translation>Projektor hinzufügen</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>Es gibt keinen weiteren Bildschirm. Stecken Sie den nächsten Projektor an.</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>Projektor %1</translation>
     </message>
@@ -8515,6 +8711,10 @@ Projektor %2</translation>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>Erlauben Sie sie, wenn Sie wissen, was sie tun, oder wer diesen Spielort angelegt hat.</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>Kein anderer Bildschirm angesteckt.</translation>
     </message>
 </context>
 <context>

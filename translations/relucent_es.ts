@@ -332,6 +332,14 @@
         <source>Go to Acquire</source>
         <translation>Ir a «Adquisición»</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>La medición terminó porque algo había cambiado</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>Lo que sigue es de antes. En «Adquisición» se indica qué ayuda.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -423,6 +431,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>aceptado antes del patrón {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>la medición terminó con un cambio: {}; se omiten las fotografías a partir de la n.º {}</translation>
     </message>
 </context>
 <context>
@@ -539,6 +554,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>las fotografías de un mismo patrón difieren en un {} %: la luz parpadea o algo se movió entre ellas</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -592,6 +614,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>todas las fotografías anteriores al transporte de luz están a salvo</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>compruebe que la cámara, el proyector y la superficie no se muevan, apague las lámparas atenuadas y fluorescentes, desactive el ahorro de energía del proyector e inténtelo de nuevo</translation>
     </message>
 </context>
 <context>
@@ -3556,6 +3585,38 @@
         <source>Reading what was measured</source>
         <translation>Leyendo lo medido</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>La cámara está en su sitio</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>Mira adonde miraba. Quizá la luz parpadeó.</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Terminada por un cambio</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>Corrija lo que cambió y siga midiendo.</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>Mida de nuevo tal como está ahora, o recolóquelo y siga midiendo.</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>La medición se detuvo en bloques de %1 px: algo había cambiado</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>La medición terminó y algo había cambiado</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>Se omite lo fotografiado desde la comprobación anterior; todo lo de antes se conserva.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3702,6 +3763,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>Se vuelve a mirar en la próxima comprobación.</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>la luz parpadeó o algo se movió</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>La luz parpadea o algo se mueve</translation>
     </message>
 </context>
 <context>
@@ -4084,6 +4153,14 @@
         <source>%1 of every picture is seen</source>
         <translation>Se ve el %1 de cada imagen</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>Exposiciones, conservadas</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>Compruebe de nuevo para mirar con otra.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4387,6 +4464,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>Ninguna luz es lo bastante fuerte para agrupar.</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>Los relieves necesitan OpenGL, que no está.</translation>
     </message>
 </context>
 <context>
@@ -4857,6 +4938,14 @@
         <source>Off the curve, % of full</source>
         <translation>Desvío de la curva, % del máximo</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>Se detiene tras la fotografía en curso.</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Para medir de nuevo, confirme que la sala está despejada.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4966,6 +5055,14 @@ proyector %2</translation>
     <message>
         <source>Cancel</source>
         <translation>Cancelar</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>Escriba un nombre.</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>Ya tiene este nombre.</translation>
     </message>
 </context>
 <context>
@@ -5133,6 +5230,10 @@ proyector %2</translation>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>Un show puede cuidar por sí solo de la imagen de noche: comprueba, repara, perfecciona y prueba, y dice aquí el resultado. Su cámara debe quedarse donde está.</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>El show de un ensayo no se cuida.</translation>
     </message>
 </context>
 <context>
@@ -6028,8 +6129,36 @@ proyector %2</translation>
         <translation>El show instalado muestra esta todo el día.</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>El show instalado cambia: %1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>La imagen se está perfeccionando.</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>Se está abriendo la salida.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Pantalla del proyector desconectada.</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>Aún se muestra la corrección anterior.</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>No hay nada más en la lista.</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>La lista de reproducción está vacía.</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>No hay otra variante.</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>El show cambia solo, también aquí: %1</translation>
     </message>
 </context>
 <context>
@@ -6056,6 +6185,29 @@ proyector %2</translation>
     <message>
         <source>The output goes on as before.</source>
         <translation>La salida sigue como antes.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>No hay ningún lugar abierto.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Se está tomando una fotografía.</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>Se está comprobando la deriva.</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>Se está reparando.</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>Se está escribiendo el informe.</translation>
     </message>
 </context>
 <context>
@@ -6125,6 +6277,14 @@ proyector %2</translation>
     <message>
         <source>Perfect it again</source>
         <translation>Perfeccionar otra vez</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>No hay ningún lugar abierto.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>La imagen se está perfeccionando.</translation>
     </message>
 </context>
 <context>
@@ -6792,6 +6952,18 @@ proyector %2</translation>
         <source>Remove</source>
         <translation>Quitar</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>Está colocada automáticamente.</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>Hay una imagen en la superficie.</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>La salida está abierta. Ciérrela antes.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6813,6 +6985,14 @@ proyector %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 está en marcha. Lo que se elija aquí podrá guardarse cuando termine.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Dispositivos en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirme que la sala está despejada.</translation>
     </message>
 </context>
 <context>
@@ -6887,6 +7067,10 @@ proyector %2</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>Aún no hay horas.</translation>
     </message>
 </context>
 <context>
@@ -7368,6 +7552,10 @@ proyector %2</translation>
         <source>doubtful</source>
         <translation>dudoso</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>Se abre cuando «%1» está hecho.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7648,6 +7836,18 @@ proyector %2</translation>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Cambiado: se aplica en cuanto continúe.</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>Se está leyendo lo medido.</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>Elija un píxel en una imagen.</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>Está en uso.</translation>
     </message>
 </context>
 <context>
@@ -8308,10 +8508,6 @@ proyector %2</translation>
         <translation>Añadir un proyector</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>No hay otra pantalla. Conecte el siguiente proyector.</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>Proyector %1</translation>
     </message>
@@ -8515,6 +8711,10 @@ proyector %2</translation>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>Permítalos si sabe qué hacen o quién hizo este lugar.</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>No hay otra pantalla conectada.</translation>
     </message>
 </context>
 <context>

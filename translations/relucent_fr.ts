@@ -332,6 +332,14 @@
         <source>Go to Acquire</source>
         <translation>Aller à « Acquisition »</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>La mesure s’est terminée parce que quelque chose avait changé</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>La suite date d’avant. L’étape «&#x202f;Acquisition&#x202f;» dit quoi faire.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -423,6 +431,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>accepté avant le motif {}&#x202f;: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>la mesure s’est terminée sur un changement&#xa0;: {}&#x202f;; les photos à partir du n° {} sont laissées de côté</translation>
     </message>
 </context>
 <context>
@@ -539,6 +554,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>les photos d’un même motif diffèrent de {}&#x202f;%&#xa0;: la lumière scintille, ou quelque chose a bougé entre elles</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -592,6 +614,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>toutes les photos antérieures au transport lumineux sont en sécurité</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>veillez à ce que la caméra, le projecteur et la surface ne bougent pas, éteignez les lampes à variateur et les tubes fluorescents, désactivez le mode économie d’énergie du projecteur, puis réessayez</translation>
     </message>
 </context>
 <context>
@@ -3556,6 +3585,38 @@
         <source>Reading what was measured</source>
         <translation>Lecture de ce qui a été mesuré</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>La caméra est à sa place</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>Elle regarde où elle regardait. La lumière a peut-être vacillé.</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Terminée par un changement</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>Rétablissez ce qui a changé, puis continuez la mesure.</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>Remesurez en l’état actuel, ou remettez en place et continuez la mesure.</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>La mesure a été arrêtée à des blocs de %1 px&#xa0;: quelque chose avait changé</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>La mesure est terminée, et quelque chose avait changé</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>Ce qui a été photographié depuis la vérification précédente est laissé de côté, tout ce qui précède est conservé.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3702,6 +3763,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>Revu à la prochaine vérification.</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>la lumière a vacillé, ou quelque chose a bougé</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>La lumière vacille, ou quelque chose bouge</translation>
     </message>
 </context>
 <context>
@@ -4084,6 +4153,14 @@
         <source>%1 of every picture is seen</source>
         <translation>%1 de chaque image est visible</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>Temps de pose, gardés</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>Vérifiez à nouveau pour regarder avec un autre.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4387,6 +4464,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>Aucune lumière n’est assez forte pour former des groupes.</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>Les reliefs demandent OpenGL, qui est absent.</translation>
     </message>
 </context>
 <context>
@@ -4857,6 +4938,14 @@
         <source>Off the curve, % of full</source>
         <translation>Écart à la courbe, % du maximum</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>Arrêt après la photo en cours.</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Pour mesurer à nouveau, confirmez que la salle est évacuée.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4966,6 +5055,14 @@ projecteur %2</translation>
     <message>
         <source>Cancel</source>
         <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>Saisissez un nom.</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>Il porte déjà ce nom.</translation>
     </message>
 </context>
 <context>
@@ -5133,6 +5230,10 @@ projecteur %2</translation>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>Une diffusion peut prendre soin de l’image toute seule la nuit&#xa0;: elle contrôle, répare, perfectionne et prouve, et dit ici ce qu’il en est. Sa caméra doit rester où elle est.</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>La diffusion d’une répétition n’est pas suivie.</translation>
     </message>
 </context>
 <context>
@@ -6028,8 +6129,36 @@ projecteur %2</translation>
         <translation>La diffusion installée la montre toute la journée.</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>La diffusion installée change&#xa0;: %1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>L’image est en perfectionnement.</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>La sortie s’ouvre.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Écran du projecteur débranché.</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>L’ancienne correction est diffusée.</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>Il n’y a rien d’autre dans la liste.</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>La liste de lecture est vide.</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>Il n’y a pas d’autre variante.</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>La diffusion change d’elle-même, ici aussi&#xa0;: %1</translation>
     </message>
 </context>
 <context>
@@ -6056,6 +6185,29 @@ projecteur %2</translation>
     <message>
         <source>The output goes on as before.</source>
         <translation>La sortie continue comme avant.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Aucun lieu n’est ouvert.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Une photo est en cours.</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>La dérive est vérifiée.</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>Réparation en cours.</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>Le rapport est en cours d’écriture.</translation>
     </message>
 </context>
 <context>
@@ -6125,6 +6277,14 @@ projecteur %2</translation>
     <message>
         <source>Perfect it again</source>
         <translation>Perfectionner à nouveau</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Aucun lieu n’est ouvert.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>L’image est en perfectionnement.</translation>
     </message>
 </context>
 <context>
@@ -6792,6 +6952,18 @@ projecteur %2</translation>
         <source>Remove</source>
         <translation>Supprimer</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>Elle est placée automatiquement.</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>Une image est sur la surface.</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>La sortie est ouverte. Fermez-la d’abord.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6813,6 +6985,14 @@ projecteur %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 est en cours. Ce qui est choisi ici pourra être gardé ensuite.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Appareils utilisés à «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confirmez que la salle est évacuée.</translation>
     </message>
 </context>
 <context>
@@ -6887,6 +7067,10 @@ projecteur %2</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1&#xa0;: %2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>Il n’y a pas encore d’heures.</translation>
     </message>
 </context>
 <context>
@@ -7368,6 +7552,10 @@ projecteur %2</translation>
         <source>doubtful</source>
         <translation>douteux</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>S’ouvre quand «&#x202f;%1&#x202f;» est terminé.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7648,6 +7836,18 @@ projecteur %2</translation>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Modifié&#xa0;: appliqué dès que vous continuez.</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>La mesure est en cours de lecture.</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>Choisissez un pixel dans une image.</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>Il est utilisé.</translation>
     </message>
 </context>
 <context>
@@ -8308,10 +8508,6 @@ projecteur %2</translation>
         <translation>Ajouter un projecteur</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>Il n’y a pas d’autre écran. Branchez le projecteur suivant.</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>Projecteur %1</translation>
     </message>
@@ -8515,6 +8711,10 @@ projecteur %2</translation>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>Autorisez-les si vous savez ce qu’ils font ou qui a fait ce lieu.</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>Aucun autre écran n’est branché.</translation>
     </message>
 </context>
 <context>

@@ -332,6 +332,14 @@
         <source>Go to Acquire</source>
         <translation>Vai a «Acquisizione»</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>La misura è finita perché qualcosa era cambiato</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>Ciò che segue è di prima. In «Acquisizione» è indicato che cosa aiuta.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -423,6 +431,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>accettato prima del pattern {}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>la misura è finita con un cambiamento: {}; le foto dalla n. {} in poi sono tralasciate</translation>
     </message>
 </context>
 <context>
@@ -539,6 +554,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>le foto di uno stesso pattern differiscono del {} %: la luce sfarfalla, oppure tra l’una e l’altra qualcosa si è mosso</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -592,6 +614,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>ogni foto precedente al trasporto della luce è al sicuro</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>verificare che fotocamera, proiettore e superficie stiano fermi, spegnere le lampade con dimmer e fluorescenti, disattivare il risparmio energetico del proiettore, poi riprovare</translation>
     </message>
 </context>
 <context>
@@ -3556,6 +3585,38 @@
         <source>Reading what was measured</source>
         <translation>Lettura di ciò che è stato misurato</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>La fotocamera è al suo posto</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>Guarda dove guardava. Forse la luce ha sfarfallato.</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>Finita per un cambiamento</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>Ripristinare ciò che è cambiato, poi proseguire la misura.</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>Misurare di nuovo così com’è ora, oppure rimettere a posto e proseguire la misura.</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>La misura è stata fermata a blocchi di %1 px: qualcosa era cambiato</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>La misura è finita, e qualcosa era cambiato</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>Ciò che è stato fotografato dopo il controllo precedente è tralasciato, tutto il resto è conservato.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3702,6 +3763,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>Si riguarda al prossimo controllo.</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>la luce ha sfarfallato, o qualcosa si è mosso</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>La luce sfarfalla, o qualcosa si muove</translation>
     </message>
 </context>
 <context>
@@ -4084,6 +4153,14 @@
         <source>%1 of every picture is seen</source>
         <translation>Si vede il %1 di ogni immagine</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>Esposizioni, conservate</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>Verificare di nuovo per guardare con un’altra.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4387,6 +4464,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>Nessuna luce è abbastanza forte per formare gruppi.</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>I rilievi richiedono OpenGL, che manca.</translation>
     </message>
 </context>
 <context>
@@ -4857,6 +4938,14 @@
         <source>Off the curve, % of full</source>
         <translation>Scarto dalla curva, % del massimo</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>Si ferma dopo la foto in corso.</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>Per misurare di nuovo, confermare che la sala è sgombra.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4966,6 +5055,14 @@ proiettore %2</translation>
     <message>
         <source>Cancel</source>
         <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>Inserire un nome.</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>Ha già questo nome.</translation>
     </message>
 </context>
 <context>
@@ -5133,6 +5230,10 @@ proiettore %2</translation>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>Uno show può prendersi cura da solo dell’immagine di notte: controlla, ripara, perfeziona e dimostra, e dice qui l’esito. La sua telecamera deve restare dov’è.</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>Lo show di una prova non viene curato.</translation>
     </message>
 </context>
 <context>
@@ -6028,8 +6129,36 @@ proiettore %2</translation>
         <translation>Lo show installato mostra questa per tutto il giorno.</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>Lo show installato cambia: %1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>L’immagine è in perfezionamento.</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>L’uscita si sta aprendo.</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>Schermo del proiettore scollegato.</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>È in onda la correzione precedente.</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>Nella lista non c’è altro.</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>La playlist è vuota.</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>Non c’è un’altra variante.</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>Lo show cambia da solo, anche qui: %1</translation>
     </message>
 </context>
 <context>
@@ -6056,6 +6185,29 @@ proiettore %2</translation>
     <message>
         <source>The output goes on as before.</source>
         <translation>L’uscita continua come prima.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Nessun luogo è aperto.</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>Si sta scattando una foto.</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>Si sta controllando la deriva.</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>Riparazione in corso.</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>Si sta scrivendo il rapporto.</translation>
     </message>
 </context>
 <context>
@@ -6125,6 +6277,14 @@ proiettore %2</translation>
     <message>
         <source>Perfect it again</source>
         <translation>Perfeziona di nuovo</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>Nessun luogo è aperto.</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>L’immagine è in perfezionamento.</translation>
     </message>
 </context>
 <context>
@@ -6792,6 +6952,18 @@ proiettore %2</translation>
         <source>Remove</source>
         <translation>Rimuovi</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>È posizionata in automatico.</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>Un’immagine è sulla superficie.</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>L’uscita è aperta. Prima chiuderla.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6813,6 +6985,14 @@ proiettore %2</translation>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1 è al lavoro. Ciò che si sceglie qui si potrà conservare quando ha finito.</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>Dispositivi in uso in %1.</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>Confermare che la sala è sgombra.</translation>
     </message>
 </context>
 <context>
@@ -6887,6 +7067,10 @@ proiettore %2</translation>
     <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>Non ci sono ancora orari.</translation>
     </message>
 </context>
 <context>
@@ -7368,6 +7552,10 @@ proiettore %2</translation>
         <source>doubtful</source>
         <translation>dubbio</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>Si apre quando «%1» è fatto.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7648,6 +7836,18 @@ proiettore %2</translation>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>Modificato: si applica appena si prosegue.</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>La misura è in lettura.</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>Selezionare un pixel in un’immagine.</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>È in uso.</translation>
     </message>
 </context>
 <context>
@@ -8308,10 +8508,6 @@ proiettore %2</translation>
         <translation>Aggiungi un proiettore</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>Non c&apos;è un altro schermo. Collegare il prossimo proiettore.</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>Proiettore %1</translation>
     </message>
@@ -8515,6 +8711,10 @@ proiettore %2</translation>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>Consentili se sai che cosa fanno o chi ha fatto questo luogo.</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>Nessun altro schermo collegato.</translation>
     </message>
 </context>
 <context>

@@ -330,6 +330,14 @@
         <source>Go to Acquire</source>
         <translation>「光輸送測定」へ</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>何かが変わったため、測定は終わりました</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>以降の結果は変化前のものです。対処は「光輸送測定」で確認できます。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -421,6 +429,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>パターン {} の前に許容：{}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>測定は変化があった状態で終わりました：{}。{} 番以降の写真は使いません</translation>
     </message>
 </context>
 <context>
@@ -535,6 +550,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>同じパターンの写真に {} % の差があります：光がちらついているか、撮影の間に何かが動きました</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -588,6 +610,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>光輸送測定より前の写真はすべて無事です</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>カメラ、プロジェクター、面が動かないことを確かめ、調光した照明と蛍光灯、プロジェクターの省電力機能をオフにしてから、再試行してください</translation>
     </message>
 </context>
 <context>
@@ -3534,6 +3563,38 @@
         <source>Reading what was measured</source>
         <translation>測定結果を読み込んでいます</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>カメラは元の位置にあります</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>以前と同じ所を見ています。光がちらついたのかもしれません。</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>変化により終了</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>変わったものを元に戻してから、測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>今の状態で再測定するか、元に戻して測定を続けてください。</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>%1 px のブロックで測定を終了しました：何かが変わっていました</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>測定は終わりましたが、何かが変わっていました</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>前回の確認より後の写真は使わず、それより前はすべて残します。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3680,6 +3741,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>次の確認でもう一度調べます。</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>光がちらついたか、何かが動きました</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>光がちらついているか、何かが動いています</translation>
     </message>
 </context>
 <context>
@@ -4061,6 +4130,14 @@
         <source>%1 of every picture is seen</source>
         <translation>どの映像も %1 が見えています</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>露出（保存済み）</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>別の露出で見るには、もう一度確認します。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4358,6 +4435,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>グループに分けられるほど強い光がありません。</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>立体表示には OpenGL が必要です。</translation>
     </message>
 </context>
 <context>
@@ -4825,6 +4906,14 @@
         <source>Off the curve, % of full</source>
         <translation>曲線からのずれ、最大の %</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>撮影中の写真の後に停止します。</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>測定し直すには、退避が完了したことを確認してください。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4933,6 +5022,14 @@ projector %2</source>
     <message>
         <source>Cancel</source>
         <translation>キャンセル</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>名前を入力してください。</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>すでにこの名前です。</translation>
     </message>
 </context>
 <context>
@@ -5098,6 +5195,10 @@ projector %2</source>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>ショーは夜間に自分で映像を手入れできます：確認し、修復し、仕上げ、検証して、結果をここに示します。カメラはそのままの位置に置いてください。</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>リハーサルのショーは手入れしません。</translation>
     </message>
 </context>
 <context>
@@ -5992,8 +6093,36 @@ projector %2</source>
         <translation>登録したショーは終日このセットで再生します。</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>登録したショーの切り替え：%1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>画像を仕上げています。</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>出力を開いています。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>プロジェクターの画面が外れています。</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>以前の補正を再生しています。</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>リストにほかの項目がありません。</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>プレイリストは空です。</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>ほかのセットがありません。</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>ショーは自動で切り替わります（ここでも）：%1</translation>
     </message>
 </context>
 <context>
@@ -6020,6 +6149,29 @@ projector %2</source>
     <message>
         <source>The output goes on as before.</source>
         <translation>出力はこれまでどおり続きます。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>会場が開かれていません。</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>撮影しています。</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>ドリフトを確認しています。</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>修復しています。</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>レポートを書いています。</translation>
     </message>
 </context>
 <context>
@@ -6087,6 +6239,14 @@ projector %2</source>
     <message>
         <source>Perfect it again</source>
         <translation>もう一度仕上げる</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>会場が開かれていません。</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>画像を仕上げています。</translation>
     </message>
 </context>
 <context>
@@ -6754,6 +6914,18 @@ projector %2</source>
         <source>Remove</source>
         <translation>削除</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>自動で配置されています。</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>面に画像を映しています。</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>出力が開いています。先に閉じます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6775,6 +6947,14 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1の実行中です。ここでの選択は、終わってから確定できます。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>退避完了を確認してください。</translation>
     </message>
 </context>
 <context>
@@ -6849,6 +7029,10 @@ projector %2</source>
     <message>
         <source>%1: %2</source>
         <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>まだ時刻がありません。</translation>
     </message>
 </context>
 <context>
@@ -7325,6 +7509,10 @@ projector %2</source>
         <source>doubtful</source>
         <translation>要確認</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>「%1」が終わると開きます。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7604,6 +7792,18 @@ projector %2</source>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>変更済み：次へ進むと適用されます。</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>測定結果を読み込んでいます。</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>画像で画素を選んでください。</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>使用中です。</translation>
     </message>
 </context>
 <context>
@@ -8261,10 +8461,6 @@ projector %2</source>
         <translation>プロジェクターを追加</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>ほかの画面がありません。次のプロジェクターを接続してください。</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>プロジェクター %1</translation>
     </message>
@@ -8465,6 +8661,10 @@ projector %2</source>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>何をするものか、または誰が作った会場かを知っている場合に許可してください。</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>ほかの画面が接続されていません。</translation>
     </message>
 </context>
 <context>

@@ -330,6 +330,14 @@
         <source>Go to Acquire</source>
         <translation>转到“采集”</translation>
     </message>
+    <message>
+        <source>Measuring ended because something had changed</source>
+        <translation>因为有东西发生变化，测量已结束</translation>
+    </message>
+    <message>
+        <source>What follows is of before. See at Acquire what helps.</source>
+        <translation>后续结果来自变化之前。请在“采集”中查看解决办法。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -421,6 +429,13 @@
     <message>
         <source>accepted before pattern {}: {}</source>
         <translation>在图案 {} 之前接受：{}</translation>
+    </message>
+</context>
+<context>
+    <name>acquisition.ended-by-change</name>
+    <message>
+        <source>measuring ended with a change: {}; photographs from No. {} on are left out</source>
+        <translation>测量因变化而结束：{}；从第 {} 张起的照片不使用</translation>
     </message>
 </context>
 <context>
@@ -535,6 +550,13 @@
     </message>
 </context>
 <context>
+    <name>alarm.photographs-differ</name>
+    <message>
+        <source>photographs of one pattern differ by {} %: the light flickers, or something moved between them</source>
+        <translation>同一图案的照片相差 {} %：光线闪烁，或两次拍摄之间有东西移动</translation>
+    </message>
+</context>
+<context>
     <name>alarm.picture-mirrored</name>
     <message>
         <source>the picture of projector {} appears mirrored</source>
@@ -588,6 +610,13 @@
     <message>
         <source>every photograph before the light transport is safe</source>
         <translation>光传输测量之前的照片都是安全的</translation>
+    </message>
+</context>
+<context>
+    <name>alarm.steady-all</name>
+    <message>
+        <source>see that camera, projector and surface stand still, switch off dimmed and fluorescent lamps and the projector&apos;s power saving, then try again</source>
+        <translation>请确认相机、投影机和表面静止不动，关闭调光灯和荧光灯以及投影机的节能功能，然后重试</translation>
     </message>
 </context>
 <context>
@@ -3534,6 +3563,38 @@
         <source>Reading what was measured</source>
         <translation>正在读取测量结果</translation>
     </message>
+    <message>
+        <source>The camera is at its place</source>
+        <translation>相机在原位</translation>
+    </message>
+    <message>
+        <source>It looks where it looked. Perhaps the light flickered.</source>
+        <translation>它仍看着原来的位置。可能是光线闪烁。</translation>
+    </message>
+    <message>
+        <source>Ended by a change</source>
+        <translation>因变化而结束</translation>
+    </message>
+    <message>
+        <source>Put right what changed, then go on measuring.</source>
+        <translation>请先恢复发生变化的部分，然后继续测量。</translation>
+    </message>
+    <message>
+        <source>Measure again as it stands now, or put it back and go on measuring.</source>
+        <translation>按现在的位置重新测量，或放回原位后继续测量。</translation>
+    </message>
+    <message>
+        <source>Measuring was stopped at blocks of %1 px: something had changed</source>
+        <translation>测量停止于 %1 px 的块：有东西发生了变化</translation>
+    </message>
+    <message>
+        <source>Measuring ended, and something had changed</source>
+        <translation>测量已结束，但有东西发生了变化</translation>
+    </message>
+    <message>
+        <source>What was photographed since the look before is left out, all before it is kept.</source>
+        <translation>上一次检查之后拍摄的内容不使用，之前的全部保留。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3680,6 +3741,14 @@
     <message>
         <source>Looked at again at the next check.</source>
         <translation>下次检查时再看。</translation>
+    </message>
+    <message>
+        <source>the light flickered, or something moved</source>
+        <translation>光线闪烁，或有东西移动</translation>
+    </message>
+    <message>
+        <source>The light flickers, or something moves</source>
+        <translation>光线闪烁，或有东西在移动</translation>
     </message>
 </context>
 <context>
@@ -4061,6 +4130,14 @@
         <source>%1 of every picture is seen</source>
         <translation>每个画面都可见 %1</translation>
     </message>
+    <message>
+        <source>Exposures, kept</source>
+        <translation>曝光（已保留）</translation>
+    </message>
+    <message>
+        <source>Check again to look with another one.</source>
+        <translation>要用其他曝光查看，请再次检查。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4358,6 +4435,10 @@
     <message>
         <source>No light is strong enough to group.</source>
         <translation>没有足够强的光可以分组。</translation>
+    </message>
+    <message>
+        <source>Reliefs need OpenGL, which is not there.</source>
+        <translation>立体显示需要 OpenGL，但此处没有。</translation>
     </message>
 </context>
 <context>
@@ -4825,6 +4906,14 @@
         <source>Off the curve, % of full</source>
         <translation>与曲线的偏差，满值的 %</translation>
     </message>
+    <message>
+        <source>Stopping after the photograph under way.</source>
+        <translation>在当前照片之后停止。</translation>
+    </message>
+    <message>
+        <source>To measure again, confirm that the room is clear.</source>
+        <translation>要重新测量，请确认已清场。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::MainWindow</name>
@@ -4933,6 +5022,14 @@ projector %2</source>
     <message>
         <source>Cancel</source>
         <translation>取消</translation>
+    </message>
+    <message>
+        <source>Type a name.</source>
+        <translation>请输入名称。</translation>
+    </message>
+    <message>
+        <source>It has this name.</source>
+        <translation>已经是这个名称。</translation>
     </message>
 </context>
 <context>
@@ -5098,6 +5195,10 @@ projector %2</source>
     <message>
         <source>A show can look after the picture by itself at night: it checks, repairs, perfects and proves, and tells here what came of it. Its camera has to stay where it is.</source>
         <translation>节目可在夜间自行维护画面：检查、修复、完善并验证，并在此说明结果。其相机必须留在原位。</translation>
+    </message>
+    <message>
+        <source>No show of a rehearsal is looked after.</source>
+        <translation>演练的节目不做维护。</translation>
     </message>
 </context>
 <context>
@@ -5992,8 +6093,36 @@ projector %2</source>
         <translation>已安装的节目全天使用此方案。</translation>
     </message>
     <message>
-        <source>The installed show changes: %1</source>
-        <translation>已安装的节目将切换：%1</translation>
+        <source>The picture is being perfected.</source>
+        <translation>正在完善图片。</translation>
+    </message>
+    <message>
+        <source>The output is being opened.</source>
+        <translation>正在打开输出。</translation>
+    </message>
+    <message>
+        <source>The projector&apos;s screen is unplugged.</source>
+        <translation>投影机的屏幕已断开。</translation>
+    </message>
+    <message>
+        <source>The earlier correction still plays.</source>
+        <translation>仍在播放较早的补偿。</translation>
+    </message>
+    <message>
+        <source>There is nothing else on the list.</source>
+        <translation>列表中没有其他项目。</translation>
+    </message>
+    <message>
+        <source>The playlist is empty.</source>
+        <translation>播放列表为空。</translation>
+    </message>
+    <message>
+        <source>There is no other set.</source>
+        <translation>没有其他方案。</translation>
+    </message>
+    <message>
+        <source>The show changes by itself, here too: %1</source>
+        <translation>节目会自行切换，此处也一样：%1</translation>
     </message>
 </context>
 <context>
@@ -6020,6 +6149,29 @@ projector %2</source>
     <message>
         <source>The output goes on as before.</source>
         <translation>输出照旧进行。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::OutputProof</name>
+    <message>
+        <source>No venue is open.</source>
+        <translation>没有打开的场地。</translation>
+    </message>
+    <message>
+        <source>A photograph is being taken.</source>
+        <translation>正在拍照。</translation>
+    </message>
+    <message>
+        <source>Drift is being checked.</source>
+        <translation>正在检查漂移。</translation>
+    </message>
+    <message>
+        <source>It is being repaired.</source>
+        <translation>正在修复。</translation>
+    </message>
+    <message>
+        <source>The report is being written.</source>
+        <translation>正在写报告。</translation>
     </message>
 </context>
 <context>
@@ -6087,6 +6239,14 @@ projector %2</source>
     <message>
         <source>Perfect it again</source>
         <translation>再次完善</translation>
+    </message>
+    <message>
+        <source>No venue is open.</source>
+        <translation>没有打开的场地。</translation>
+    </message>
+    <message>
+        <source>The picture is being perfected.</source>
+        <translation>正在完善图片。</translation>
     </message>
 </context>
 <context>
@@ -6754,6 +6914,18 @@ projector %2</source>
         <source>Remove</source>
         <translation>移除</translation>
     </message>
+    <message>
+        <source>It is placed automatically.</source>
+        <translation>已自动放置。</translation>
+    </message>
+    <message>
+        <source>A picture is on the surface.</source>
+        <translation>表面上正显示图片。</translation>
+    </message>
+    <message>
+        <source>The output is open. Close it first.</source>
+        <translation>输出已打开。请先关闭。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -6775,6 +6947,14 @@ projector %2</source>
     <message>
         <source>%1 is at work. What is chosen here can be kept when that has ended.</source>
         <translation>%1正在进行。结束后才能保留此处的选择。</translation>
+    </message>
+    <message>
+        <source>The devices are in use at %1.</source>
+        <translation>设备正用于“%1”。</translation>
+    </message>
+    <message>
+        <source>Confirm that the room is clear.</source>
+        <translation>请确认已清场。</translation>
     </message>
 </context>
 <context>
@@ -6849,6 +7029,10 @@ projector %2</source>
     <message>
         <source>%1: %2</source>
         <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>There are no times yet.</source>
+        <translation>还没有时间。</translation>
     </message>
 </context>
 <context>
@@ -7325,6 +7509,10 @@ projector %2</source>
         <source>doubtful</source>
         <translation>存疑</translation>
     </message>
+    <message>
+        <source>Opens once %1 is done.</source>
+        <translation>完成“%1”后打开。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StreamDialog</name>
@@ -7604,6 +7792,18 @@ projector %2</source>
     <message>
         <source>Changed: it is applied as soon as you go on.</source>
         <translation>已更改：继续后即生效。</translation>
+    </message>
+    <message>
+        <source>What was measured is being read.</source>
+        <translation>正在读取测量结果。</translation>
+    </message>
+    <message>
+        <source>Pick a pixel in a picture.</source>
+        <translation>请在图片中选择一个像素。</translation>
+    </message>
+    <message>
+        <source>It is in use.</source>
+        <translation>正在使用。</translation>
     </message>
 </context>
 <context>
@@ -8261,10 +8461,6 @@ projector %2</source>
         <translation>添加投影机</translation>
     </message>
     <message>
-        <source>No other screen is there. Plug the next projector in.</source>
-        <translation>没有其他屏幕。请接上下一台投影机。</translation>
-    </message>
-    <message>
         <source>Projector %1</source>
         <translation>投影机 %1</translation>
     </message>
@@ -8465,6 +8661,10 @@ projector %2</source>
     <message>
         <source>Allow them if you know what they do, or know who made this venue.</source>
         <translation>如果您知道它们做什么，或知道是谁建立了这个场地，请允许。</translation>
+    </message>
+    <message>
+        <source>No other screen is plugged in.</source>
+        <translation>没有接上其他屏幕。</translation>
     </message>
 </context>
 <context>

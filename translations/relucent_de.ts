@@ -6988,7 +6988,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>The devices are in use at %1.</source>
-        <translation>Die Geräte sind bei „%1“ in Gebrauch.</translation>
+        <translation>Geräte in Gebrauch: %1.</translation>
     </message>
     <message>
         <source>Confirm that the room is clear.</source>

@@ -184,9 +184,10 @@ void AcquirePage::updateCommands() {
   const bool isNew = isStale() && again_ == 0;
   start_->setGlyph(isNew ? Icon::retry : Icon::play);
   start_->show(isNew ? tr("Measure again") : kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
-  // Devices in use are the hint's own matter.
+  // As the hint says it, so that it is said once.
+  const QString inUse = tr("The devices are in use at %1.").arg(session_.devicesUserName());
   const auto why = [&](const QString& unclear) {
-    return !session_.areDevicesFree() ? session_.whyInUse() : mayStart ? QString() : unclear;
+    return !session_.areDevicesFree() ? inUse : mayStart ? QString() : unclear;
   };
   measureAnew_->showUnless(why(tr("To measure again, confirm that the room is clear.")), tr("Measure again"));
   measureAnew_->setToolTip(mayStart ? tr("Takes every photograph again. What is measured stays until then.")

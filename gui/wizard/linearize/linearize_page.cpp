@@ -106,9 +106,10 @@ void LinearizePage::updateCommands() {
   measure_->show(isStale() ? tr("Measure again") : tr("Measure response"), !isMeasuring() && free);
   stop_->showUnless(job_.isStopping() ? tr("Stopping after the photograph under way.") : QString(),
                     tr("Stop"));
-  again_->showUnless(!session_.areDevicesFree() ? session_.whyInUse()
-                     : free                     ? QString()
-                                                : tr("To measure again, confirm that the room is clear."),
+  again_->showUnless(!session_.areDevicesFree()
+                         ? tr("The devices are in use at %1.").arg(session_.devicesUserName())
+                     : free ? QString()
+                            : tr("To measure again, confirm that the room is clear."),
                      tr("Measure again"));
   return_->show(tr("Keep the earlier one"), session_.areDevicesFree());
   return_->setToolTip(tr("The earlier curves are used again, with all that followed from them."));

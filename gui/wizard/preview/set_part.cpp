@@ -80,7 +80,10 @@ QWidget* setPart(PreviewPage& page) {
     // The action bar, or the note below, says it too.
     setPossible(box, why.isEmpty() && !now.isEmpty(), why);
     setPossible(more, why);
-    for (QAction* one : {rename, remove}) one->setVisible(!now.isEmpty());
+    for (QAction* one : {rename, remove}) {
+      one->setVisible(!now.isEmpty());
+      one->setEnabled(!now.isEmpty());
+    }
     problem->setVisible(isBroken);
     problem->setText(isBroken ? why : QString());
   };

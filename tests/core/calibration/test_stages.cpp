@@ -6,6 +6,7 @@
 
 #include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/message_json.h"
 #include "relucent/calibration/results.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"

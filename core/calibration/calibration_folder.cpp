@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <thread>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
@@ -47,10 +48,26 @@ bool holdsAnything(const fs::path& folder) {
   });
 }
 
+/// Whoever looks into a calibration while it plays does so for milliseconds: a writer waits for him.
+platform::FolderLock lockedSoon(const fs::path& folder, CalibrationFolder::Access access) {
+  constexpr auto patience = std::chrono::milliseconds(80), pause = std::chrono::milliseconds(5);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (true) {
+    try {
+      return {folder, access};
+    } catch (const std::system_error& failure) {
+      if (access != CalibrationFolder::Access::write || failure.code() != std::errc::operation_would_block ||
+          std::chrono::steady_clock::now() > end)
+        throw;
+    }
+    std::this_thread::sleep_for(pause);
+  }
+}
+
 /// Throws: Error{input} if another program holds a lock that excludes this one; Error{disk} if the folder
 /// cannot be opened.
 platform::FolderLock locked(const fs::path& folder, CalibrationFolder::Access access) try {
-  return {folder, access};
+  return lockedSoon(folder, access);
 } catch (const std::system_error& failure) {
   if (failure.code() == std::errc::operation_would_block)
     throw Error(

@@ -53,17 +53,21 @@ void checkCount(const std::vector<compensation::Position>& positions, std::size_
 EngineRenderer::EngineRenderer(const RendererSettings& wanted, Progress& progress,
                                const engine::FallbackBackend::Notify& notify, const engine::MakeGlHost& host)
     : settings_(wanted), notify_(notify) {
-  const calibration::CalibrationFolder folder = pipeline::openWithSet(wanted.calibration, wanted.set);
-  calibration_ = pipeline::loadCalibration(folder, progress);
-  correctedFrom_ = pipeline::fingerprintOfCorrection(folder);
-  const engine::EngineSettings settings = settingsOf(pipeline::settingsOf(folder).content);
+  Chosen chosen;
+  {
+    const calibration::CalibrationFolder folder = pipeline::openWithSet(wanted.calibration, wanted.set);
+    calibration_ = pipeline::loadCalibration(folder, progress);
+    chosen = chosenIn(folder);
+  }
+  correctedFrom_ = chosen.correctedFrom;
+  const engine::EngineSettings settings = settingsOf(chosen.settings.content);
   venue_.emplace(engine::prepareVenue(calibration_.venue, calibration_.inverse,
                                       calibration_.linearization.projectors, settings));
   const std::size_t views = calibration_.venue.transport.cameras().devices();
   checkCount(wanted.cameras, views);
   if (views > 1)
     cameras_ = wanted.cameras.empty() ? positionsOf(settings.target.views, views) : wanted.cameras;
-  set_ = setOf(folder);
+  set_ = setOf(chosen);
   set_->name = wanted.set;
   backend_ = engine::makeBackend(*venue_, wanted.backend, notify, host);
   backend_->setContent(set_->content);
@@ -80,12 +84,16 @@ engine::EngineSettings EngineRenderer::settingsOf(const pipeline::ContentSetting
   return settings;
 }
 
-std::shared_ptr<EngineRenderer::Set> EngineRenderer::setOf(
-    const calibration::CalibrationFolder& folder) const {
-  const pipeline::CalibrateSettings chosen = pipeline::settingsOf(folder);
-  const compensation::TargetSettings target = settingsOf(chosen.content).target;
+EngineRenderer::Chosen EngineRenderer::chosenIn(const calibration::CalibrationFolder& folder) {
+  return {pipeline::settingsOf(folder), pipeline::fingerprintOfShown(folder),
+          pipeline::fingerprintOfCorrection(folder)};
+}
+
+std::shared_ptr<EngineRenderer::Set> EngineRenderer::setOf(const Chosen& chosen) const {
+  const pipeline::ContentSettings& content = chosen.settings.content;
+  const compensation::TargetSettings target = settingsOf(content).target;
   auto set = std::make_shared<Set>();
-  set->shownFrom = pipeline::fingerprintOfShown(folder);
+  set->shownFrom = chosen.shownFrom;
   set->content = engine::prepareContent(*venue_, canvasSize(settings_.canvas), target);
   if (settings_.adaptiveRange) set->range.emplace(*venue_, set->content);
   if (target.brightness != compensation::Brightness::even)
@@ -95,12 +103,12 @@ std::shared_ptr<EngineRenderer::Set> EngineRenderer::setOf(
   set->rest.assign(set->content.viewWeight.begin(), set->content.viewWeight.end());
   if (!cameras_.empty()) set->follower.emplace(*venue_, set->content);
   if (settings_.fillsShadows) set->shadows.emplace(*venue_);
-  const compensation::Method method = chosen.content.method;
+  const compensation::Method method = content.method;
   // A range that follows the content is the engine's.
   if (!settings_.adaptiveRange || method != compensation::Method::refined)
-    set->still = std::make_unique<StillSolver>(calibration_, target, chosen.clustering, method);
-  const bool isOfThis = pipeline::fingerprintOfCorrection(folder) == correctedFrom_;
-  if (set->still && isOfThis && target.brightness == chosen.content.brightness)
+    set->still = std::make_unique<StillSolver>(calibration_, target, chosen.settings.clustering, method);
+  const bool isOfThis = chosen.correctedFrom == correctedFrom_;
+  if (set->still && isOfThis && target.brightness == content.brightness)
     set->perfected.emplace(settings_.calibration, set->shownFrom, calibration_.venue.transport.projectors(),
                            notify_);
   return set;
@@ -110,7 +118,8 @@ std::shared_ptr<PreparedSet> EngineRenderer::prepare(const std::string& name) {
   std::shared_ptr<Set> set;
   // Frames come first.
   tbb::task_arena arena(tbb::task_arena::automatic, 1, tbb::task_arena::priority::low);
-  arena.execute([&] { set = setOf(pipeline::openWithSet(settings_.calibration, name)); });
+  const Chosen chosen = chosenIn(pipeline::openWithSet(settings_.calibration, name));
+  arena.execute([&] { set = setOf(chosen); });
   set->name = name;
   return set;
 }

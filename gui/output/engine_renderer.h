@@ -22,8 +22,8 @@
 #include "relucent/engine/followed_brightness.h"
 #include "relucent/engine/step_budget.h"
 #include "relucent/engine/view_follower.h"
-#include "relucent/pipeline/content_settings.h"
 #include "relucent/pipeline/measured_venue.h"
+#include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::gui {
 
@@ -83,7 +83,13 @@ class EngineRenderer : public FrameRenderer {
     std::optional<engine::AvailabilityFollower> shadows;  // none: nobody asks for shadows to be filled
     std::shared_ptr<const engine::Availability> available;
   };
-  std::shared_ptr<Set> setOf(const calibration::CalibrationFolder& folder) const;
+  /// What follows from the calibration's manifest: nobody keeps others from it while content is prepared.
+  struct Chosen {
+    pipeline::CalibrateSettings settings;
+    std::string shownFrom, correctedFrom;
+  };
+  static Chosen chosenIn(const calibration::CalibrationFolder& folder);
+  std::shared_ptr<Set> setOf(const Chosen& chosen) const;
   engine::EngineSettings settingsOf(const pipeline::ContentSettings& content) const;
   /// The set that a frame is wanted by, from now on.
   void take(const std::shared_ptr<PreparedSet>& wanted);

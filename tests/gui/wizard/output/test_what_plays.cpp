@@ -138,7 +138,9 @@ class TestWhatPlays : public QObject {
       page_->followTimes();
       return inUse();
     };
+    // At once, while the other one is being prepared.
     page_->useSet("day");
+    QCOMPARE(inUse(), std::string("day"));
     QCOMPARE(at({23, 0}), std::string("day"));
     QCOMPARE(at({8, 0}), std::string("day"));
     QCOMPARE(at({18, 30}), std::string("night"));

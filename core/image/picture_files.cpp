@@ -182,6 +182,18 @@ cv::Mat quantised(const Image& encoded) {
   return picture;
 }
 
+/// `ending`: of the format's files, as OpenCV knows it.
+std::string encodedAs(const char* ending, const Image& encoded, int bits) {
+  require(!encoded.empty() && (encoded.channels() == 1 || encoded.channels() == 3),
+          "no {} of {}x{} pixels of {} channels", ending, encoded.width(), encoded.height(),
+          encoded.channels());
+  std::vector<std::uint8_t> bytes;
+  const cv::Mat picture = bits == 8 ? quantised<std::uint8_t>(encoded) : quantised<std::uint16_t>(encoded);
+  require(cv::imencode(ending, picture, bytes), "OpenCV cannot encode {}x{} pixels as {}", encoded.width(),
+          encoded.height(), ending);
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace
 
 Picture readPicture(const fs::path& path, Orientation orientation) {
@@ -203,13 +215,11 @@ Image readLinearContent(const fs::path& path) {
 
 std::string encodePng(const Image& encoded, int bits) {
   require(bits == 8 || bits == 16, "a PNG has 8 or 16 bits, not {}", bits);
-  require(!encoded.empty() && (encoded.channels() == 1 || encoded.channels() == 3),
-          "no PNG of {}x{} pixels of {} channels", encoded.width(), encoded.height(), encoded.channels());
-  std::vector<std::uint8_t> bytes;
-  const cv::Mat picture = bits == 8 ? quantised<std::uint8_t>(encoded) : quantised<std::uint16_t>(encoded);
-  require(cv::imencode(".png", picture, bytes), "OpenCV cannot encode {}x{} pixels as PNG", encoded.width(),
-          encoded.height());
-  return std::string(bytes.begin(), bytes.end());
+  return encodedAs(".png", encoded, bits);
+}
+
+std::string encodeJpeg(const Image& encoded) {
+  return encodedAs(".jpg", encoded, 8);
 }
 
 void writePng(const fs::path& path, const Image& encoded, int bits) {

@@ -37,6 +37,10 @@ Image readLinearContent(const std::filesystem::path& path);
 /// Throws: std::logic_error unless bits is 8 or 16 and no value is NaN.
 std::string encodePng(const Image& encoded, int bits);
 
+/// The bytes of a JPEG, likewise, of 8 bits, at the quality that is usual for its library.
+/// Throws: std::logic_error as encodePng().
+std::string encodeJpeg(const Image& encoded);
+
 /// Writes encodePng() atomically. Throws: Error{disk}.
 void writePng(const std::filesystem::path& path, const Image& encoded, int bits);
 

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "relucent/platform/descriptor.h"
+#include "relucent/platform/spawn_plan.h"
 
 extern char** environ;
 
@@ -48,22 +49,6 @@ std::string tailOf(int transcript) {
   return {tail.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0))};
 }
 
-/// What posix_spawn needs to know; both parts free themselves.
-struct SpawnPlan {
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t attributes;
-  SpawnPlan() {
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-  }
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-};
-
 /// Starts the shell as the leader of a process group of its own, with default signal handling. Gives the
 /// process and the system's error.
 std::pair<pid_t, int> spawnShell(const std::string& command, int transcript) {
@@ -71,16 +56,6 @@ std::pair<pid_t, int> spawnShell(const std::string& command, int transcript) {
   posix_spawn_file_actions_addopen(&plan.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&plan.files, transcript, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&plan.files, transcript, STDERR_FILENO);
-
-  sigset_t none, usual;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  for (int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT}) sigaddset(&usual, signal);
-  posix_spawnattr_setsigmask(&plan.attributes, &none);
-  posix_spawnattr_setsigdefault(&plan.attributes, &usual);
-  posix_spawnattr_setpgroup(&plan.attributes, 0);
-  posix_spawnattr_setflags(&plan.attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
   std::string shell = "sh", option = "-c", text = command;
   std::array<char*, 4> arguments{shell.data(), option.data(), text.data(), nullptr};

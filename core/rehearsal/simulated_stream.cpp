@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "relucent/image/jpeg.h"
+#include "relucent/image/picture_files.h"
 
 namespace relucent::rehearsal {
 namespace {

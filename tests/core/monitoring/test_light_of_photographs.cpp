@@ -129,6 +129,37 @@ class TestLightOfPhotographs : public QObject {
     for (double gain : fit.total) QVERIFY2(std::abs(gain - 1.0) < 0.01, qPrintable(QString::number(gain)));
   }
 
+  /// Law: a lamp's light is told against what it was in the first minutes.
+  void lampsAreHeldAgainstTheFirstMinutes_data() {
+    QTest::addColumn<double>("first");
+    QTest::addColumn<double>("later");
+    QTest::addColumn<bool>("isTold");
+    QTest::newRow("as measured, then faded") << 1.0 << 0.958 << true;
+    QTest::newRow("low from the beginning, then as far down") << 0.988 << 0.958 << false;
+    QTest::newRow("faded from the beginning") << 0.94 << 0.94 << true;
+  }
+  void lampsAreHeldAgainstTheFirstMinutes() {
+    QFETCH(double, first);
+    QFETCH(double, later);
+    QFETCH(bool, isTold);
+    Monitor monitor(venue_);
+    const ProjectorStack picture = syntheticPicture(5.0);
+    const std::vector<PlayedFrame> frames{{0.0, venue_.transport.meansOf(picture)}};
+    constexpr double begins = 620.0, interval = 5.0;  // seconds; the reference is known after 600
+    for (double seconds = 0.0; seconds < begins + 100.0; seconds += interval) {
+      const double gain = seconds < begins ? first : later;
+      const std::vector<float> radiance =
+          radianceOf(transport_, venue_, picture, std::vector<double>(6, gain));
+      rig::RawFrame photograph{image::Image(syntheticSize, 3), 0, 0.5 / *std::ranges::max_element(radiance)};
+      for (std::size_t i = 0; i < radiance.size(); ++i)
+        photograph.signal.data()[i] = radiance[i] * static_cast<float>(photograph.seconds);
+      QCOMPARE(monitor.look(photograph, seconds, frames).use, Look::Use::told);
+    }
+    const bool told = std::ranges::any_of(monitor.findings(),
+                                          [](const Finding& one) { return one.kind == FindingKind::faded; });
+    QCOMPARE(told, isTold);
+  }
+
   void theDarkTellsNothing() {
     const ProjectorStack picture(3 * 2 * syntheticSize.count(), 0.0f);
     const LightFit fit =

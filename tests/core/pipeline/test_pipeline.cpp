@@ -319,6 +319,15 @@ class TestPipeline : public QObject {
     QVERIFY2(corrected > mixed, qPrintable(QString("%1 %2").arg(corrected).arg(mixed)));
   }
 
+  void onePhotographPerfectsNothing() {
+    EvaluateSettings settings;
+    for (const auto& [photographs, isPossible] :
+         {std::pair{0, true}, {1, false}, {2, true}, {50, true}, {51, false}}) {
+      settings.perfected = photographs;
+      QCOMPARE(problems(settings).empty(), isPossible);
+    }
+  }
+
   void evaluatesEveryMethodInOrder() {
     EvaluateSettings settings;
     Progress silent;

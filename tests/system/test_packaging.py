@@ -183,6 +183,49 @@ class Run(Scripted):
         self.assertEqual(len(self.deeds()), 1)
 
 
+class Check(Scripted):
+    """packaging/test, which builds for the sanitizers behind the release build's tests."""
+
+    def setUp(self):
+        super().setUp()
+        self.says(installed="alpha new-name beta")
+
+    def tool(self, name, body):
+        path = self.folder / "tools" / name
+        path.write_text(f'#!/bin/bash\necho "{name} $*" >>"$STATE/calls"\n{body}\n')
+        path.chmod(0o755)
+
+    def check(self, building="true", testing="true"):
+        self.tool("cmake", building)
+        self.tool("ctest", testing)
+        environment = {"PATH": f"{self.folder}/tools:/usr/bin:/bin", "STATE": str(self.state)}
+        done = subprocess.run([self.folder / "packaging/test"], env=environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, check=False)
+        tested = [call.split()[2] for call in self.calls() if call.startswith("ctest")]
+        return done, tested
+
+    def test_both_builds_are_tested(self):
+        done, tested = self.check()
+        self.assertEqual((done.returncode, done.stderr, tested), (0, "", ["release", "asan"]))
+
+    def test_failures_of_one_do_not_keep_the_other_from_being_tested(self):
+        done, tested = self.check(testing="[[ $* != *release* ]]")
+        self.assertEqual((done.returncode, tested), (1, ["release", "asan"]))
+        self.assertRegex(done.stderr, "tests failed: release")
+
+    def test_the_sanitizers_tests_wait_for_their_build(self):
+        done, tested = self.check(building="[[ $* == *asan* ]] && sleep 0.5 && touch $STATE/built; true",
+                                  testing='[[ $* == *release* || -e $STATE/built ]]')
+        self.assertEqual((done.returncode, tested), (0, ["release", "asan"]), done.stderr)
+
+    def test_a_build_that_fails_is_told_and_not_tested(self):
+        for preset, tested in {"release": [], "asan": ["release"]}.items():
+            self.says(calls="")
+            done, found = self.check(building=f'[[ $* != *"--build --preset {preset}"* ]] || {{ echo "broken here"; exit 1; }}')
+            self.assertEqual((done.returncode, found), (1, tested))
+            self.assertRegex(done.stderr, f"broken here[^$]*building {preset} failed")
+
+
 class Materials(Scripted):
     """packaging/bill-of-materials on a system of scripted packages."""
 

@@ -28,6 +28,20 @@ bool isHexadecimal(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char digit) { return std::isxdigit(digit) != 0; });
 }
 
+/// "01:23:45:67:89:ab"
+bool isHardwareAddress(std::string_view text) {
+  constexpr std::size_t length = 17;  // six pairs of digits with colons between
+  if (text.size() != length) return false;
+  for (std::size_t i = 0; i < length; ++i)
+    if (i % 3 == 2 ? text[i] != ':' : !isHexadecimal(text.substr(i, 1))) return false;
+  return true;
+}
+
+std::string_view withoutEnd(std::string_view line) {
+  while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
+  return line;
+}
+
 std::vector<std::string_view> wordsOf(std::string_view text) {
   std::vector<std::string_view> words;
   while (!text.empty()) {
@@ -152,14 +166,22 @@ std::string glibVersion() {
   return fmt::format("{}.{}.{}", glib_major_version, glib_minor_version, glib_micro_version);
 }
 
+bool isNotice(std::string_view datagram) {
+  const std::string_view line = withoutEnd(datagram);
+  const auto says = [&](std::string_view command, auto reads) {
+    const std::optional<Answer> value = answerFrom(line, command);
+    return value && reads(value->value);
+  };
+  return line.substr(0, 2) == "%2" &&
+         (says("POWR", [](std::string_view value) { return powerFrom(value).has_value(); }) ||
+          says("ERST", [](std::string_view value) { return troublesFrom(value).has_value(); }) ||
+          says("INPT", [](std::string_view value) { return inputFrom(value).has_value(); }) ||
+          says("LKUP", isHardwareAddress));
+}
+
 std::optional<std::string> foundFrom(std::string_view datagram) {
-  while (!datagram.empty() && (datagram.back() == '\r' || datagram.back() == '\n')) datagram.remove_suffix(1);
-  const std::optional<Answer> answer = answerFrom(datagram, "ACKN");
-  constexpr std::size_t length = 17;  // six pairs of digits with colons between
-  if (!answer || answer->value.size() != length) return std::nullopt;
-  for (std::size_t i = 0; i < length; ++i)
-    if (i % 3 == 2 ? answer->value[i] != ':' : !isHexadecimal(answer->value.substr(i, 1)))
-      return std::nullopt;
+  const std::optional<Answer> answer = answerFrom(withoutEnd(datagram), "ACKN");
+  if (!answer || !isHardwareAddress(answer->value)) return std::nullopt;
   return answer->value;
 }
 

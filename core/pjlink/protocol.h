@@ -108,6 +108,10 @@ std::optional<int> numberFrom(std::string_view value);
 /// Of the library that carries the connections and computes MD5.
 std::string glibVersion();
 
+/// Whether this is what a projector of class 2 says unasked when it changes: "%2POWR=0", and ERST, INPT and
+/// LKUP.
+bool isNotice(std::string_view datagram);
+
 /// The hardware address in "%2ACKN=01:23:45:67:89:ab".
 std::optional<std::string> foundFrom(std::string_view datagram);
 

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "projectors/projector_watch.h"
 
+#include <QNetworkDatagram>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "relucent/pjlink/protocol.h"
+
 namespace relucent::gui {
+namespace {
+
+/// Of a projector with a name instead of a number anybody may be it: a look costs little.
+bool mayBe(const pjlink::Address& address, const QHostAddress& sender) {
+  const QHostAddress number(QString::fromStdString(address.host));
+  return number.isNull() || number.isEqual(sender, QHostAddress::TolerantConversion);
+}
+
+}  // namespace
+
 /// One projector's thread.
 class ProjectorWatch::Watcher {
  public:
   using Take = std::function<void(pjlink::Kept)>;
 
   Watcher(WatchedProjector projector, const pjlink::Wanted& wanted, Take take)
-      : keeper_(std::move(projector.address), std::move(projector.settings)),
+      : address_(projector.address),
+        betweenNotices_(projector.settings.soon),
+        keeper_(std::move(projector.address), std::move(projector.settings)),
         take_(std::move(take)),
         wanted_(wanted),
         thread_([this] { watch(); }) {}
@@ -35,6 +50,15 @@ class ProjectorWatch::Watcher {
     }
     changed_.notify_all();
   }
+  /// It may have changed.
+  void notice(const QHostAddress& sender) {
+    if (!mayBe(address_, sender)) return;
+    {
+      const std::lock_guard lock(guard_);
+      noticed_ = true;
+    }
+    changed_.notify_all();
+  }
 
  private:
   struct NoSink : ProgressSink {
@@ -46,6 +70,7 @@ class ProjectorWatch::Watcher {
     std::unique_lock lock(guard_);
     while (!ends_) {
       const pjlink::Wanted wanted = wanted_;
+      noticed_ = false;
       lock.unlock();
       std::chrono::milliseconds pause{};
       try {
@@ -56,10 +81,16 @@ class ProjectorWatch::Watcher {
         return;
       }
       lock.lock();
-      changed_.wait_for(lock, pause, [&] { return ends_ || wanted_ != wanted; });
+      const auto isCalled = [&] { return ends_ || wanted_ != wanted; };
+      // Whoever floods it with notices has it look no oftener than that.
+      const std::chrono::milliseconds deaf = std::min(pause, betweenNotices_);
+      if (!changed_.wait_for(lock, deaf, isCalled))
+        changed_.wait_for(lock, pause - deaf, [&] { return noticed_ || isCalled(); });
     }
   }
 
+  const pjlink::Address address_;
+  const std::chrono::milliseconds betweenNotices_;
   pjlink::Keeper keeper_;
   Take take_;
   NoSink sink_;
@@ -67,12 +98,13 @@ class ProjectorWatch::Watcher {
   std::mutex guard_;
   std::condition_variable changed_;
   pjlink::Wanted wanted_;
+  bool noticed_ = false;
   bool ends_ = false;
   std::thread thread_;  // last: it uses the others
 };
 
 ProjectorWatch::ProjectorWatch(std::vector<WatchedProjector> projectors, const pjlink::Wanted& wanted,
-                               int blackFor, QObject* parent)
+                               int blackFor, quint16 noticesAt, QObject* parent)
     : QObject(parent), wanted_(wanted), closes_(wanted.black) {
   black_.setSingleShot(true);
   black_.setInterval(blackFor);
@@ -89,6 +121,8 @@ ProjectorWatch::ProjectorWatch(std::vector<WatchedProjector> projectors, const p
           QMetaObject::invokeMethod(
               this, [this, index, kept = std::move(kept)] { take(index, kept); }, Qt::QueuedConnection);
         }));
+  connect(&notices_, &QUdpSocket::readyRead, this, &ProjectorWatch::readNotices);
+  notices_.bind(QHostAddress::Any, noticesAt, QUdpSocket::ShareAddress | QUdpSocket::ReuseAddressHint);
 }
 
 ProjectorWatch::~ProjectorWatch() = default;
@@ -107,6 +141,15 @@ void ProjectorWatch::want(const pjlink::Wanted& wanted) {
     black_.start();
   }
   pass();
+}
+
+void ProjectorWatch::readNotices() {
+  while (notices_.hasPendingDatagrams()) {
+    const QNetworkDatagram datagram = notices_.receiveDatagram(pjlink::longestLine);
+    const QByteArray bytes = datagram.data();
+    if (!pjlink::isNotice({bytes.constData(), static_cast<std::size_t>(bytes.size())})) continue;
+    for (const auto& watcher : watchers_) watcher->notice(datagram.senderAddress());
+  }
 }
 
 void ProjectorWatch::take(std::size_t index, const pjlink::Kept& kept) {

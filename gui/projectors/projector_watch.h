@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QString>
 #include <QTimer>
+#include <QUdpSocket>
 #include <memory>
 #include <vector>
 
@@ -31,8 +32,9 @@ class ProjectorWatch : public QObject {
 
  public:
   /// `wanted`: at first. `blackFor`: how long black must be wanted before shutters close, milliseconds.
+  /// `noticesAt`: the UDP port to which projectors say unasked that they changed; 0: any.
   ProjectorWatch(std::vector<WatchedProjector> projectors, const pjlink::Wanted& wanted, int blackFor = 2000,
-                 QObject* parent = nullptr);
+                 quint16 noticesAt = pjlink::standardPort, QObject* parent = nullptr);
   /// Cancels what is under way.
   ~ProjectorWatch() override;
 
@@ -40,6 +42,9 @@ class ProjectorWatch : public QObject {
   void want(const pjlink::Wanted& wanted);
   /// In their order.
   const std::vector<ProjectorState>& states() const { return states_; }
+  /// The port of notices; 0: a program that shares it with nobody has it, and changes are seen when they are
+  /// looked for.
+  quint16 listensAt() const { return notices_.localPort(); }
 
  Q_SIGNALS:
   /// Sentences for the log.
@@ -52,8 +57,10 @@ class ProjectorWatch : public QObject {
   class Watcher;
   void take(std::size_t index, const pjlink::Kept& kept);
   void pass();
+  void readNotices();
 
   std::vector<ProjectorState> states_;
+  QUdpSocket notices_;
   std::vector<std::unique_ptr<Watcher>> watchers_;
   pjlink::Wanted wanted_;
   bool closes_;  // shutters, as black has lasted

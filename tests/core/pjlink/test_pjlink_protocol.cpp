@@ -28,6 +28,10 @@ const Reader readers[]{
     {"number", "99999", [](std::string_view text) { return numberFrom(text).has_value(); }},
     {"found", "%2ACKN=01:23:45:67:89:ab\r",
      [](std::string_view text) { return foundFrom(text).has_value(); }},
+    {"notice of power", "%2POWR=0\r", isNotice},
+    {"notice of errors", "%2ERST=010200\r", isNotice},
+    {"notice of the input", "%2INPT=31\r", isNotice},
+    {"notice of the link", "%2LKUP=01:23:45:67:89:ab\r", isNotice},
 };
 
 /// One to three places changed, taken away, doubled, or cut off.

@@ -12,7 +12,12 @@ namespace relucent::gui {
 
 /// How a live picture that may be lost and come back is doing.
 struct LiveState {
-  enum class Phase { connecting, playing, lost };
+  enum class Phase {
+    connecting,
+    asking,  // whoever sits before the desktop is to choose in its dialog what is shown
+    playing,
+    lost
+  };
   std::uint64_t opening = 0;  // differs between two openings of the same address
   QString address;            // for people
   Phase phase = Phase::connecting;

@@ -67,7 +67,7 @@ class StreamDecoder::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  StreamPicture next() {
+  LivePicture next() {
     for (;;) {
       check();
       const int got = avcodec_receive_frame(codec_.get(), frame_.get());
@@ -75,7 +75,7 @@ class StreamDecoder::Impl {
       if (got == 0) break;
       feed();
     }
-    StreamPicture picture = arrivalOf(*frame_);
+    LivePicture picture = arrivalOf(*frame_);
     if (isPaced_) keepTime(*frame_);
     picture.image = pictureOf(*frame_, codec_->codec_id == AV_CODEC_ID_MJPEG);
     av_frame_unref(frame_.get());
@@ -201,9 +201,9 @@ class StreamDecoder::Impl {
   }
 
   /// Decoders give pictures in another order than packets.
-  StreamPicture arrivalOf(const AVFrame& frame) {
+  LivePicture arrivalOf(const AVFrame& frame) {
     const auto found = inside_.find(frame.pts);
-    const StreamPicture arrival = found != inside_.end() ? found->second : last_;
+    const LivePicture arrival = found != inside_.end() ? found->second : last_;
     if (found != inside_.end()) inside_.erase(found);
     return arrival;
   }
@@ -235,9 +235,9 @@ class StreamDecoder::Impl {
   bool isPaced_ = false, hasPlayed_ = false;
   Clock::time_point deadline_;
   std::chrono::milliseconds waited_{0};
-  StreamPicture last_;                            // without its picture: the newest packet
-  std::map<std::int64_t, StreamPicture> inside_;  // likewise, by time stamp
-  std::optional<Clock::time_point> begun_;        // when the stream's own time was 0
+  LivePicture last_;                            // without its picture: the newest packet
+  std::map<std::int64_t, LivePicture> inside_;  // likewise, by time stamp
+  std::optional<Clock::time_point> begun_;      // when the stream's own time was 0
 };
 
 StreamDecoder::StreamDecoder(const StreamAddress& address, const StreamPatience& patience,
@@ -246,7 +246,7 @@ StreamDecoder::StreamDecoder(const StreamAddress& address, const StreamPatience&
 
 StreamDecoder::~StreamDecoder() = default;
 
-StreamPicture StreamDecoder::next() {
+LivePicture StreamDecoder::next() {
   return impl_->next();
 }
 

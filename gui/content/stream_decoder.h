@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QImage>
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 
+#include "content/live_link.h"
 #include "content/stream_address.h"
 
 namespace relucent::gui {
@@ -17,20 +16,11 @@ struct StreamPatience {
   std::chrono::milliseconds stalled{5'000};   // from one picture to the next
 };
 
-/// A picture of a stream.
-struct StreamPicture {
-  QImage image;  // Format_RGBX8888, upright, of the stream's size
-  /// When the packet that held it was there to be decoded.
-  std::chrono::steady_clock::time_point arrived{};
-  /// How long before that it was sent, by the sender's clock and this computer's, where the stream tells.
-  std::optional<double> senderSeconds{};
-};
-
 /// One connection to a stream, its video decoded by FFmpeg, whose libraries no other file knows. All calls
 /// block, but no longer than their patience, names that are looked up apart; from one thread.
 /// Pictures are given as they come. What comes in advance, as films and HLS do, is given by its own times.
 /// What the other side says is opened by protocols of the network alone, never a file.
-class StreamDecoder {
+class StreamDecoder : public LiveFeed {
  public:
   /// Looks whether somebody waits for it still, many times a second.
   using IsUnwanted = std::function<bool()>;
@@ -38,13 +28,13 @@ class StreamDecoder {
   /// Connects. Throws: Error{device} if the host is not found, refuses, does not answer, or wants a password;
   /// Error{format} if what comes is no video that can be decoded; Cancelled once it is unwanted.
   StreamDecoder(const StreamAddress& address, const StreamPatience& patience, IsUnwanted isUnwanted);
-  ~StreamDecoder();
+  ~StreamDecoder() override;
   StreamDecoder(const StreamDecoder&) = delete;
   StreamDecoder& operator=(const StreamDecoder&) = delete;
 
   /// The next picture. Throws: Error{device} if the stream ends or stalls; Error{format} for samples of an
   /// unknown kind; as encodingOf(); Cancelled.
-  StreamPicture next();
+  LivePicture next() override;
 
  private:
   class Impl;

@@ -17,6 +17,8 @@ QString phaseName(Phase phase) {
   switch (phase) {
     case Phase::connecting:
       return "connecting";
+    case Phase::asking:
+      return "asking";
     case Phase::playing:
       return "playing";
     case Phase::lost:

@@ -24,14 +24,14 @@ using Phase = LiveState::Phase;
 
 const Canvas canvas{{32, 24}, Fit::fill};
 const StreamPatience soon{4'000ms, 400ms};
-const StreamPauses short_{50ms, 200ms, 10'000ms};
+const LivePauses short_{50ms, 200ms, 10'000ms};
 const Samples red{81, 90, 240}, green{145, 54, 34};
 
 /// A show whose time goes on.
 class Played {
  public:
   explicit Played(const QString& which, const StreamPatience& patience = soon,
-                  const StreamPauses& pauses = short_)
+                  const LivePauses& pauses = short_)
       : stream_(std::make_unique<LiveStream>(streamAddressFrom(which), canvas, patience, pauses)) {}
   ContentPicture picture() { return stream_->at(time_ += 1ms); }
   /// Largest difference of a code in the middle; JPEG at quality 95 and MPEG-2 at many bits stay below 6.

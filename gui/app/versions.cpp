@@ -8,6 +8,7 @@
 #include <QFile>
 
 #include "content/stream_decoder.h"
+#include "desktop/cast_frames.h"
 #include "remote/osc_message.h"
 
 namespace relucent::gui {
@@ -28,6 +29,7 @@ std::vector<pipeline::LibraryVersion> allLibraries() {
   std::vector<pipeline::LibraryVersion> libraries = pipeline::coreLibraries();
   libraries.push_back({"Qt", qVersion()});
   libraries.push_back({"FFmpeg", "libavformat " + streamLibraryVersion().toStdString()});
+  libraries.push_back({"PipeWire", castLibraryVersion().toStdString()});
   libraries.push_back({"liblo", oscLibraryVersion().toStdString()});
   libraries.push_back({"VTK", vtkVersion::GetVTKVersion()});
   libraries.push_back({"spdlog", std::to_string(SPDLOG_VER_MAJOR) + '.' + std::to_string(SPDLOG_VER_MINOR) +

@@ -14,6 +14,9 @@ namespace relucent::gui {
 /// Content time: shared by all projectors, stops while the show is paused.
 using ContentTime = std::chrono::microseconds;
 
+/// Whether somebody is there, while content plays, who could answer a question.
+enum class Attendance { attended, unattended };
+
 /// A picture of content.
 struct ContentPicture {
   QImage image;              // upright, opaque; sRGB in Format_RGBX8888, or linear in Format_RGBX32FPx4

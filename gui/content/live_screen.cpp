@@ -19,8 +19,7 @@ class LiveScreen::Grabber {
       throw Error(ErrorKind::device,
                   RELUCENT_MESSAGE("content.no-x-server",
                                    "the live picture of a screen needs an X server, and none answers"),
-                  RELUCENT_MESSAGE("content.log-in-to-xorg",
-                                   "log in to a desktop on X (\"Xorg\" at the log-in), or play files"));
+                  RELUCENT_MESSAGE("content.log-in-to-xorg", "log in to a desktop, or play files"));
     what == What::screen ? findScreen() : findWindow();
   }
 

@@ -8,9 +8,9 @@
 
 namespace relucent::gui {
 
-/// The live picture of one of the desktop's screens, or of a window, through the X server: its present
-/// contents, without the pointer. Covered parts of a window are missing. While the screen or window does not
-/// exist its last picture stays.
+/// The live picture of one of the desktop's screens, or of a window, through the X server, where there is no
+/// Wayland: its present contents, without the pointer. Covered parts of a window are missing. While the
+/// screen or window does not exist its last picture stays.
 class LiveScreen : public LiveSource {
  public:
   enum class What {

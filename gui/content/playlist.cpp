@@ -9,6 +9,7 @@
 #include "content/content_address.h"
 #include "content/image_sequence.h"
 #include "content/live_camera.h"
+#include "content/live_cast.h"
 #include "content/live_screen.h"
 #include "content/live_stream.h"
 #include "content/still_image.h"
@@ -35,21 +36,31 @@ std::unique_ptr<ContentSource> openChart(const QString& name, const Canvas& canv
                   .with(known.join(", ").toStdString()));
 }
 
+std::unique_ptr<ContentSource> openScreen(const ContentAddress& address, const Canvas& canvas,
+                                          Attendance attendance) {
+  const bool isScreen = address.kind == ContentAddress::Kind::screen;
+  if (isGivenByPortal())
+    return std::make_unique<LiveCast>(isScreen ? ScreenCastWish::What::screen : ScreenCastWish::What::window,
+                                      address.which, canvas, attendance);
+  return std::make_unique<LiveScreen>(isScreen ? LiveScreen::What::screen : LiveScreen::What::window,
+                                      address.which, canvas);
+}
+
 ContentTime fromSeconds(double seconds) {
   return ContentTime(std::llround(1e6 * seconds));
 }
 
 }  // namespace
 
-std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas) {
+std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas,
+                                           Attendance attendance) {
   ContentAddress address = addressOf(item.path);
   switch (address.kind) {
     case ContentAddress::Kind::chart:
       return openChart(address.which, canvas);
     case ContentAddress::Kind::screen:
-      return std::make_unique<LiveScreen>(LiveScreen::What::screen, address.which, canvas);
     case ContentAddress::Kind::window:
-      return std::make_unique<LiveScreen>(LiveScreen::What::window, address.which, canvas);
+      return openScreen(address, canvas, attendance);
     case ContentAddress::Kind::camera:
       return std::make_unique<LiveCamera>(address.which, canvas);
     case ContentAddress::Kind::stream:
@@ -63,8 +74,8 @@ std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canva
   return std::make_unique<StillImage>(item.path, canvas);
 }
 
-Playlist::Playlist(PlaylistSettings settings, Canvas canvas)
-    : settings_(std::move(settings)), canvas_(canvas) {
+Playlist::Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance)
+    : settings_(std::move(settings)), canvas_(canvas), attendance_(attendance) {
   if (std::vector<Message> wrong = problems(settings_); !wrong.empty())
     throw Error(ErrorKind::input, wrong.front(),
                 RELUCENT_ENGLISH_MESSAGE("content.change-playlist", "change the playlist"));
@@ -100,8 +111,8 @@ void Playlist::openNext(qsizetype after) {
 void Playlist::open(qsizetype index) {
   opened_ = {};
   openingIndex_ = index;
-  opening_ = startedInBackground([item = settings_.items[index], canvas = canvas_] {
-    return std::shared_ptr<ContentSource>(openContent(item, canvas));
+  opening_ = startedInBackground([item = settings_.items[index], canvas = canvas_, attendance = attendance_] {
+    return std::shared_ptr<ContentSource>(openContent(item, canvas, attendance));
   });
 }
 
@@ -138,8 +149,9 @@ bool Playlist::nextIsReady(ContentTime now) {
     next_.begin = now;
     return true;
   }
-  if (now < opened_.begin + livePatience) return false;
   const std::optional<LiveState> live = opened_.source->live();
+  if (live && live->phase == LiveState::Phase::asking) opened_.begin = now;
+  if (now < opened_.begin + livePatience) return false;
   Message problem = RELUCENT_MESSAGE("stream.not-yet", "it has given no picture yet");
   if (live && !live->problem.empty()) problem = live->problem;
   skip(RELUCENT_MESSAGE("stream.not-ready", "{}: {}")

@@ -46,15 +46,17 @@ PlaylistSettings readPlaylist(const QString& file);
 void savePlaylist(const QString& file, const PlaylistSettings& settings);
 
 /// Opens an item's source. Throws: as the sources.
-std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas);
+std::unique_ptr<ContentSource> openContent(const PlaylistItem& item, const Canvas& canvas,
+                                           Attendance attendance = Attendance::attended);
 
 /// Plays items one after the other, with cross-fades, in a loop. The next item is opened on another thread as
-/// soon as one begins; if it is not ready in time, the present one stays longer. Unreadable items are
-/// reported, skipped, and tried again in the next round; so are streams that give no picture in time.
+/// soon as one begins; if it is not ready in time, or somebody has to choose what it is, the present one
+/// stays longer. Unreadable items are reported, skipped, and tried again in the next round; so are streams
+/// that give no picture in time.
 class Playlist : public ContentSource {
  public:
   /// Throws: Error{input} for wrong settings.
-  Playlist(PlaylistSettings settings, Canvas canvas);
+  Playlist(PlaylistSettings settings, Canvas canvas, Attendance attendance = Attendance::attended);
   ~Playlist() override;
 
   /// An empty image while no item can be read.
@@ -100,6 +102,7 @@ class Playlist : public ContentSource {
 
   PlaylistSettings settings_;
   Canvas canvas_;
+  Attendance attendance_;
   Playing current_, next_;
   QFuture<Outcome<std::shared_ptr<ContentSource>>> opening_;
   qsizetype openingIndex_ = -1;

@@ -147,7 +147,7 @@ void Show::open() {
   }
   playing_ = playedBy(settings_.calibration, wantedSet_);
   playsPerfected_ = pipeline::perfectedState(settings_.calibration);
-  content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas);
+  content_ = std::make_shared<Playlist>(settings_.content, settings_.canvas, Attendance::unattended);
   toldSkipped_.clear();
   followedItem_ = -1;
   std::vector<ProjectorWindow*> windows;

@@ -808,6 +808,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>تحقق من أن الشاشة مشغّلة، أو أن النافذة مفتوحة</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>لم يعد سطح المكتب يقدّم ما اختير من قبل</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>شغّله مرة أخرى واختر هناك ما يُعرض</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>شغّله مرة في المعالج، في صفحة «الخرج»، واختر هناك؛ ثم يأخذ العرض الاختيار نفسه</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>أنهاه سطح المكتب</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>ثبّت pipewire و wireplumber، ثم سجّل الدخول من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>ثبّت xdg-desktop-portal والجزء الخاص منه بسطح المكتب هذا، ثم سجّل الدخول من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>سجّل الدخول من جديد</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>لا يستجيب PipeWire الذي ينقل الصورة</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>ليس لسطح المكتب هذا بوابة تقدّم صورة شاشة</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>يقدّم سطح المكتب هذا صور الشاشات، لا صور النوافذ</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>لم يختر أحد في مربع حوار سطح المكتب ما يُعرض</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>شغّل الشاشة التي عليها النافذة</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>لا تقدّم بوابة سطح المكتب أي صورة ({})</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>لم تستجب بوابة سطح المكتب منذ {} ث</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>رُفض ذلك في مربع حوار سطح المكتب</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>ما يرسله سطح المكتب ليس صورة يمكن عرضها</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>حدّث بوابة سطح المكتب و PipeWire</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -1022,8 +1148,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>سجّل الدخول إلى سطح مكتب يعمل على X (اختر «Xorg» عند تسجيل الدخول)، أو شغّل ملفات</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>سجّل الدخول إلى سطح مكتب، أو شغّل ملفات</translation>
     </message>
 </context>
 <context>
@@ -6303,6 +6429,38 @@ projector %2</source>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>يتبدّل العرض تلقائيًا، هنا أيضًا: %1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>اختر في مربع حوار سطح المكتب ما يعرضه %1</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>إضافة شاشة أو نافذة</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>الصورة الحية لشاشة من شاشات هذا الحاسوب، أو لنافذة عليها.</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>شاشة تُختار في مربع حوار سطح المكتب</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>نافذة تُختار في مربع حوار سطح المكتب</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>الشاشة %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>النافذة %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>لا يوجد سطح مكتب يمكن عرض شاشاته.</translation>
     </message>
 </context>
 <context>

@@ -792,6 +792,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>sehen Sie nach, ob der Bildschirm eingeschaltet oder das Fenster offen ist</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>der Desktop gibt nicht mehr, was dafür gewählt war</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>spielen Sie es erneut ab und wählen Sie dort, was gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>spielen Sie es einmal im Assistenten unter „Ausgabe“ ab und wählen Sie dort; eine Show nimmt dann dasselbe</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>der Desktop hat es beendet</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>installieren Sie pipewire und wireplumber und melden Sie sich neu an</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>installieren Sie xdg-desktop-portal und seinen Teil für diesen Desktop und melden Sie sich neu an</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>melden Sie sich neu an</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>PipeWire, das das Bild bringt, antwortet nicht</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>dieser Desktop hat kein Portal, das das Bild eines Bildschirms gibt</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>dieser Desktop gibt Bilder von Bildschirmen, nicht von Fenstern</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>niemand hat im Dialog des Desktops gewählt, was gezeigt wird</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>spielen Sie den Bildschirm ab, auf dem das Fenster ist</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>das Portal des Desktops gibt kein Bild ({})</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>das Portal des Desktops hat {} s lang nicht geantwortet</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>es wurde im Dialog des Desktops abgelehnt</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>was der Desktop sendet, ist kein Bild, das gezeigt werden kann</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>aktualisieren Sie das Portal des Desktops und PipeWire</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -998,8 +1124,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>melden Sie sich an einem Desktop mit X an („Xorg“ bei der Anmeldung) oder spielen Sie Dateien ab</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>melden Sie sich an einem Desktop an oder spielen Sie Dateien ab</translation>
     </message>
 </context>
 <context>
@@ -6159,6 +6285,38 @@ Projektor %2</translation>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>Die Show wechselt von selbst, auch hier: %1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>Wählen Sie im Dialog des Desktops, was als %1 gezeigt wird</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>Bildschirm oder Fenster hinzufügen</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>Das Live-Bild eines Bildschirms dieses Rechners oder eines Fensters darauf.</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>Ein Bildschirm, im Dialog des Desktops gewählt</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>Ein Fenster, im Dialog des Desktops gewählt</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Bildschirm %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>Fenster %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>Es gibt keinen Desktop, dessen Bildschirme gezeigt werden könnten.</translation>
     </message>
 </context>
 <context>

@@ -792,6 +792,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>compruebe que la pantalla esté encendida, o la ventana abierta</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>el escritorio ya no da lo que se había elegido</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>reprodúzcalo de nuevo y elija ahí qué se muestra</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>reprodúzcalo una vez en el asistente, en «Salida», y elija ahí; un show toma después lo mismo</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>el escritorio lo ha terminado</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>instale pipewire y wireplumber y vuelva a iniciar sesión</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>instale xdg-desktop-portal y su parte para este escritorio y vuelva a iniciar sesión</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>vuelva a iniciar sesión</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>PipeWire, que trae la imagen, no responde</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>este escritorio no tiene un portal que dé la imagen de una pantalla</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>este escritorio da imágenes de pantallas, no de ventanas</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>nadie ha elegido en el diálogo del escritorio qué se muestra</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>reproduzca la pantalla en la que está la ventana</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>el portal del escritorio no da ninguna imagen ({})</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>el portal del escritorio no ha respondido en {} s</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>se rechazó en el diálogo del escritorio</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>lo que envía el escritorio no es una imagen que se pueda mostrar</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>actualice el portal del escritorio y PipeWire</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -998,8 +1124,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>inicie sesión en un escritorio con X («Xorg» en el inicio de sesión) o reproduzca archivos</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>inicie sesión en un escritorio, o reproduzca archivos</translation>
     </message>
 </context>
 <context>
@@ -6159,6 +6285,38 @@ proyector %2</translation>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>El show cambia solo, también aquí: %1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>Elija en el diálogo del escritorio qué muestra %1</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>Añadir una pantalla o ventana</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>La imagen en vivo de una pantalla de este ordenador, o de una ventana en ella.</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>Una pantalla, elegida en el diálogo del escritorio</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>Una ventana, elegida en el diálogo del escritorio</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Pantalla %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>Ventana %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>No hay ningún escritorio cuyas pantallas se puedan mostrar.</translation>
     </message>
 </context>
 <context>

@@ -792,6 +792,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>vérifiez que l’écran est allumé, ou la fenêtre ouverte</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>le bureau ne donne plus ce qui avait été choisi</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>relancez la lecture et choisissez-y ce qui est montré</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>lisez-le une fois dans l’assistant, sous « Sortie », et choisissez-y ; une diffusion prend ensuite le même choix</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>le bureau y a mis fin</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>installez pipewire et wireplumber, puis reconnectez-vous à la session</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>installez xdg-desktop-portal et sa partie pour ce bureau, puis reconnectez-vous à la session</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>reconnectez-vous à la session</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>PipeWire, qui apporte l’image, ne répond pas</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>ce bureau n’a pas de portail qui donne l’image d’un écran</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>ce bureau donne des images d’écrans, pas de fenêtres</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>personne n’a choisi dans le dialogue du bureau ce qui est montré</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>lisez l’écran sur lequel se trouve la fenêtre</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>le portail du bureau ne donne pas d’image ({})</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>le portail du bureau n’a pas répondu pendant {} s</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>cela a été refusé dans le dialogue du bureau</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>ce que le bureau envoie n’est pas une image qui puisse être montrée</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>mettez à jour le portail du bureau et PipeWire</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -998,8 +1124,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>ouvrez une session de bureau X («&#x202f;Xorg&#x202f;» à l’ouverture de session), ou diffusez des fichiers</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>connectez-vous à un bureau, ou lisez des fichiers</translation>
     </message>
 </context>
 <context>
@@ -6159,6 +6285,38 @@ projecteur %2</translation>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>La diffusion change d’elle-même, ici aussi&#xa0;: %1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>Choisissez dans le dialogue du bureau ce que %1 montre</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>Ajouter un écran ou une fenêtre</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>L’image en direct d’un écran de cet ordinateur, ou d’une fenêtre qui s’y trouve.</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>Un écran, choisi dans le dialogue du bureau</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>Une fenêtre, choisie dans le dialogue du bureau</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Écran %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>Fenêtre %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>Il n’y a pas de bureau dont les écrans pourraient être montrés.</translation>
     </message>
 </context>
 <context>

@@ -792,6 +792,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>controllare che lo schermo sia acceso, o la finestra aperta</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>il desktop non dà più ciò che era stato scelto</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>riprodurlo di nuovo e scegliere lì che cosa mostrare</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>riprodurlo una volta nella procedura guidata, in «Uscita», e scegliere lì; uno show prende poi lo stesso</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>il desktop lo ha terminato</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>installare pipewire e wireplumber e accedere di nuovo</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>installare xdg-desktop-portal e la sua parte per questo desktop e accedere di nuovo</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>accedere di nuovo</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>PipeWire, che porta l’immagine, non risponde</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>questo desktop non ha un portale che dia l’immagine di uno schermo</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>questo desktop dà immagini di schermi, non di finestre</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>nessuno ha scelto nella finestra di dialogo del desktop che cosa mostrare</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>riprodurre lo schermo su cui si trova la finestra</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>il portale del desktop non dà alcuna immagine ({})</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>il portale del desktop non ha risposto per {} s</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>è stato rifiutato nella finestra di dialogo del desktop</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>ciò che il desktop invia non è un’immagine che si possa mostrare</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>aggiornare il portale del desktop e PipeWire</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -998,8 +1124,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>accedere a un desktop con X («Xorg» all’accesso) o riprodurre file</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>accedere a un desktop, o riprodurre file</translation>
     </message>
 </context>
 <context>
@@ -6159,6 +6285,38 @@ proiettore %2</translation>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>Lo show cambia da solo, anche qui: %1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>Scegliere nella finestra di dialogo del desktop che cosa mostra %1</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>Aggiungi uno schermo o una finestra</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>L’immagine dal vivo di uno schermo di questo computer, o di una finestra su di esso.</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>Uno schermo, scelto nella finestra di dialogo del desktop</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>Una finestra, scelta nella finestra di dialogo del desktop</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>Schermo %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>Finestra %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>Non c’è alcun desktop i cui schermi si possano mostrare.</translation>
     </message>
 </context>
 <context>

@@ -788,6 +788,132 @@
     </message>
 </context>
 <context>
+    <name>cast.check-screen</name>
+    <message>
+        <source>see whether the screen is on, or the window open</source>
+        <translation>画面がオンになっているか、ウィンドウが開いているかを確認してください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choice-refused</name>
+    <message>
+        <source>the desktop no longer gives what was chosen for it</source>
+        <translation>デスクトップは、以前に選ばれたものをもう提供しません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-again</name>
+    <message>
+        <source>play it again, and choose there what is shown</source>
+        <translation>もう一度再生し、そこで表示するものを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.choose-in-wizard</name>
+    <message>
+        <source>play it once in the wizard, on Output, and choose there; a show then takes the same</source>
+        <translation>ウィザードの「出力」で一度再生して選んでください。その後のショーは同じものを使います</translation>
+    </message>
+</context>
+<context>
+    <name>cast.ended</name>
+    <message>
+        <source>the desktop has ended it</source>
+        <translation>デスクトップが終了させました</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-pipewire</name>
+    <message>
+        <source>install pipewire and wireplumber, and log in again</source>
+        <translation>pipewire と wireplumber をインストールし、ログインし直してください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.install-portal</name>
+    <message>
+        <source>install xdg-desktop-portal and its part for this desktop, and log in again</source>
+        <translation>xdg-desktop-portal とこのデスクトップ用の部分をインストールし、ログインし直してください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.log-in-again</name>
+    <message>
+        <source>log in again</source>
+        <translation>ログインし直してください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-pipewire</name>
+    <message>
+        <source>PipeWire, which brings the picture, does not answer</source>
+        <translation>映像を届ける PipeWire が応答しません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-portal</name>
+    <message>
+        <source>this desktop has no portal that gives the picture of a screen</source>
+        <translation>このデスクトップには、画面の映像を提供するポータルがありません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.no-windows</name>
+    <message>
+        <source>this desktop gives pictures of screens, not of windows</source>
+        <translation>このデスクトップが提供するのは画面の映像で、ウィンドウの映像ではありません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.not-chosen</name>
+    <message>
+        <source>nobody has chosen in the desktop&apos;s dialog what is shown</source>
+        <translation>デスクトップのダイアログで、表示するものが選ばれませんでした</translation>
+    </message>
+</context>
+<context>
+    <name>cast.play-screen</name>
+    <message>
+        <source>play the screen on which the window is</source>
+        <translation>そのウィンドウがある画面を再生してください</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-failed</name>
+    <message>
+        <source>the desktop&apos;s portal gives no picture ({})</source>
+        <translation>デスクトップのポータルが映像を提供しません（{}）</translation>
+    </message>
+</context>
+<context>
+    <name>cast.portal-silent</name>
+    <message>
+        <source>the desktop&apos;s portal has not answered for {} s</source>
+        <translation>デスクトップのポータルが {} s の間応答していません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.refused</name>
+    <message>
+        <source>it was refused in the desktop&apos;s dialog</source>
+        <translation>デスクトップのダイアログで拒否されました</translation>
+    </message>
+</context>
+<context>
+    <name>cast.unusable</name>
+    <message>
+        <source>what the desktop sends is no picture that can be shown</source>
+        <translation>デスクトップから届くのは、表示できる映像ではありません</translation>
+    </message>
+</context>
+<context>
+    <name>cast.update-desktop</name>
+    <message>
+        <source>update the desktop&apos;s portal and PipeWire</source>
+        <translation>デスクトップのポータルと PipeWire を更新してください</translation>
+    </message>
+</context>
+<context>
     <name>check.colour-wheel</name>
     <message>
         <source>The colours come one after the other, as through a colour wheel ({} % in {} ms): expose whole frames, multiples of {} ms.</source>
@@ -992,8 +1118,8 @@
 <context>
     <name>content.log-in-to-xorg</name>
     <message>
-        <source>log in to a desktop on X (&quot;Xorg&quot; at the log-in), or play files</source>
-        <translation>X のデスクトップにログインするか（ログイン画面で「Xorg」を選択）、ファイルを再生してください</translation>
+        <source>log in to a desktop, or play files</source>
+        <translation>デスクトップにログインするか、ファイルを再生してください</translation>
     </message>
 </context>
 <context>
@@ -6123,6 +6249,38 @@ projector %2</source>
     <message>
         <source>The show changes by itself, here too: %1</source>
         <translation>ショーは自動で切り替わります（ここでも）：%1</translation>
+    </message>
+    <message>
+        <source>Choose in the desktop&apos;s dialog what to show as %1</source>
+        <translation>%1 として表示するものをデスクトップのダイアログで選んでください</translation>
+    </message>
+    <message>
+        <source>Add a screen or window</source>
+        <translation>画面またはウィンドウを追加</translation>
+    </message>
+    <message>
+        <source>The live picture of a screen of this computer, or of a window on it.</source>
+        <translation>このコンピューターの画面、またはその上のウィンドウのライブ映像です。</translation>
+    </message>
+    <message>
+        <source>A screen, chosen in the desktop&apos;s dialog</source>
+        <translation>画面（デスクトップのダイアログで選択）</translation>
+    </message>
+    <message>
+        <source>A window, chosen in the desktop&apos;s dialog</source>
+        <translation>ウィンドウ（デスクトップのダイアログで選択）</translation>
+    </message>
+    <message>
+        <source>Screen %1</source>
+        <translation>画面 %1</translation>
+    </message>
+    <message>
+        <source>Window %1</source>
+        <translation>ウィンドウ %1</translation>
+    </message>
+    <message>
+        <source>There is no desktop whose screens could be shown.</source>
+        <translation>画面を表示できるデスクトップがありません。</translation>
     </message>
 </context>
 <context>

@@ -19,6 +19,7 @@
 #include "views/number_text.h"
 #include "wizard/frame/page_view.h"
 #include "wizard/output/output_page.h"
+#include "wizard/output/screen_menu.h"
 #include "wizard/output/stream_dialog.h"
 
 namespace relucent::gui {
@@ -124,6 +125,9 @@ QString troubleText(const std::vector<LiveState>& streams) {
   for (const LiveState& stream : streams) {
     if (stream.phase == LiveState::Phase::connecting)
       lines << OutputPage::tr("Connecting to %1").arg(isolated(stream.address));
+    else if (stream.phase == LiveState::Phase::asking)
+      lines << OutputPage::tr("Choose in the desktop's dialog what to show as %1")
+                   .arg(isolated(stream.address));
     else if (stream.phase == LiveState::Phase::lost)
       lines << OutputPage::tr("Lost: %1. %2").arg(isolated(stream.address), fullSentence(stream.problem));
   }
@@ -170,6 +174,11 @@ QWidget* playlistPart(OutputPage& page) {
   stream->setObjectName("playlist-stream");
   stream->setToolTip(OutputPage::tr("A live picture from the network, as cameras and encoders send it."));
   column->addWidget(stream);
+  QPushButton* screen = buttonOf(OutputPage::tr("Add a screen or window"));
+  screen->setObjectName("playlist-screen");
+  screen->setToolTip(OutputPage::tr("The live picture of a screen of this computer, or of a window on it."));
+  screen->setMenu(screenMenu(page, screen));
+  column->addWidget(screen);
   auto* fadeRow = new ValueRow(OutputPage::tr("Cross-fade"));
   auto* fade = new QSlider(Qt::Horizontal);
   fade->setObjectName("fade");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How streams get into Output's playlist. On two screens, see tests/support/with-two-screens.
+#include <QMenu>
 #include <QTemporaryDir>
 #include <QtTest>
+#include <algorithm>
 
 #include "gui/app/layout_faults.h"
 #include "gui/app/naming_faults.h"
@@ -9,6 +11,7 @@
 #include "relucent/base/file.h"
 #include "wizard/output/output_page.h"
 #include "wizard/output/playlist_view.h"
+#include "wizard/output/screen_menu.h"
 #include "wizard/output/stream_dialog.h"
 
 using namespace relucent;
@@ -86,6 +89,33 @@ class TestStreamDialog : public QObject {
     QCOMPARE(item->text(), QString("rtsp://camera/live"));
     for (int role : {int(Qt::DisplayRole), int(Qt::ToolTipRole), int(Qt::AccessibleTextRole)})
       QVERIFY2(!item->data(role).toString().contains("secret"), qPrintable(item->data(role).toString()));
+  }
+
+  void screensAndWindowsGetIntoThePlaylist_data() {
+    QTest::addColumn<QByteArray>("wayland");
+    QTest::addColumn<QString>("path");
+    QTest::newRow("X") << QByteArray() << "screen:DUMMY1";
+    QTest::newRow("Wayland") << QByteArray("wayland-0") << "screen:1";
+  }
+  void screensAndWindowsGetIntoThePlaylist() {
+    QFETCH(QByteArray, wayland);
+    QFETCH(QString, path);
+    qputenv("WAYLAND_DISPLAY", wayland);
+    SimulatedSession own;
+    OutputPage page(own.session);
+    own.begin();
+    const std::unique_ptr<QWidget> part(playlistPart(page));
+    QMenu* menu = part->findChild<QPushButton*>("playlist-screen")->menu();
+    Q_EMIT menu->aboutToShow();
+    const QList<ScreenOffer> offers = screenOffers({});
+    const auto offer = std::ranges::find(offers, path, &ScreenOffer::path);
+    QVERIFY(offer != offers.end());
+    QCOMPARE(menu->actions().size(), offers.size());
+    menu->actions().at(offer - offers.begin())->trigger();
+    QCOMPARE(page.playlist().settings().items.last().path, path);
+    // Another one is chosen anew.
+    if (!wayland.isEmpty()) QCOMPARE(screenOffers({path}).first().path, QString("screen:2"));
+    qunsetenv("WAYLAND_DISPLAY");
   }
 };
 

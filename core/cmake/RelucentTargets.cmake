@@ -105,12 +105,11 @@ function(relucent_core_library name)
 endfunction()
 
 # relucent_test(core/image/test_colour.cpp USES image ...): one Qt Test program, one ctest entry.
-#   ON_TWO_SCREENS  on an X server with an operator's and a projector's screen; skipped where none starts
-#   ON_TWO_OUTPUTS  under a Wayland compositor with such outputs; likewise
-#   WITH_DESKTOP_PORTAL  on a session bus of its own, beside PipeWire; likewise
+#   WITHIN two-screens  what tests/support/with-two-screens sets up around it, which says why it skips where it cannot:
+#                       two-screens of X, two-outputs of sway, two-monitors of GNOME, desktop-portal
 # RELUCENT_TEST_PRELUDE, if set, names the prelude of a folder's tests.
 function(relucent_test source)
-  cmake_parse_arguments(ARG "ON_TWO_SCREENS;ON_TWO_OUTPUTS;WITH_DESKTOP_PORTAL" "TIMEOUT" "USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;WITHIN" "USES;LIBRARIES" ${ARGN})
   get_filename_component(name ${source} NAME_WE)
   # Not AUTOMOC, which takes longer over each of many small targets than their moc.
   set(moc ${CMAKE_CURRENT_BINARY_DIR}/${name}.moc)
@@ -123,12 +122,8 @@ function(relucent_test source)
     relucent_reads_prelude(${name} ${RELUCENT_TEST_PRELUDE})
   endif()
   set(command ${name})
-  if(ARG_ON_TWO_SCREENS)
-    set(command ${PROJECT_SOURCE_DIR}/tests/support/with-two-screens $<TARGET_FILE:${name}>)
-  elseif(ARG_ON_TWO_OUTPUTS)
-    set(command ${PROJECT_SOURCE_DIR}/tests/support/with-two-outputs $<TARGET_FILE:${name}>)
-  elseif(ARG_WITH_DESKTOP_PORTAL)
-    set(command ${PROJECT_SOURCE_DIR}/tests/support/with-desktop-portal $<TARGET_FILE:${name}>)
+  if(ARG_WITHIN)
+    set(command ${PROJECT_SOURCE_DIR}/tests/support/with-${ARG_WITHIN} $<TARGET_FILE:${name}>)
   endif()
   add_test(NAME ${name} COMMAND ${command})
   if(ARG_TIMEOUT)

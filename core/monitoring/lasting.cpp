@@ -45,7 +45,14 @@ bool Lasting::holds(double limit, int sign) const {
     total += one.weight;
     if (sign * one.value > settings_.nearly * limit) beyond += one.weight;
   }
-  return total > 0.0 && beyond >= settings_.held * total;
+  return total > 0.0 && beyond >= settings_.held * total &&
+         shareBeyond(settings_.nearly * limit, sign) >= settings_.seen;
+}
+
+double Lasting::shareBeyond(double limit, int sign) const {
+  const auto beyond =
+      std::count_if(seen_.begin(), seen_.end(), [&](const One& one) { return sign * one.value > limit; });
+  return seen_.empty() ? 0.0 : static_cast<double>(beyond) / static_cast<double>(seen_.size());
 }
 
 bool Lasting::keeps(double within) const {

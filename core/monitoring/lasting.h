@@ -17,6 +17,7 @@ struct LastingSettings {
   double floor = 0.005;      // of a deviation: what photographs have wrong in common
   double held = 0.75;        // share of weight that must agree that the limit is passed, or nearly
   double nearly = 0.7;       // of the limit
+  double seen = 0.0;         // share of photographs, whatever their weight, that must agree likewise
 };
 
 /// The weighted median of the photographs of the last seconds, in which what lasts less than half of them
@@ -31,8 +32,11 @@ class Lasting {
   /// Root of the mean square of their deviations, weighted: not over their number, since what T has wrong is
   /// the same in all of them. Contract: median() has a value.
   double deviation() const;
-  /// Whether at least `held` of the weight is farther below (sign < 0) or above than nearly all of `limit`.
+  /// Whether at least `held` of the weight, and `seen` of the photographs, is farther below (sign < 0) or
+  /// above than nearly all of `limit`.
   bool holds(double limit, int sign) const;
+  /// Share of the photographs, whatever their weight, that are farther below (sign < 0) or above than this.
+  double shareBeyond(double limit, int sign) const;
   /// Whether at least `held` of the weight is as near as this to the median. Contract: median() has a value.
   bool keeps(double within) const;
 

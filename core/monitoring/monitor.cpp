@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/monitoring/monitor.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "relucent/base/require.h"
@@ -12,51 +9,15 @@ namespace relucent::monitoring {
 namespace {
 
 constexpr double mostSaturated = 0.2;  // share of values
-constexpr double leastLight = 0.003;  // of the flood image: below it nothing can be recognised, or be missing
-constexpr double stays = 0.7;         // of a limit: what was told stays until it is below this
-constexpr double alike = 0.2;         // visitors who follow each other take unlike shares of the light
-constexpr double whileMoved = 3.0;    // times as much must a lamp fade: a view that moved fits less well
-constexpr double certain = 2.5;       // deviations by which a limit's half must be passed
-
-void addTo(Lasting& lasting, Reference& reference, double seconds, double value, double deviation) {
-  reference.add(seconds, value, deviation);
-  lasting.add(seconds, value - reference.value(), deviation);
-}
 
 }  // namespace
-
-std::vector<Message> problems(const MonitorSettings& settings) {
-  std::vector<Message> found;
-  if (!(settings.shift > 0.0) || !(settings.fade > 0.0) || !(settings.shadow > 0.0) ||
-      !(settings.dark > settings.fade) || settings.dark >= 1.0 || settings.shadow >= 1.0)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE("monitoring.bad-limits",
-                                             "limits must be above 0, those of light below 1, and that of "
-                                             "dark above that of fading"));
-  return found;
-}
 
 Monitor::Monitor(WatchedVenue venue, MonitorSettings settings)
     : venue_(std::move(venue)),
       settings_(settings),
-      gain_(3 * venue_.transport.projectors(), Lasting(settings.ofGain)),
-      total_(venue_.transport.projectors(), Lasting(settings.ofGain)),
-      cell_(venue_.sampling.cells.count(), Lasting(settings.ofCell)),
-      gainReference_(gain_.size(), Reference(settings.reference)),
-      totalReference_(total_.size(), Reference(settings.reference)),
-      x_(settings.ofShift),
-      y_(settings.ofShift),
-      turn_(settings.ofShift),
-      unrecognised_(settings.ofRecognition) {
-  require(problems(settings).empty(), "settings of a monitor that have problems");
+      judgement_(venue_.transport.projectors(), venue_.sampling.cells, settings) {
   require(venue_.transport.rows() == venue_.sampling.pixels.size(), "{} rows for {} samples",
           venue_.transport.rows(), venue_.sampling.pixels.size());
-}
-
-std::vector<double> Monitor::gains() const {
-  std::vector<double> gains;
-  for (std::size_t k = 0; k < gain_.size(); ++k)
-    gains.push_back(std::max(0.0, 1.0 + gainReference_[k].value() + gain_[k].median().value_or(0.0)));
-  return gains;
 }
 
 Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<const PlayedFrame> frames) {
@@ -68,144 +29,12 @@ Look Monitor::look(const rig::RawFrame& photograph, double seconds, std::span<co
   }
   look.moment = momentOf(seen, frames, hdr::trueSeconds(venue_.camera, photograph.seconds), venue_, gains());
   look.light = fitLight(seen, look.moment, venue_);
-  if (look.light.light > leastLight)
-    unrecognised_.add(seconds, look.light.recognised < settings_.recognised ? 1.0 : 0.0, 0.0);
-  if (look.light.recognised < settings_.recognised) {
+  if (look.light.recognised < settings_.recognised)
     look.use = Look::Use::unrecognised;
-    decide(seconds);
-    return look;
-  }
-  const LightFit& light = look.light;
-  for (std::size_t k = 0; k < gain_.size(); ++k)
-    addTo(gain_[k], gainReference_[k], seconds, light.gain[k] - 1.0, light.deviation[k]);
-  for (std::size_t j = 0; j < total_.size(); ++j)
-    addTo(total_[j], totalReference_[j], seconds, light.total[j] - 1.0, light.totalDeviation[j]);
-  for (std::size_t c = 0; c < cell_.size(); ++c)
-    cell_[c].add(seconds, std::clamp(light.cells[c].share - 1.0, -1.0, 1.0), light.cells[c].deviation);
-  if (light.light > leastLight) {
-    look.shift = viewShift(seen, light.predicted, light.along, venue_);
-    x_.add(seconds, look.shift.x, look.shift.deviation);
-    y_.add(seconds, look.shift.y, look.shift.deviation);
-    turn_.add(seconds, look.shift.turn, look.shift.deviation);
-  }
-  decide(seconds);
+  else if (look.light.light > settings_.lit)
+    look.shift = viewShift(seen, look.light.predicted, look.light.along, venue_);
+  judgement_.add(look, seconds);
   return look;
-}
-
-bool Monitor::was(FindingKind kind, std::optional<std::size_t> projector, std::optional<std::size_t> channel,
-                  const std::vector<Finding>& before) const {
-  return std::any_of(before.begin(), before.end(), [&](const Finding& one) {
-    return one.kind == kind && one.projector == projector && one.channel == channel;
-  });
-}
-
-void Monitor::add(Finding finding, const std::vector<Finding>& before, double seconds) {
-  finding.since = seconds;
-  for (const Finding& one : before)
-    if (one.kind == finding.kind && one.projector == finding.projector && one.channel == finding.channel)
-      finding.since = one.since;
-  findings_.push_back(finding);
-}
-
-void Monitor::decide(double seconds) {
-  const std::vector<Finding> before = std::exchange(findings_, {});
-  if (const auto median = unrecognised_.median(); median && *median > 0.5 && unrecognised_.holds(1.0, 1))
-    add({FindingKind::unrecognised}, before, seconds);
-
-  const bool isSteady = !isAnyDark() && addMovement(before, seconds);
-  const bool isDark = addLamps(isSteady, before, seconds);
-  if (!isDark && (isSteady || was(FindingKind::shadowed, {}, {}, before))) addShadows(before, seconds);
-}
-
-bool Monitor::isAnyDark() const {
-  return std::any_of(total_.begin(), total_.end(),
-                     [&](const Lasting& one) { return -one.median().value_or(0.0) > settings_.dark; });
-}
-
-bool Monitor::addLamps(bool isSteady, const std::vector<Finding>& before, double seconds) {
-  const auto lost = [](const Lasting& one) { return -one.median().value_or(0.0); };
-  bool isDark = false;
-  for (std::size_t j = 0; j < total_.size(); ++j) {
-    const auto passes = [&](const Lasting& one, std::optional<std::size_t> channel) {
-      const bool wasTold = was(FindingKind::faded, j, channel, before);
-      const double limit = (wasTold ? stays : isSteady ? 1.0 : whileMoved) * settings_.fade;
-      return one.median() && lost(one) > limit && lost(one) > certain * one.deviation() &&
-             one.holds(limit, -1);
-    };
-    const double all = lost(total_[j]);
-    if (total_[j].median() && all > settings_.dark) {
-      isDark = true;
-      // Not long enough yet: half a minute ago it may have been as bright as ever.
-      if (total_[j].holds(settings_.dark, -1)) add({FindingKind::dark, j, {}, all}, before, seconds);
-      continue;
-    }
-    if (passes(total_[j], {})) add({FindingKind::faded, j, {}, all}, before, seconds);
-    for (std::size_t k = 0; k < 3; ++k)
-      if (passes(gain_[3 * j + k], k) && lost(gain_[3 * j + k]) > all + 0.5 * settings_.fade)
-        add({FindingKind::faded, j, k, lost(gain_[3 * j + k])}, before, seconds);
-  }
-  return isDark;
-}
-
-bool Monitor::addMovement(const std::vector<Finding>& before, double seconds) {
-  if (!x_.median() || !y_.median() || !turn_.median()) return true;
-  const double x = *x_.median(), y = *y_.median(), turn = *turn_.median();
-  const double limit = (was(FindingKind::moved, {}, {}, before) ? stays : 1.0) * settings_.shift;
-  const double moved = std::max(std::hypot(x, y), std::abs(turn));
-  // Of a movement askew each direction has its part.
-  const double part = std::min(limit, moved / std::numbers::sqrt2);
-  const bool lasts = x_.holds(part, x < 0.0 ? -1 : 1) || y_.holds(part, y < 0.0 ? -1 : 1) ||
-                     turn_.holds(limit, turn < 0.0 ? -1 : 1);
-  if (moved > limit && moved > certain * x_.deviation() && lasts)
-    add({FindingKind::moved, {}, {}, moved, x, y}, before, seconds);
-  return moved < 0.5 * settings_.shift;
-}
-
-void Monitor::addShadows(const std::vector<Finding>& before, double seconds) {
-  const Size cells = venue_.sampling.cells;
-  const double limit = (was(FindingKind::shadowed, {}, {}, before) ? stays : 1.0) * settings_.shadow;
-  std::vector<double> missing(cell_.size(), 0.0);
-  for (std::size_t c = 0; c < cell_.size(); ++c)
-    if (const auto median = cell_[c].median(); median && -*median > limit &&
-                                               -*median > certain * cell_[c].deviation() &&
-                                               cell_[c].holds(limit, -1) && cell_[c].keeps(alike))
-      missing[c] = -*median;
-  // Two neighbours, or one that misses half as much again.
-  double sum = 0.0, x = 0.0, y = 0.0, weight = 0.0;
-  for (std::size_t c = 0; c < cell_.size(); ++c) {
-    if (missing[c] == 0.0) continue;
-    const Pixel at = pixelAt(cells, c);
-    bool hasNeighbour = false;
-    for (const Pixel& step : {Pixel{1, 0}, Pixel{-1, 0}, Pixel{0, 1}, Pixel{0, -1}}) {
-      const Pixel to{at.x + step.x, at.y + step.y};
-      if (to.x >= 0 && to.y >= 0 && to.x < cells.width && to.y < cells.height)
-        hasNeighbour = hasNeighbour || missing[indexOf(cells, to)] > 0.0;
-    }
-    if (!hasNeighbour && missing[c] < 1.5 * limit) continue;
-    sum += missing[c] * missing[c];
-    x += missing[c] * (at.x + 0.5) / cells.width;
-    y += missing[c] * (at.y + 0.5) / cells.height;
-    weight += missing[c];
-  }
-  if (weight > 0.0)
-    add({FindingKind::shadowed, {}, {}, sum / weight, x / weight, y / weight}, before, seconds);
-}
-
-double Monitor::informed() const {
-  double told = 0.0, all = 0.0;
-  for (const std::vector<Lasting>* some : {&total_, &cell_})
-    for (const Lasting& one : *some) {
-      told += one.median().has_value();
-      all += 1.0;
-    }
-  told += x_.median().has_value();
-  return told / (all + 1.0);
-}
-
-void Monitor::forget() {
-  for (std::vector<Lasting>* some : {&gain_, &total_, &cell_})
-    for (Lasting& one : *some) one.forget();
-  for (Lasting* one : {&x_, &y_, &turn_, &unrecognised_}) one->forget();
 }
 
 }  // namespace relucent::monitoring

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parallel.h"
 
 namespace relucent::sentinels {
 namespace {
 
 constexpr int mostRounds = 4;
+// Pixels within which two movements lead to the same one: bilinear interpolation is smooth there.
+constexpr double sameBasin = 0.1;
 
 cv::Mat matOf(const image::Image& image) {
   return cv::Mat(image.height(), image.width(), CV_32F, const_cast<float*>(image.data().data())).clone();
@@ -65,9 +69,10 @@ class Registration {
   }
 
   double apart(const Eigen::Vector3d& movement) const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < first_.size(); ++i) sum += residual(i, movement).squaredNorm();
-    return sum;
+    std::vector<double> squares(first_.size());
+    parallelFor(0, squares.size(), 1,
+                [&](std::size_t i) { squares[i] = residual(i, movement).squaredNorm(); });
+    return std::accumulate(squares.begin(), squares.end(), 0.0);
   }
 
   Eigen::Vector3d improved(Eigen::Vector3d movement) const {
@@ -108,19 +113,25 @@ class Registration {
 
   Eigen::Vector3d newtonStep(const Eigen::Vector3d& at) const {
     constexpr double h = 0.25;  // pixels, within which bilinear interpolation is smooth enough
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < first_.size(); ++i) {
+    std::vector<Eigen::Matrix3d> squares(first_.size());
+    std::vector<Eigen::Vector3d> slopes(first_.size());
+    parallelFor(0, first_.size(), 1, [&](std::size_t i) {
       const Eigen::VectorXd here = residual(i, at);
       Eigen::MatrixXd jacobian(here.size(), 3);
       for (int k = 0; k < 3; ++k)
         jacobian.col(k) = (residual(i, at + h * Eigen::Vector3d::Unit(k)) -
                            residual(i, at - h * Eigen::Vector3d::Unit(k))) /
                           (2.0 * h);
-      squares += jacobian.transpose() * jacobian;
-      slope += jacobian.transpose() * here;
+      squares[i] = jacobian.transpose() * jacobian;
+      slopes[i] = jacobian.transpose() * here;
+    });
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      square += squares[i];
+      slope += slopes[i];
     }
-    return -squares.completeOrthogonalDecomposition().solve(slope);
+    return -square.completeOrthogonalDecomposition().solve(slope);
   }
 
   std::vector<cv::Mat> first_, now_;
@@ -132,19 +143,25 @@ class Registration {
 
 Movement movementBetween(const std::vector<ViewPair>& views) {
   require(!views.empty(), "no views to compare");
-  std::vector<Movement> found{Movement()};
-  for (const ViewPair& view : views) {
+  for (const ViewPair& view : views)
     require(view.first.size() == views.front().first.size(), "views of several sizes");
-    found.push_back(movementBetween(view.first, view.now));
-  }
+  std::vector<Movement> found(1 + views.size());
+  parallelFor(0, views.size(), 1,
+              [&](std::size_t i) { found[1 + i] = movementBetween(views[i].first, views[i].now); });
   const Size size = views.front().first.size();
   if (size.width < 8 || size.height < 8) return {};
   const Registration registration(views);
   const double before = registration.apart(Eigen::Vector3d::Zero());
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double least = before;
-  for (const Movement& start : found) {
-    const Eigen::Vector3d end = registration.improved(registration.parameters(start));
+  std::vector<Eigen::Vector3d> known;  // where was begun, and where that led to
+  for (const Movement& movement : found) {
+    const Eigen::Vector3d start = registration.parameters(movement);
+    if (std::ranges::any_of(known, [&](const auto& one) { return (one - start).norm() < sameBasin; }))
+      continue;
+    const Eigen::Vector3d end = registration.improved(start);
+    known.push_back(start);
+    known.push_back(end);
     const double apart = registration.apart(end);
     if (!(apart < least)) continue;
     least = apart;

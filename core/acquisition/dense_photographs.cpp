@@ -41,6 +41,9 @@ DensePhotographs::DensePhotographs(const photography::References& references)
     float least = std::max(dimmestFlood * *middle, std::numeric_limits<float>::min());
     for (std::size_t row = 0; row < rows; ++row) flood_[3 * row + c] = std::max(flood_[3 * row + c], least);
   }
+  used_.assign(parts(), 0);
+  for (std::size_t row = 0; row < rows; ++row)
+    if (references.usable[row]) used_[row / rowsTogether] = 1;
 }
 
 std::vector<float> DensePhotographs::floodShares(std::size_t row) const {
@@ -71,6 +74,7 @@ std::vector<transport::ColourBlock> DensePhotographs::floodMixing(std::size_t ro
 DensePhotographs::Stored DensePhotographs::store(const hdr::LampLight& seen) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   parallelFor(0, parts(), 1, [&](std::size_t part) {
+    if (!isUsed(part)) return;
     std::vector<Eigen::half> values(valuesOfPart);
     std::size_t begin = 3 * part * rowsTogether, count = std::min(3 * rowsTogether, flood_.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {

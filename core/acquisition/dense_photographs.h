@@ -54,11 +54,13 @@ class DensePhotographs {
   void forgetJudgements();
 
   std::size_t parts() const { return (references_.usable.size() + rowsTogether - 1) / rowsTogether; }
+  /// Whether any of a part's camera pixels is usable. Of other parts nothing is stored.
+  bool isUsed(std::size_t part) const { return used_[part] != 0; }
 
   /// What the camera pixels of one part saw.
   class Rows {
    public:
-    /// Throws: Error{disk}.
+    /// Contract: the part is used.  Throws: Error{disk}.
     Rows(const DensePhotographs& photographs, std::size_t part);
 
     std::size_t begin() const { return begin_; }
@@ -86,6 +88,7 @@ class DensePhotographs {
 
   const photography::References& references_;
   CameraStack flood_;
+  std::vector<std::uint8_t> used_;  // per part
   ScratchFile file_;
   std::size_t stored_ = 0;
   std::vector<Photograph> photographs_;

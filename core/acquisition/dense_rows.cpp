@@ -176,8 +176,7 @@ void DenseRows::solve() {
 }
 
 void DenseRows::solveJudged() {
-  solveRows(
-      0, detailsAt(level_), [&](std::size_t number) { return isJudged(number); }, justSolved);
+  solveRows(0, detailsAt(level_), [&](std::size_t number) { return isJudged(number); }, justSolved);
 }
 
 void DenseRows::solveRows(std::size_t heldOut, int details) {
@@ -190,6 +189,7 @@ void DenseRows::solveRows(std::size_t heldOut, int details, const Wanted& wanted
   RowSettings model;
   model.details = details;
   parallelFor(0, photographs_.parts(), 1, [&](std::size_t part) {
+    if (!photographs_.isUsed(part)) return;
     const DensePhotographs::Rows shown(photographs_, part);
     RowRegression regression(means_, model);
     RowLight seen;
@@ -300,13 +300,15 @@ MeasuredTransport DenseRows::finish() {
   for (std::size_t first = 0; first < photographs_.parts(); first += partsWritten) {
     std::size_t last = std::min(first + partsWritten, photographs_.parts()), begin = first * together;
     parallelFor(first, last, 1, [&](std::size_t part) {
+      transport::SharedColourEncoder encoder(kinds);
+      for (std::size_t number = part * together; number < std::min((part + 1) * together, count); ++number)
+        encoder.encode({}, {}, encoded[number - begin]);
+      if (!photographs_.isUsed(part)) return;
       const DensePhotographs::Rows shown(photographs_, part);
       RowRegression regression(means_, model);
       RowLight seen;
       Row row;
-      transport::SharedColourEncoder encoder(kinds);
       for (std::size_t number = shown.begin(); number < shown.end(); ++number) {
-        encoder.encode({}, {}, encoded[number - begin]);
         if (rows_.leavesOf(number).empty()) continue;
         rows_.read(number, row);
         shown.read(number, 0, seen);

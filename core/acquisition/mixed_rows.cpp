@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "relucent/base/parallel.h"
 #include "relucent/base/require.h"
 #include "relucent/base/signed_codes.h"
 #include "relucent/transport/shared_colours.h"
@@ -15,20 +16,27 @@ namespace {
 transport::BlockSparse mixedSharing(const transport::BlockSparse& first, const transport::BlockSparse& second,
                                     const std::vector<std::uint8_t>& chosen,
                                     const transport::ColumnKinds& kinds) {
+  constexpr std::size_t rowsAtOnce = 16384, grain = 256;
   transport::SharedColourWriter writer(first.columns(), first.rows(), kinds, first.blocks());
-  transport::SharedColourEncoder encoder(kinds);
-  transport::SharedColourRow encoded;
-  std::vector<transport::ColourBlock> blocks;
-  for (std::size_t row = 0; row < first.rows(); ++row) {
-    if (!chosen[row]) {
-      writer.add(first.sharedRow(row));
-      continue;
-    }
-    blocks.clear();
-    for (std::size_t entry = second.rowBegin(row); entry < second.rowBegin(row + 1); ++entry)
-      blocks.push_back(second.block(row, entry));
-    encoder.encode(second.columnsOf(row), blocks, encoded);
-    writer.add(encoded);
+  std::vector<transport::SharedColourRow> written(std::min(rowsAtOnce, first.rows()));
+  for (std::size_t begin = 0; begin < first.rows(); begin += rowsAtOnce) {
+    const std::size_t count = std::min(rowsAtOnce, first.rows() - begin);
+    parallelFor(0, (count + grain - 1) / grain, 1, [&](std::size_t part) {
+      transport::SharedColourEncoder encoder(kinds);
+      std::vector<transport::ColourBlock> blocks;
+      for (std::size_t i = part * grain; i < std::min((part + 1) * grain, count); ++i) {
+        const std::size_t row = begin + i;
+        if (!chosen[row]) {
+          written[i] = first.sharedRow(row);
+          continue;
+        }
+        blocks.clear();
+        for (std::size_t entry = second.rowBegin(row); entry < second.rowBegin(row + 1); ++entry)
+          blocks.push_back(second.block(row, entry));
+        encoder.encode(second.columnsOf(row), blocks, written[i]);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) writer.add(written[i]);
   }
   return writer.build();
 }

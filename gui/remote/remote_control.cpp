@@ -178,6 +178,13 @@ constexpr std::array commands{
                   true},
 };
 
+/// What a controller's button sends: whether it was pressed, or let go of.
+std::optional<bool> pressOf(const Arguments& arguments) {
+  if (arguments.size() != 1) return {};
+  const std::optional<double> value = numberAt(arguments, 0);
+  return value == 0.0 || value == 1.0 ? std::optional(*value == 1.0) : std::nullopt;
+}
+
 const RemoteCommand* commandAt(const QString& address) {
   const auto found = std::ranges::find_if(
       commands, [&](const RemoteCommand& command) { return address == command.address; });
@@ -243,13 +250,17 @@ void RemoteControl::refuse(const OscMessage& message, const NetworkPlace& from, 
 void RemoteControl::obey(const OscMessage& message, const NetworkPlace& from) {
   const RemoteCommand* command = commandAt(message.address);
   if (command == nullptr) return refuse(message, from, "address", "there is no such address");
-  const std::size_t given = message.arguments.size();
+  const std::optional<bool> press = command->most == 0 ? pressOf(message.arguments) : std::nullopt;
+  if (press == false) return;
+  const Arguments& arguments = press ? Arguments() : message.arguments;
+  const std::size_t given = arguments.size();
   const bool asks = given == 0 && command->least > 0 && command->value != nullptr;
   if (!asks) {
     if (given < command->least || given > command->most)
       return refuse(message, from, "arguments",
-                    QString("it takes %1").arg(command->most > 0 ? command->arguments : "no arguments"));
-    if (const Message why = command->run(actions_, message.arguments); !why.empty())
+                    QString("it takes %1")
+                        .arg(command->most > 0 ? command->arguments : "no arguments, or a button's 0 or 1"));
+    if (const Message why = command->run(actions_, arguments); !why.empty())
       return refuse(message, from, QString::fromStdString(why.id()),
                     QString::fromStdString(englishSentence(why)));
   }

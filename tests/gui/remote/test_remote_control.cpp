@@ -104,6 +104,17 @@ class TestRemoteControl : public QObject {
     QCOMPARE(actions.now.item, qsizetype{0});
   }
 
+  /// Controllers send 1 when a button is pressed, and 0 when it is let go of.
+  void aButtonActsWhenItIsPressed() {
+    NotedActions actions;
+    RemoteControl control(*server_, actions, std::nullopt);
+    for (const double value : {1.0, 0.0}) QVERIFY(answers({"/next", {value}}).empty());
+    QCOMPARE(actions.now.item, qsizetype{1});
+    for (const double value : {1.0, 0.0})
+      QCOMPARE(answers({"/check", {value}}).size(), value == 1.0 ? 1U : 0U);
+    QCOMPARE(actions.begun, QStringList{"check"});
+  }
+
   void theViewerMovesWithoutAnAnswer() {
     NotedActions actions;
     RemoteControl control(*server_, actions, std::nullopt);
@@ -146,7 +157,8 @@ class TestRemoteControl : public QObject {
     QTest::newRow("a part of one") << "/blac" << QVariantList{1} << "no such address";
     QTest::newRow("no argument") << "/viewer" << QVariantList{} << "x y, or x y z";
     QTest::newRow("too many") << "/viewer" << QVariantList{1, 2, 3, 4} << "x y, or x y z";
-    QTest::newRow("an argument too many") << "/next" << QVariantList{1} << "no arguments";
+    QTest::newRow("an argument too many") << "/next" << QVariantList{2} << "no arguments";
+    QTest::newRow("two arguments too many") << "/next" << QVariantList{1, 1} << "no arguments";
     QTest::newRow("text for a number") << "/black" << QVariantList{"on"} << "0 or 1";
     QTest::newRow("half a switch") << "/black" << QVariantList{0.5} << "0 or 1";
     QTest::newRow("no place") << "/viewer" << QVariantList{1.0, "left"} << "finite numbers";

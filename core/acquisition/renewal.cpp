@@ -67,9 +67,10 @@ Roots rootsOf(const TransportMatrix& transport) {
       for (std::size_t pixel = 0; pixel < projectors.size(projector).count(); ++pixel)
         pattern[3 * (projectors.offset(projector) + pixel) + channel] = 1.0f;
       const CameraStack light = transport.apply(pattern);
-      for (std::size_t row = 0; row < rows; ++row)
+      parallelFor(0, rows, 4096, [&](std::size_t row) {
         roots[projector][row].col(static_cast<Eigen::Index>(channel)) =
             Eigen::Map<const Eigen::Vector3f>(&light[3 * row]);
+      });
     }
   return roots;
 }
@@ -85,19 +86,18 @@ float medianOf(std::vector<float>& values) {
 ColourBlock lightLeft(const std::vector<ColourBlock>& then, const std::vector<ColourBlock>& now,
                       const CameraMask& rows, float typical) {
   ColourBlock left = ColourBlock::Ones();
-  std::vector<float> ratio;
-  for (Eigen::Index camera = 0; camera < 3; ++camera)
-    for (Eigen::Index channel = 0; channel < 3; ++channel) {
-      ratio.clear();
-      for (std::size_t row = 0; row < rows.size(); ++row) {
-        const float before = then[row](camera, channel);
-        if (rows[row] && then[row].sum() > enoughLight * typical && before > 0.0f)
-          ratio.push_back(now[row](camera, channel) / before);
-      }
-      if (ratio.empty()) continue;
-      const float median = std::max(0.0f, medianOf(ratio));
-      if (std::abs(static_cast<double>(median) - 1.0) > leastLightChange) left(camera, channel) = median;
+  parallelFor(0, static_cast<std::size_t>(left.size()), 1, [&](std::size_t value) {
+    const auto camera = static_cast<Eigen::Index>(value / 3), channel = static_cast<Eigen::Index>(value % 3);
+    std::vector<float> ratio;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const float before = then[row](camera, channel);
+      if (rows[row] && then[row].sum() > enoughLight * typical && before > 0.0f)
+        ratio.push_back(now[row](camera, channel) / before);
     }
+    if (ratio.empty()) return;
+    const float median = std::max(0.0f, medianOf(ratio));
+    if (std::abs(static_cast<double>(median) - 1.0) > leastLightChange) left(camera, channel) = median;
+  });
   return left;
 }
 
@@ -293,13 +293,14 @@ class Renewing {
     for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
       std::vector<sentinels::ViewPair> views{
           {brightnessOf(former_.flood, cameras, camera), brightnessOf(floods.light, cameras, camera)}};
-      const sentinels::Movement ofSurface = sentinels::movementBetween(views);
       for (std::size_t i = 0; i < predicted.size(); ++i)
         views.push_back({brightnessOf(predicted[i], cameras, camera),
                          brightnessOf(tests.light()[i].radiance, cameras, camera)});
       const sentinels::Movement ofAll = sentinels::movementBetween(views);
       progress.checkpoint();
       if (!isMovement(ofAll, cameras.size(camera))) continue;
+      views.resize(1);
+      const sentinels::Movement ofSurface = sentinels::movementBetween(views);
       const bool isCamera = isMovement(ofSurface, cameras.size(camera)) && areAlike(ofSurface, ofAll);
       (isCamera ? change.moved : change.pictures)[camera] = ofAll;
       any = true;
@@ -322,7 +323,7 @@ class Renewing {
     Roots factor(then.size(), std::vector<ColourBlock>(references.usable.size(), ColourBlock::Ones()));
     CameraMask own(references.usable.size(), 0);
     for (std::size_t projector = 0; projector < then.size(); ++projector)
-      for (std::size_t row = 0; row < own.size(); ++row) {
+      parallelFor(0, own.size(), 1024, [&](std::size_t row) {
         const ColourBlock expected = change.light[projector].cwiseProduct(then[projector][row]);
         const Eigen::Array3f before = expected.rowwise().sum(),
                              now = references.root[projector][row].rowwise().sum(),
@@ -338,7 +339,7 @@ class Renewing {
           own[row] = 1;
         }
         factor[projector][row] = share.matrix().asDiagonal() * change.light[projector];
-      }
+      });
     change.scaled = shareOf(own, references.usable);
     if (!isLightOther(change)) return transport;
     return transport.withLightScaled(

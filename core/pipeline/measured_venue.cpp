@@ -19,7 +19,9 @@
 namespace relucent::pipeline {
 namespace {
 
-MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held, Progress& progress) {
+/// `stored`: what is read of the acquisition on the way.
+MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held,
+                         transport::Acquisition& stored, Progress& progress) {
   CalibrateSettings settings = settingsOf(folder);
   auto linearization = calibration::currentResultOf(folder, calibration::Stage::linearization);
   auto acquisition = calibration::currentResultOf(folder, calibration::Stage::acquisition);
@@ -35,7 +37,7 @@ MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held
   measured.reductions = reductionsOf(folder);
   measured.linearization = calibration::loadLinearization(*linearization);
   progress.report(0.1);
-  const transport::Acquisition stored = calibration::loadAcquisition(*acquisition);
+  stored = calibration::loadAcquisition(*acquisition);
   progress.report(0.7);
   measured.acquisition = figuresOf(stored);
   measured.venue = measuredVenueOf(stored, settings.threshold);
@@ -49,7 +51,8 @@ MeasuredCalibration read(const calibration::CalibrationFolder& folder, Held held
 }  // namespace
 
 MeasuredCalibration loadMeasurements(const calibration::CalibrationFolder& folder, Progress& progress) {
-  return read(folder, Held::whatIsLeft, progress);
+  transport::Acquisition stored;
+  return read(folder, Held::whatIsLeft, stored, progress);
 }
 
 CameraMask usablePixels(const transport::Acquisition& acquisition) {
@@ -180,11 +183,10 @@ calibration::InverseResult inverseResultOf(const compensation::RidgeChoice& choi
   return result;
 }
 
-MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress,
-                                    Held held) {
-  Progress reading =
-      progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-  MeasuredCalibration measured = read(folder, held, reading);
+namespace {
+
+void readOrMakeWindows(MeasuredCalibration& measured, const calibration::CalibrationFolder& folder,
+                       Progress& progress) {
   Progress inverting = progress.part(
       0.5, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
   CalibrateSettings settings = settingsOf(folder);
@@ -201,12 +203,35 @@ MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder
       measured.ridge = settings.windows.ridge;
       measured.inverse = std::move(*kept);
       inverting.report(1.0);
-      return measured;
+      return;
     }
   compensation::RidgeChoice choice = invert(measured.venue, settings, inverting);
   measured.ridge = choice.ridge;
   measured.inverse = std::move(choice.inverse);
   if (measured.ridgeCurve.empty()) measured.ridgeCurve = std::move(choice.curve);
+}
+
+}  // namespace
+
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress,
+                                    Held held) {
+  MeasuredCalibration measured;
+  {
+    Progress reading =
+        progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
+    transport::Acquisition stored;  // is let go of before there are windows
+    measured = read(folder, held, stored, reading);
+  }
+  readOrMakeWindows(measured, folder, progress);
+  return measured;
+}
+
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder,
+                                    transport::Acquisition& acquisition, Progress& progress) {
+  Progress reading =
+      progress.part(0.5, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
+  MeasuredCalibration measured = read(folder, Held::whatIsLeft, acquisition, reading);
+  readOrMakeWindows(measured, folder, progress);
   return measured;
 }
 

@@ -67,6 +67,9 @@ enum class Held { whatIsLeft, allMeasured };
 /// Throws: Error{input} naming the step that is missing if the calibration is not finished.
 MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder, Progress& progress,
                                     Held held = Held::whatIsLeft);
+/// The same, and `acquisition` as it is stored, which is read anyway.
+MeasuredCalibration loadCalibration(const calibration::CalibrationFolder& folder,
+                                    transport::Acquisition& acquisition, Progress& progress);
 
 /// What the stages found and cost, as calibrate() returns it; without peak memory.
 CalibrateResult summaryOf(const calibration::CalibrationFolder& folder, const MeasuredCalibration& measured);

@@ -138,9 +138,8 @@ class Repairing {
     chosen_ = settingsOf(folder);
     Progress loading =
         progress.part(0.15, RELUCENT_MESSAGE("stage.reading-calibration", "Reading the calibration"));
-    measured_ = loadCalibration(folder, loading);
+    measured_ = loadCalibration(folder, former_, loading);
     const auto stored = calibration::currentResultOf(folder, Stage::acquisition);
-    former_ = calibration::loadAcquisition(*stored);
     formerFolder_ = stored->folder.filename().string();
     inputs_ = stored->inputs;
     cost_ = calibration::resultFrom<Stage::acquisition>(*stored).cost.value_or(calibration::StageCost());

@@ -52,6 +52,7 @@ void ActionButton::setWhyNot(const QString& reason) {
   setPossible(this, reason);
   paintIcon();
   updateGeometry();
+  update();  // Qt paints again only what becomes possible or stops being so
 }
 
 void ActionButton::paintIcon() {

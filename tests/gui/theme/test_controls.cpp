@@ -67,6 +67,27 @@ class TestControls : public QObject {
     QCOMPARE(painted(), open);
   }
 
+  /// Law: of a button that stays shut, another reason is seen as soon as it is given.
+  void anotherReasonIsPainted() {
+    struct Paints : QObject {
+      int count = 0;
+      bool eventFilter(QObject*, QEvent* event) override {
+        count += event->type() == QEvent::Paint ? 1 : 0;
+        return false;
+      }
+    } paints;
+    ActionButton button(QString("Keep everything"));
+    button.resize(300, 40);
+    button.setWhyNot("It is being read.");
+    button.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&button));
+    button.installEventFilter(&paints);
+    QCoreApplication::processEvents();
+    const int before = paints.count;
+    button.setWhyNot("It is in use.");
+    QTRY_VERIFY(paints.count > before);
+  }
+
   /// Law: what cannot be chosen is fainter than what can, not drawn twice.
   void disabledWordsAreNotEtched() {
     Theme::instance().apply(Look::dark);

@@ -49,7 +49,7 @@ void Job::start(Work work) {
   stop_ = std::make_unique<StopRequest>();
   state_ = State::running;
   fraction_ = 0.0;
-  stage_.clear();
+  stage_ = {};
   failure_ = {};
   thread_.reset(QThread::create([this, work = std::move(work)] {
     Sink sink(*this);
@@ -84,17 +84,21 @@ void Job::wait() {
   if (thread_ != nullptr) thread_->wait();
 }
 
+QString Job::stage() const {
+  return text(stage_);
+}
+
 void Job::takeReports() {
   std::optional<WorkLeft> left;
   {
     QMutexLocker lock(&reports_->guard);
     reports_->posted = false;
     fraction_ = reports_->fraction;
-    stage_ = text(reports_->stage);
+    stage_ = reports_->stage;
     left = std::exchange(reports_->left, std::nullopt);
   }
   if (left) Q_EMIT expected(*left);
-  Q_EMIT progressed(fraction_, stage_);
+  Q_EMIT progressed(fraction_, stage());
 }
 
 void Job::finish(State state, Failure failure) {

@@ -39,8 +39,8 @@ class Job : public QObject {
   bool isRunning() const { return state_ == State::running; }
   bool isStopping() const { return stop_ != nullptr && stop_->asked() != StopRequest::Kind::none; }
   double fraction() const { return fraction_; }
-  /// In the user's language.
-  QString stage() const { return stage_; }
+  /// In the language that the user has now.
+  QString stage() const;
   /// Of the last work that failed.
   const Failure& failure() const { return failure_; }
 
@@ -67,7 +67,7 @@ class Job : public QObject {
   std::unique_ptr<QThread> thread_;
   State state_ = State::idle;
   double fraction_ = 0.0;
-  QString stage_;
+  Message stage_;
   Failure failure_;
 };
 

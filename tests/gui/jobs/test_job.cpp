@@ -3,6 +3,7 @@
 
 #include <QSemaphore>
 #include <QSignalSpy>
+#include <QTranslator>
 #include <QtTest>
 
 #include "jobs/latest.h"
@@ -48,6 +49,29 @@ class TestJob : public QObject {
     QVERIFY(told(Error(ErrorKind::device, Message::plain("the camera does not answer"),
                        Message::plain("plug it in")))
                 .heading.isEmpty());
+  }
+
+  /// Law: what is under way is called so in the language that the user has, from the moment he chooses it.
+  void theStageFollowsTheLanguage() {
+    struct Shouted : QTranslator {
+      QString translate(const char*, const char* source, const char*, int) const override {
+        return QString(source).toUpper();
+      }
+      bool isEmpty() const override { return false; }
+    } other;
+    Job job;
+    QSemaphore mayEnd;
+    job.start([&mayEnd](Progress& progress) {
+      Progress part = progress.part(1.0, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
+      part.report(0.5);
+      mayEnd.acquire();
+    });
+    QTRY_COMPARE(job.stage(), QString("Opening the devices"));
+    QCoreApplication::installTranslator(&other);
+    const QString then = job.stage();
+    QCoreApplication::removeTranslator(&other);
+    mayEnd.release();
+    QCOMPARE(then, QString("OPENING THE DEVICES"));
   }
 
   void endsInOneWay_data() {

@@ -39,7 +39,7 @@ QString whyNotPossible(const QWidget& control) {
 }
 
 ActionButton::ActionButton(std::optional<Icon> icon, const QString& text, QWidget* parent)
-    : QPushButton(text, parent), glyph_(icon) {
+    : EnterButton(text, parent), glyph_(icon) {
   setRole(this, "");
   setIconSize({iconSide, iconSide});
   setAutoDefault(false);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <QPushButton>
 #include <optional>
 
+#include "theme/enter_button.h"
 #include "theme/icons.h"
 
 namespace relucent::gui {
@@ -20,7 +20,7 @@ QString whyNotPossible(const QWidget& control);
 
 /// A button that says why it cannot be pressed: the reason is a second, smaller line within it, so that
 /// nothing round it moves. With an icon of the theme or without.
-class ActionButton : public QPushButton {
+class ActionButton : public EnterButton {
   Q_OBJECT
 
  public:

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "theme/accessible_role.h"
+#include "theme/enter_button.h"
 #include "theme/theme.h"
 
 namespace relucent::gui {
@@ -370,7 +371,7 @@ QToolButton* toolOf(Icon icon, const QString& name, QWidget* parent) {
 }
 
 QPushButton* buttonOf(const QString& text, const char* role, QWidget* parent) {
-  auto* button = new QPushButton(text, parent);
+  auto* button = new EnterButton(text, parent);
   setRole(button, role);
   button->setIconSize({18, 18});
   button->setAutoDefault(false);

@@ -4,6 +4,9 @@
 
 #include <QApplication>
 #include <QComboBox>
+#include <QDialog>
+#include <QKeyEvent>
+#include <QLineEdit>
 #include <QSignalSpy>
 #include <QTextDocumentFragment>
 #include <QtTest>
@@ -86,6 +89,47 @@ class TestControls : public QObject {
     const int before = paints.count;
     button.setWhyNot("It is in use.");
     QTRY_VERIFY(paints.count > before);
+  }
+
+  /// Law: in a dialog, Enter presses the button with the focus, and the default one where none has it.
+  void enterPressesTheButtonWithTheFocus_data() {
+    QTest::addColumn<QString>("focused");
+    QTest::addColumn<QString>("pressed");
+    QTest::newRow("the default one") << "stay"
+                                     << "stay";
+    QTest::newRow("another") << "end"
+                             << "end";
+    QTest::newRow("one with a reason") << "why"
+                                       << "why";
+    QTest::newRow("none") << "name"
+                          << "stay";
+  }
+  void enterPressesTheButtonWithTheFocus() {
+    QFETCH(QString, focused);
+    QFETCH(QString, pressed);
+    QDialog dialog;
+    QStringList all;
+    auto* column = new QVBoxLayout(&dialog);
+    auto* name = new QLineEdit;
+    QPushButton *stay = buttonOf("stay", "primary"), *end = buttonOf("end"), *why = new ActionButton("why");
+    column->addWidget(name);
+    name->setObjectName("name");
+    for (QPushButton* button : {stay, end, why}) {
+      button->setObjectName(button->text());
+      connect(button, &QPushButton::clicked, button, [&all, button] { all << button->text(); });
+      column->addWidget(button);
+    }
+    stay->setDefault(true);
+    dialog.show();
+    QVERIFY(QTest::qWaitForWindowActive(&dialog));
+    auto* widget = dialog.findChild<QWidget*>(focused);
+    widget->setFocus();
+    QTest::keyClick(widget, Qt::Key_Return);
+    QCOMPARE(all, QStringList(pressed));
+    // Held down, a key presses once.
+    QKeyEvent again(QEvent::KeyPress, Qt::Key_Enter, Qt::KeypadModifier, {}, true);
+    QCoreApplication::sendEvent(end, &again);
+    QCOMPARE(all, QStringList(pressed));
   }
 
   /// Law: what cannot be chosen is fainter than what can, not drawn twice.

@@ -21,7 +21,8 @@ constexpr int looksBefore = 4, looksOfPushing = 6;  // that a camera needs to be
 
 /// The span is cut into as many parts as there are surprises; each has one for itself, so that one is put
 /// right before the next comes.
-Surprises::Surprises(const SurpriseSettings& settings) : settings_(settings) {
+Surprises::Surprises(const SurpriseSettings& settings, const SurprisesSoFar& soFar)
+    : settings_(settings), failures_(soFar.failures), looks_(soFar.looks) {
   Random random{settings.seed, 0x5u};
   std::vector<Surprise> order = settings.kinds;
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
@@ -30,6 +31,25 @@ Surprises::Surprises(const SurpriseSettings& settings) : settings_(settings) {
     const double part = (static_cast<double>(i) + random.uniform()) / static_cast<double>(order.size());
     planned_.push_back({order[i], std::max(leastPattern, static_cast<int>(begin + part * span))});
   }
+  for (const Surprise kind : soFar.lasting)
+    if (Planned* planned = find(kind)) planned->state = State::lasts;
+  for (const Surprise kind : soFar.over)
+    if (Planned* planned = find(kind)) planned->state = State::over;
+}
+
+SurprisesSoFar Surprises::soFar() const {
+  std::lock_guard lock(guard_);
+  return countedSoFar();
+}
+
+/// Contract: guard_ is held.
+SurprisesSoFar Surprises::countedSoFar() const {
+  SurprisesSoFar now{{}, {}, failures_, looks_};
+  for (const Planned& planned : planned_) {
+    if (planned.state == State::lasts) now.lasting.push_back(planned.kind);
+    if (planned.state == State::over) now.over.push_back(planned.kind);
+  }
+  return now;
 }
 
 Surprises::Planned* Surprises::find(Surprise kind) {
@@ -61,7 +81,17 @@ bool Surprises::lasts(Surprise kind) const {
 }
 
 std::vector<DeviceFault> Surprises::during(const rig::ShotId& shot) {
-  std::lock_guard lock(guard_);
+  std::unique_lock lock(guard_);
+  const SurprisesSoFar before = countedSoFar();
+  std::vector<DeviceFault> faults = faultsDuring(shot);
+  const bool isChanged = countedSoFar() != before;
+  lock.unlock();
+  if (isChanged && changed_) changed_(*this);
+  return faults;
+}
+
+/// Contract: guard_ is held.
+std::vector<DeviceFault> Surprises::faultsDuring(const rig::ShotId& shot) {
   std::vector<DeviceFault> faults;
   for (Planned& planned : planned_) {
     if (planned.state == State::toCome && shot.stage == measuring && shot.number >= planned.moment)
@@ -97,9 +127,12 @@ DeviceFault Surprises::faultOf(Planned& planned, const rig::ShotId& shot) {
 }
 
 void Surprises::putRight() {
-  std::lock_guard lock(guard_);
-  if (Planned* light = find(Surprise::roomLight); light != nullptr && light->state == State::lasts)
-    light->state = State::over;
+  std::unique_lock lock(guard_);
+  Planned* light = find(Surprise::roomLight);
+  if (light == nullptr || light->state != State::lasts) return;
+  light->state = State::over;
+  lock.unlock();
+  if (changed_) changed_(*this);
 }
 
 }  // namespace relucent::venue

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "relucent/base/enum_names.h"
@@ -33,6 +35,15 @@ struct SurpriseSettings {
   double degrees = 1.0;     // ... and turned
   double roomLight = 0.05;  // of the mean of what the camera sees at full light
   int failures = 20;        // photographs in vain until the cable is in again
+  bool operator==(const SurpriseSettings&) const = default;
+};
+
+/// How far surprises have come: all else follows from their settings.
+struct SurprisesSoFar {
+  std::vector<Surprise> lasting, over;
+  int failures = 0;  // photographs that were taken in vain
+  int looks = 0;     // while a camera was pushed back
+  bool operator==(const SurprisesSoFar&) const = default;
 };
 
 /// Surprises of one rehearsal, as faults of its devices (device_faults.h). Each comes at its own pattern,
@@ -41,7 +52,14 @@ struct SurpriseSettings {
 /// From any thread.
 class Surprises {
  public:
-  explicit Surprises(const SurpriseSettings& settings);
+  /// `soFar`: of before, where a rehearsal goes on; kinds that the settings do not have count for nothing.
+  explicit Surprises(const SurpriseSettings& settings, const SurprisesSoFar& soFar = {});
+
+  const SurpriseSettings& settings() const { return settings_; }
+  SurprisesSoFar soFar() const;
+  /// `changed` is called each time that what soFar() says is another, on the thread that made it so. To be
+  /// set before anything is photographed.
+  void tellChanges(std::function<void(const Surprises&)> changed) { changed_ = std::move(changed); }
 
   /// The pattern of the light transport before which it happens; contract: it is among them.
   int momentOf(Surprise kind) const;
@@ -67,8 +85,11 @@ class Surprises {
   Planned* find(Surprise kind);
   const Planned* find(Surprise kind) const;
   DeviceFault faultOf(Planned& planned, const rig::ShotId& shot);
+  SurprisesSoFar countedSoFar() const;
+  std::vector<DeviceFault> faultsDuring(const rig::ShotId& shot);
 
   SurpriseSettings settings_;
+  std::function<void(const Surprises&)> changed_;
   mutable std::mutex guard_;
   std::vector<Planned> planned_;
   int failures_ = 0, looks_ = 0;

@@ -159,7 +159,7 @@ def system_breaches(source):
 # The headers that let somebody build or read JSON, and those who read and write files or documents.
 JSON_HEADERS = {"calibration/json.h", "calibration/enum_json.h", "calibration/results_json.h", "nlohmann/json.hpp"}
 JSON_FILES = re.compile(
-    r"core/calibration/|core/devices/recording/recording_files\.cpp|core/pipeline/(settings_json|stored_settings|network_projectors|kept_photographs|masks_file|sets|measured_again|acquisition_record|drift_record|night_record|perfected|picture_error_json|proof_record|stills|plan|json|versions)\.|"
+    r"core/calibration/|core/devices/recording/recording_files\.cpp|core/pipeline/(settings_json|stored_settings|network_projectors|kept_photographs|masks_file|sets|measured_again|acquisition_record|drift_record|night_record|perfected|picture_error_json|proof_record|stills|surprises_file|plan|json|versions)\.|"
     r"core/rehearsal/(show_health|venue_folder)\.|core/cli/(commands|day_document|devices_document|projectors_document)\.")
 
 

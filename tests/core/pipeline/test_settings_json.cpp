@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/settings_json.h"
 
+#include <QTemporaryDir>
 #include <QTest>
 
 #include "relucent/base/error.h"
+#include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/screen_devices.h"
+#include "relucent/pipeline/surprises_file.h"
 
 using namespace relucent;
 using namespace relucent::calibration;
@@ -140,7 +143,8 @@ class TestSettingsJson : public QObject {
     const QString show = "show2 {image}", shoot = "shoot2 {exposure} {output}", none;
     const Size size{64, 48};
     QTest::newRow("projector twice") << "show {image}" << size << shoot << none
-                                     << QByteArray("projector 1 and projector 2 are shown by the same command");
+                                     << QByteArray(
+                                            "projector 1 and projector 2 are shown by the same command");
     QTest::newRow("camera twice") << show << size << "shoot {exposure} {output}" << none
                                   << QByteArray("camera 1 and camera 2 photograph by the same command");
     QTest::newRow("no image") << "show2" << size << shoot << none
@@ -261,6 +265,21 @@ class TestSettingsJson : public QObject {
     QVERIFY(!stagesToJson(settings).at("linearization").contains("exposureUnit"));
     settings.linearization.exposureUnit = 0.01;
     QCOMPARE(comeBack(settings).linearization.exposureUnit, 0.01);
+  }
+
+  /// Law: a rehearsal's surprises come back as far as they have come; what cannot be read is none.
+  void surprisesComeBack() {
+    QTemporaryDir folder;
+    const std::filesystem::path path = folder.path().toStdString();
+    QVERIFY(loadSurprises(path) == nullptr);
+    SurpriseSettings settings{allValues<Surprise>(), 0xffffffffffffffffULL, 300, 4.5, 0.5, 0.07, 9};
+    const SurprisesSoFar soFar{{Surprise::roomLight}, {Surprise::bump}, 3, 11};
+    saveSurprises(Surprises(settings, soFar), path);
+    const std::shared_ptr<Surprises> loaded = loadSurprises(path);
+    QVERIFY(loaded != nullptr && loaded->soFar() == soFar);
+    QVERIFY(loaded->settings() == settings);
+    writeFileAtomically(path / surprisesName, R"({"kinds":["earthquake"]})");
+    QVERIFY(loadSurprises(path) == nullptr);
   }
 
   /// A manifest of the first version: keys that came later keep their defaults, those that went are ignored.

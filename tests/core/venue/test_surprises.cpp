@@ -3,6 +3,7 @@
 
 #include <QTest>
 #include <algorithm>
+#include <memory>
 
 using namespace relucent;
 using namespace relucent::venue;
@@ -113,6 +114,39 @@ class TestSurprises : public QObject {
     Surprises surprises(settings);
     for (int i = 0; i < 3; ++i) QVERIFY(!surprises.during({"acquisition", 1000}).empty());
     QVERIFY(surprises.during({"acquisition", 1000}).empty() && !surprises.lasts(Surprise::unplugged));
+  }
+
+  /// Law: wherever a rehearsal is interrupted, it goes on as if it had not been; each change is told once.
+  void whatIsInterruptedGoesOn() {
+    SurpriseSettings settings = all(3);
+    settings.failures = 5;
+    Surprises whole(settings);
+    auto parts = std::make_unique<Surprises>(settings);
+    SurprisesSoFar told;
+    for (int number = 0; number < 400; ++number) {
+      const rig::ShotId shot{number % 7 == 3 ? "nudge" : "acquisition", number};
+      parts = std::make_unique<Surprises>(settings, parts->soFar());
+      const SurprisesSoFar before = parts->soFar();
+      int changes = 0;
+      parts->tellChanges([&](const Surprises& now) {
+        ++changes;
+        told = now.soFar();
+      });
+      const std::vector<DeviceFault> wanted = whole.during(shot), found = parts->during(shot);
+      QCOMPARE(found.size(), wanted.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        QCOMPARE(found[i].kind, wanted[i].kind);
+        QCOMPARE(found[i].amount, wanted[i].amount);
+      }
+      if (number == 350) {
+        whole.putRight();
+        parts->putRight();
+      }
+      QCOMPARE(changes > 0, parts->soFar() != before);
+      QVERIFY(changes == 0 || told == parts->soFar());
+    }
+    QVERIFY(whole.soFar() == parts->soFar());
+    QCOMPARE(parts->soFar().over.size(), settings.kinds.size());
   }
 
   void withoutSurprisesNothingHappens() {

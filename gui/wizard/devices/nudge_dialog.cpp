@@ -94,9 +94,11 @@ NudgeDialog::NudgeDialog(Nudge& nudge, QWidget* parent) : QDialog(parent), nudge
   column->addStretch(1);
   QPushButton* close = buttonOf(tr("Close"), "primary");
   close->setObjectName("nudge-close");
+  close->setDefault(true);
   connect(close, &QPushButton::clicked, this, &NudgeDialog::reject);
   column->addWidget(close);
   row->addWidget(side);
+  close->setFocus();
   resize(960, 560);
   connect(&nudge_, &Nudge::changed, this, &NudgeDialog::refresh);
   connect(&nudge_, &Nudge::ended, this, [this] {

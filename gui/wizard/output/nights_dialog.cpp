@@ -44,6 +44,7 @@ NightsDialog::NightsDialog(std::vector<pipeline::NightRecord> nights, QWidget* p
   row->addStretch(1);
   QPushButton* close = buttonOf(tr("Close"), "primary");
   close->setObjectName("nights-close");
+  close->setDefault(true);
   row->addWidget(close);
   column->addLayout(row);
   connect(close, &QPushButton::clicked, this, &QDialog::reject);

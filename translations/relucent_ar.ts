@@ -4145,10 +4145,6 @@
         <translation>الفرق بين الأبيض والأسود كما ينبغي.</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>كل المشهد عدا %1.</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>الأجزاء الساطعة مغطاة</translation>
     </message>
@@ -4191,10 +4187,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>لم تُختر كاميرا بعد</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>المشهد كله.</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4378,6 +4370,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>افحص من جديد لتنظر بتعريض آخر.</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>التعريضات، متوقفة مؤقتًا</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>مواضع داخلها</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>المشهد كله، بهذا التعريض أو ذاك.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>كل المشهد عدا %1، بهذا التعريض أو ذاك.</translation>
     </message>
 </context>
 <context>

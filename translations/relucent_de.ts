@@ -4057,10 +4057,6 @@
         <translation>Weiß und Schwarz unterscheiden sich wie erwartet.</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>Bis auf %1 des Kamerabilds.</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>Helle Stellen sind abgedeckt</translation>
     </message>
@@ -4103,10 +4099,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>Noch keine Kamera gewählt</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>Das ganze Bild.</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4286,6 +4278,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>Prüfen Sie erneut, um mit einer anderen zu schauen.</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>Belichtungen, angehalten</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>Stellen darin</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>Das ganze Bild, von der einen oder der anderen Belichtung.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>Bis auf %1 des Kamerabilds, von der einen oder der anderen Belichtung.</translation>
     </message>
 </context>
 <context>

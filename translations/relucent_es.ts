@@ -4057,10 +4057,6 @@
         <translation>Blanco y negro difieren como deben.</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>Todo menos el %1 de la vista.</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>Partes claras cubiertas</translation>
     </message>
@@ -4103,10 +4099,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>Aún no se ha elegido cámara</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>Toda la vista.</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4286,6 +4278,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>Compruebe de nuevo para mirar con otra.</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>Exposiciones, en pausa</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>zonas interiores</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>Toda la vista, con una u otra exposición.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>Todo menos el %1 de la vista, con una u otra exposición.</translation>
     </message>
 </context>
 <context>

@@ -4057,10 +4057,6 @@
         <translation>Blanc et noir diffèrent comme il se doit.</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>Toute la vue, sauf %1.</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>Parties claires couvertes</translation>
     </message>
@@ -4103,10 +4099,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>Aucune caméra choisie</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>Tout le champ.</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4286,6 +4278,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>Vérifiez à nouveau pour regarder avec un autre.</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>Temps de pose, en pause</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>des endroits à l’intérieur</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>Tout le champ, par un temps de pose ou un autre.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>Toute la vue, sauf %1, par un temps de pose ou un autre.</translation>
     </message>
 </context>
 <context>

@@ -4057,10 +4057,6 @@
         <translation>Bianco e nero differiscono come devono.</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>Tutta l’inquadratura tranne %1.</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>Le parti chiare sono coperte</translation>
     </message>
@@ -4103,10 +4099,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>Nessuna fotocamera scelta</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>Tutta l’inquadratura.</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4286,6 +4278,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>Verificare di nuovo per guardare con un’altra.</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>Esposizioni, in pausa</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>punti al suo interno</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>Tutta l’inquadratura, con l’una o l’altra esposizione.</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>Tutta l’inquadratura tranne %1, con l’una o l’altra esposizione.</translation>
     </message>
 </context>
 <context>

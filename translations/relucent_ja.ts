@@ -4035,10 +4035,6 @@
         <translation>白と黒の差は正常です。</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>視野の %1 を除くすべて。</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>明るい部分はカバー済み</translation>
     </message>
@@ -4081,10 +4077,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>カメラが選ばれていません</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>視野全体。</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4263,6 +4255,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>別の露出で見るには、もう一度確認します。</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>露出（一時停止中）</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>内側の一部</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>視野全体が、いずれかの露出で。</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>視野の %1 を除くすべてが、いずれかの露出で。</translation>
     </message>
 </context>
 <context>

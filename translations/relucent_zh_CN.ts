@@ -4035,10 +4035,6 @@
         <translation>白与黑的差别正常。</translation>
     </message>
     <message>
-        <source>All but %1 of the view.</source>
-        <translation>视野中仅 %1 除外。</translation>
-    </message>
-    <message>
         <source>Bright parts are covered</source>
         <translation>亮部已覆盖</translation>
     </message>
@@ -4081,10 +4077,6 @@
     <message>
         <source>No camera is chosen yet</source>
         <translation>尚未选择相机</translation>
-    </message>
-    <message>
-        <source>All of the view.</source>
-        <translation>整个视野。</translation>
     </message>
     <message>
         <source>Camera pixels</source>
@@ -4263,6 +4255,22 @@
     <message>
         <source>Check again to look with another one.</source>
         <translation>要用其他曝光查看，请再次检查。</translation>
+    </message>
+    <message>
+        <source>Exposures, paused</source>
+        <translation>曝光（已暂停）</translation>
+    </message>
+    <message>
+        <source>places within it</source>
+        <translation>内部的一些地方</translation>
+    </message>
+    <message>
+        <source>All of the view, by one exposure or another.</source>
+        <translation>整个视野，由这种或那种曝光覆盖。</translation>
+    </message>
+    <message>
+        <source>All but %1 of the view, by one exposure or another.</source>
+        <translation>视野中仅 %1 除外，由这种或那种曝光覆盖。</translation>
     </message>
 </context>
 <context>

@@ -350,6 +350,7 @@ bool CameraPage::isFocusJudged() const {
 }
 
 void CameraPage::chooseExposure(std::size_t index) {
+  if (!mayChooseExposure()) return tellSettings();
   // Noise looks sharp: that of another exposure is no mark for this one.
   if (std::exchange(exposure_, index) != index) forgetBest();
   if (shared_) {
@@ -511,6 +512,8 @@ void CameraPage::learnBest() {
 void CameraPage::ended() {
   takeSharedState();
   isChecking_ = false;
+  // What was chosen last may not have been looked with any more: the picture that stays says which one was.
+  if (look() && look()->exposure) exposure_ = *look()->exposure;
   lease_.release();
   if (job_.state() == Job::State::failed)
     Q_EMIT failed({job_.failure(), tr("Nothing is measured at this step, so nothing is lost.")});

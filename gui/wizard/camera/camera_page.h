@@ -93,6 +93,8 @@ class CameraPage : public DevicePage {
   void setExposureUnit(double seconds);
   /// Which of them the camera looks with.
   std::size_t exposure() const { return exposure_; }
+  /// While it looks: what is shown afterwards was taken with the exposure that was chosen then.
+  bool mayChooseExposure() const { return isLooking(); }
   void chooseExposure(std::size_t index);
   Size projectorSize(std::size_t projector) const { return session_.projectorSize(projector); }
   /// Of the shortest: too bright in every exposure; of the longest: too dark in every one. None before they

@@ -364,12 +364,14 @@ class CameraInspector {
       focus->setValue(isKnown ? focusText(model) : QString::fromUtf8("–"));
       meter->setValue(model.focus());
       const std::vector<double> exposures = model.exposures();
+      const bool isPaused = seen && !model.isKept() && !model.mayChooseExposure();
       exposuresTitle->setText(model.isKept() ? CameraPage::tr("Exposures, kept")
+                              : isPaused     ? CameraPage::tr("Exposures, paused")
                                              : CameraPage::tr("Exposures"));
       for (int i = 0; i < 4; ++i) {
         bool used = static_cast<std::size_t>(i) < exposures.size();
         group->button(i)->setVisible(used);
-        setPossible(group->button(i), !model.isKept(),
+        setPossible(group->button(i), model.mayChooseExposure(),
                     CameraPage::tr("Check again to look with another one."));
         if (used) group->button(i)->setText(exposureText(exposures[static_cast<std::size_t>(i)]));
         if (used) group->button(i)->setChecked(static_cast<std::size_t>(i) == model.exposure());

@@ -54,16 +54,31 @@ class CoverageMap : public QWidget {
   linearization::Coverage coverage_;
 };
 
-/// Where the picture is out of sight.
+/// Whether cells are missing elsewhere than at the edges that are missed.
+bool isMissingWithin(const linearization::Coverage& coverage, bool left, bool right, bool top, bool bottom) {
+  for (std::size_t i = 0; i < coverage.seen.size(); ++i) {
+    const Pixel cell = pixelAt(coverage.cells, i);
+    const bool isAtEdge = (left && cell.x == 0) || (right && cell.x + 1 == coverage.cells.width) ||
+                          (top && cell.y == 0) || (bottom && cell.y + 1 == coverage.cells.height);
+    if (coverage.seen[i] == 0 && !isAtEdge) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 QString missingText(const linearization::Coverage& coverage, bool isSimulated) {
   constexpr double most = 0.5;  // of an edge's cells
   QStringList edges;
-  if (coverage.missingLeft() > most) edges << CameraPage::tr("at the left");
-  if (coverage.missingRight() > most) edges << CameraPage::tr("at the right");
-  if (coverage.missingTop() > most) edges << CameraPage::tr("at the top");
-  if (coverage.missingBottom() > most) edges << CameraPage::tr("at the bottom");
+  const bool left = coverage.missingLeft() > most, right = coverage.missingRight() > most,
+             top = coverage.missingTop() > most, bottom = coverage.missingBottom() > most;
+  if (left) edges << CameraPage::tr("at the left");
+  if (right) edges << CameraPage::tr("at the right");
+  if (top) edges << CameraPage::tr("at the top");
+  if (bottom) edges << CameraPage::tr("at the bottom");
   if (edges.isEmpty())
     return CameraPage::tr("Missing are places within it: in shadow, or too dark for the camera.");
+  if (isMissingWithin(coverage, left, right, top, bottom)) edges << CameraPage::tr("places within it");
   if (isSimulated)
     return CameraPage::tr(
                "Missing: %1. A simulated camera stays where it stands: go on, what it does not see "
@@ -72,6 +87,8 @@ QString missingText(const linearization::Coverage& coverage, bool isSimulated) {
   return CameraPage::tr("Missing: %1. Aim the camera there, or move it back.")
       .arg(QLocale().createSeparatedList(edges));
 }
+
+namespace {
 
 /// How much of the picture is seen, and where it is not.
 QWidget* coveragePart(CameraPage& model) {
@@ -145,9 +162,11 @@ void judge(Remark* verdict, const std::optional<double>& share, const QString& g
   if (*share > 0.02)
     verdict->show(Kind::warning, bad.arg(percentText(*share)), advice);
   else
-    verdict->show(Kind::good, good,
-                  *share < 0.0005 ? CameraPage::tr("All of the view.")
-                                  : CameraPage::tr("All but %1 of the view.").arg(percentText(*share)));
+    verdict->show(
+        Kind::good, good,
+        *share < 0.0005
+            ? CameraPage::tr("All of the view, by one exposure or another.")
+            : CameraPage::tr("All but %1 of the view, by one exposure or another.").arg(percentText(*share)));
 }
 
 /// Whether the camera sees the projector at all, as far as somebody looks or has looked.

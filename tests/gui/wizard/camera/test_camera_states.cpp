@@ -109,6 +109,45 @@ class TestCameraStates : public QObject {
     QVERIFY(!page_->look() && page_->exposures().empty() && page_->coverage().empty());
   }
 
+  /// Law: in a pause the chosen exposure is the one of the picture that stays, and no other can be chosen.
+  void aPauseShowsTheExposureOfItsPicture() {
+    look();
+    QVERIFY(page_->exposures().size() > 1);
+    const std::size_t chosen = page_->exposure() == 0 ? 1 : 0;
+    page_->chooseExposure(chosen);
+    QTRY_VERIFY_WITH_TIMEOUT(page_->look()->exposure == chosen, patience);
+    page_->chooseExposure(1 - chosen);  // and paused before it is looked with
+    page_->finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->isLooking(), patience);
+    QVERIFY(page_->look()->exposure == page_->exposure());
+    const std::size_t shown = page_->exposure();
+    page_->chooseExposure(1 - shown);
+    QCOMPARE(page_->exposure(), shown);
+  }
+
+  void whatIsMissingIsSaid_data() {
+    QTest::addColumn<QString>("cells");
+    QTest::addColumn<QString>("said");
+    QTest::newRow("an edge") << "-+++ -+++ -+++"
+                             << "Missing: at the left.";
+    QTest::newRow("within") << "++++ +-++ ++++"
+                            << "Missing are places within it";
+    QTest::newRow("an edge, and within") << "-+++ -+-+ -+++"
+                                         << "Missing: at the left and places within it.";
+    QTest::newRow("two edges that meet") << "---- -+++ -+++"
+                                         << "Missing: at the left and at the top.";
+  }
+  /// Law: all that the map shows as missing is said.
+  void whatIsMissingIsSaid() {
+    QFETCH(QString, cells);
+    QFETCH(QString, said);
+    linearization::Coverage coverage{{4, 3}, {}};
+    for (const QChar cell : cells)
+      if (cell != ' ') coverage.seen.push_back(cell == '+' ? 1 : 0);
+    const QString text = missingText(coverage, false);
+    QVERIFY2(text.startsWith(said), qPrintable(text));
+  }
+
   /// Law: how much of the picture is seen is known after the check, and said.
   void coverageIsSaid() {
     look();

@@ -7286,6 +7286,14 @@ projector %2</source>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>اعرض على %1</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>لا سطح للتدريب: يضيء هذا الشاشة %1 حتى توقفه أو تغادر.</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>إعادة تسمية موقع</translation>
     </message>
@@ -8456,10 +8464,6 @@ projector %2</source>
         <translation>موقع جديد</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء في القاعة.</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>حدّد الشاشة التي تضيء، والبرامج التي تعرض وتصوّر، ومكان حفظ العمل.</translation>
     </message>
@@ -9086,6 +9090,10 @@ projector %2</source>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء ما لم تختر شاشة.</translation>
+    </message>
         <source>Try again then.</source>
         <translation>حاول بعد ذلك مرة أخرى.</translation>
     </message>

@@ -7134,6 +7134,14 @@ Projektor %2</translation>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>Auf %1 werfen</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>Eine Probe hat keine Fläche: Dies leuchtet auf dem Bildschirm %1, bis Sie es beenden oder weggehen.</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>Spielort umbenennen</translation>
     </message>
@@ -8276,10 +8284,6 @@ Projektor %2</translation>
         <translation>Neuer Spielort</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. In den Raum wird nichts projiziert.</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Geben Sie an, welcher Bildschirm strahlt, welche Programme zeigen und fotografieren und wo die Arbeit liegt.</translation>
     </message>
@@ -8886,6 +8890,10 @@ Projektor %2</translation>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. Projiziert wird nichts, außer Sie wählen einen Bildschirm.</translation>
+    </message>
         <source>Try again then.</source>
         <translation>Versuchen Sie es danach noch einmal.</translation>
     </message>

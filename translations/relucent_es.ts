@@ -7134,6 +7134,14 @@ proyector %2</translation>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>Proyectar en %1</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>Un ensayo no tiene superficie: esto ilumina la pantalla %1 hasta que lo detenga o salga.</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>Cambiar el nombre de un lugar</translation>
     </message>
@@ -8276,10 +8284,6 @@ proyector %2</translation>
         <translation>Nuevo lugar</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada en la sala.</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indique qué pantalla ilumina, qué programas muestran y fotografían, y dónde se guarda el trabajo.</translation>
     </message>
@@ -8886,6 +8890,10 @@ proyector %2</translation>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada, salvo que elija una pantalla.</translation>
+    </message>
         <source>Try again then.</source>
         <translation>Inténtelo de nuevo después.</translation>
     </message>

@@ -7134,6 +7134,14 @@ projecteur %2</translation>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>Projeter sur %1</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>Une répétition n’a pas de surface : ceci éclaire l’écran %1 jusqu’à ce que vous l’arrêtiez ou partiez.</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>Renommer un lieu</translation>
     </message>
@@ -8276,10 +8284,6 @@ projecteur %2</translation>
         <translation>Nouveau lieu</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté dans la salle.</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indiquez l’écran qui éclaire, les programmes qui affichent et photographient, et où garder le travail.</translation>
     </message>
@@ -8886,6 +8890,10 @@ projecteur %2</translation>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté, sauf si vous choisissez un écran.</translation>
+    </message>
         <source>Try again then.</source>
         <translation>Réessayez ensuite.</translation>
     </message>

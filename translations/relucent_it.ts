@@ -7134,6 +7134,14 @@ proiettore %2</translation>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>Proietta su %1</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>Una prova non ha superficie: questo illumina lo schermo %1 finché non si ferma o si esce.</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>Rinomina un luogo</translation>
     </message>
@@ -8276,10 +8284,6 @@ proiettore %2</translation>
         <translation>Nuovo luogo</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato nella sala.</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>Indicare quale schermo illumina, quali programmi mostrano e fotografano e dove conservare il lavoro.</translation>
     </message>
@@ -8886,6 +8890,10 @@ proiettore %2</translation>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato, a meno che non si scelga uno schermo.</translation>
+    </message>
         <source>Try again then.</source>
         <translation>Riprovare dopo.</translation>
     </message>

@@ -7096,6 +7096,14 @@ projector %2</source>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>%1 に投影</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>リハーサルには面がありません。停止するかページを離れるまで、画面 %1 に映します。</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>会場の名前を変更</translation>
     </message>
@@ -8231,10 +8239,6 @@ projector %2</source>
         <translation>新しい会場</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>同じ手順を、模擬のプロジェクターとカメラで行います。室内には何も投影しません。</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>投影する画面、表示と撮影を行うプログラム、作業の保存先を指定します。</translation>
     </message>
@@ -8836,6 +8840,10 @@ projector %2</source>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>同じ手順を、模擬のプロジェクターとカメラで行います。画面を選ばない限り、何も投影しません。</translation>
+    </message>
         <source>Try again then.</source>
         <translation>そのあとでもう一度お試しください。</translation>
     </message>

@@ -7096,6 +7096,14 @@ projector %2</source>
 <context>
     <name>relucent::gui::RenameDialog</name>
     <message>
+    <message>
+        <source>Shine on %1</source>
+        <translation>投到 %1</translation>
+    </message>
+    <message>
+        <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
+        <translation>排练没有表面：在您停止或离开之前，这会点亮屏幕 %1。</translation>
+    </message>
         <source>Rename a venue</source>
         <translation>重命名场地</translation>
     </message>
@@ -8231,10 +8239,6 @@ projector %2</source>
         <translation>新建场地</translation>
     </message>
     <message>
-        <source>The same steps, with a simulated projector and camera. Nothing is projected into the room.</source>
-        <translation>步骤相同，使用模拟的投影机和相机。不会向场内投影。</translation>
-    </message>
-    <message>
         <source>Say which screen shines, which programs show and photograph, and where the work is kept.</source>
         <translation>指定照射的屏幕、显示和拍摄的程序，以及数据的保存位置。</translation>
     </message>
@@ -8836,6 +8840,10 @@ projector %2</source>
 <context>
     <name>relucent::gui::VenueTidy</name>
     <message>
+    <message>
+        <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
+        <translation>步骤相同，使用模拟的投影机和相机。除非您选择屏幕，否则不会投影。</translation>
+    </message>
         <source>Try again then.</source>
         <translation>之后请重试。</translation>
     </message>

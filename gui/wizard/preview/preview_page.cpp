@@ -387,9 +387,16 @@ void PreviewPage::updateCommands() {
   accept_->show(tr("Go to output"), preview_ != nullptr && engine_ != nullptr && whyLocked().isEmpty());
   const QString why = whyNotShining();
   shine_->setGlyph(isShining() ? Icon::stop : Icon::projector);
-  shine_->showUnless(why, isShining() ? tr("Stop shining") : tr("Shine on surface"));
-  shine_->setToolTip(why.isEmpty() ? tr("Shows this picture on the surface until you stop it or leave.")
-                                   : why);
+  const QString borrowed = borrowedScreens();
+  shine_->showUnless(why, isShining()          ? tr("Stop shining")
+                          : borrowed.isEmpty() ? tr("Shine on surface")
+                                               : tr("Shine on %1").arg(borrowed));
+  shine_->setToolTip(!why.isEmpty() ? why
+                     : borrowed.isEmpty()
+                         ? tr("Shows this picture on the surface until you stop it or leave.")
+                         : tr("A rehearsal has no surface: this lights the screen %1 until you "
+                              "stop it or leave.")
+                               .arg(borrowed));
   compare_->show(shinesCorrected_ ? tr("Show uncorrected") : tr("Show corrected"));
 }
 
@@ -408,6 +415,14 @@ QString PreviewPage::whyNotShining() const {
   if (std::ranges::any_of(screens, &ProjectorWindow::isTaken))
     return tr("The output is on that screen. Close it first.");
   return {};
+}
+
+/// Of a rehearsal, which nobody expects to shine into the room: the screens that would, by name.
+QString PreviewPage::borrowedScreens() const {
+  QStringList names;
+  if (session_.isOpen() && session_.isSimulated())
+    for (const ScreenIdentity& screen : projectorScreens(session_)) names << screen.connector;
+  return QLocale().createSeparatedList(names);
 }
 
 /// The devices are held meanwhile: nothing measures while the picture is in its way.

@@ -143,6 +143,7 @@ class PreviewPage : public DevicePage {
   void lookAtPicture();
   const std::vector<QImage>& sent() const;
   void surfaceChanged();
+  QString borrowedScreens() const;
 
   pipeline::ContentSettings placedSettings() const;
 

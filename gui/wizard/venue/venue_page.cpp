@@ -99,7 +99,9 @@ QString VenuePage::title() const {
 QString VenuePage::subtitle() const {
   switch (mode_) {
     case Mode::rehearse:
-      return tr("The same steps, with a simulated projector and camera. Nothing is projected into the room.");
+      return tr(
+          "The same steps, with a simulated projector and camera. Nothing is projected unless you choose a "
+          "screen.");
     case Mode::script:
       return tr("Say which screen shines, which programs show and photograph, and where the work is kept.");
     case Mode::devices:

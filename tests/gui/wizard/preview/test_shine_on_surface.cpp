@@ -77,6 +77,16 @@ class TestShineOnSurface : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(allBlack(onSurface()), patience);
   }
 
+  /// Law: a rehearsal, which shines nowhere by itself, says which screen it would light.
+  void aRehearsalNamesTheScreen() {
+    QVERIFY(session().isSimulated());
+    QCOMPARE(shine()->text(), PreviewPage::tr("Shine on %1").arg("DUMMY1"));
+    QVERIFY2(shine()->toolTip().contains("DUMMY1"), qPrintable(shine()->toolTip()));
+    shine()->trigger();
+    QCOMPARE(shine()->text(), PreviewPage::tr("Stop shining"));
+    page_->stopShining();
+  }
+
   /// Law: whoever leaves the page leaves the surface dark.
   void leavingEndsIt() {
     shine()->trigger();

@@ -18,6 +18,7 @@
 #include "relucent/pipeline/reductions.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/surprises_file.h"
 #include "wizard/session/kept_shots.h"
 
 namespace relucent::gui {
@@ -70,7 +71,8 @@ QString Session::name() const {
 void Session::open(const fs::path& path) {
   calibration::CalibrationFolder folder =
       calibration::CalibrationFolder::open(path, calibration::CalibrationFolder::Access::read);
-  surprises_ = nullptr;
+  surprises_ = pipeline::loadSurprises(path);
+  keepSurprises(path);
   adopt(std::move(folder));
 }
 
@@ -78,7 +80,22 @@ void Session::begin(const fs::path& path, const pipeline::CalibrateSettings& set
                     const venue::SurpriseSettings& surprises) {
   calibration::CalibrationFolder folder = pipeline::beginCalibration(path, settings);
   surprises_ = surprises.kinds.empty() ? nullptr : std::make_shared<venue::Surprises>(surprises);
+  if (surprises_) pipeline::saveSurprises(*surprises_, path);
+  keepSurprises(path);
   adopt(std::move(folder));
+}
+
+/// How far they have come is kept as soon as it changes: a light that is on stays on when the venue is opened
+/// again, and what is still to come comes then.
+void Session::keepSurprises(const fs::path& path) {
+  if (!surprises_) return;
+  surprises_->tellChanges([path](const venue::Surprises& surprises) {
+    try {
+      pipeline::saveSurprises(surprises, path);
+    } catch (const Error&) {
+      // A disk that is full is told of by what measures.
+    }
+  });
 }
 
 void Session::putRight() {

@@ -140,7 +140,7 @@ class Session : public QObject {
 
   /// Throws: as CalibrationFolder::open() and beginCalibration(); the session is then as it was.
   void open(const std::filesystem::path& path);
-  /// `surprises`: what happens to simulated devices, as long as this calibration stays open.
+  /// `surprises`: what happens to simulated devices; opened again, the calibration still has them.
   void begin(const std::filesystem::path& path, const pipeline::CalibrateSettings& settings,
              const venue::SurpriseSettings& surprises = {});
   /// nullptr: none.
@@ -339,6 +339,7 @@ class Session : public QObject {
   void adopt(calibration::CalibrationFolder given);
   void slowDown();
   void makeDevices();
+  void keepSurprises(const std::filesystem::path& path);
   void takeBackDevices();
   void listenForCamera();
   std::unique_ptr<devices::ScreenProjector> openScreen(const pipeline::ScreenRigSettings& settings);

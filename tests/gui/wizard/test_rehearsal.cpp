@@ -117,12 +117,38 @@ class TestRehearsal : public QObject {
              qPrintable(QString("%1 of %2").arg(taken).arg(expected)));
   }
 
-  void surprisesAreOfOneRehearsal() {
-    rehearse({Surprise::bump});
-    acquire_->finish();
+  void anInterruptionEndsNoSurprise_data() {
+    QTest::addColumn<bool>("hasBegun");
+    QTest::newRow("before it comes") << false;
+    QTest::newRow("while it lasts") << true;
+  }
+  /// Law: a rehearsal that is closed and opened again goes on as a room does: what was to come comes, and a
+  /// light that was switched on is on.
+  void anInterruptionEndsNoSurprise() {
+    QFETCH(bool, hasBegun);
+    rehearse({Surprise::roomLight});
+    session_->live().setLeastInterval(30);
+    const auto ending = connect(acquire_.get(), &AcquirePage::progressChanged, acquire_.get(), [&] {
+      const bool isAt =
+          hasBegun ? session_->surprises()->hasHappened(Surprise::roomLight) : acquire_->photographs() > 0;
+      if (acquire_->isMeasuring() && isAt) acquire_->finish();
+    });
     QTRY_VERIFY_WITH_TIMEOUT(!acquire_->isMeasuring(), patience);
-    session_->open(session_->path());
-    QVERIFY(session_->surprises() == nullptr);
+    disconnect(ending);
+    QVERIFY(told_->isEmpty());
+    const std::filesystem::path path = session_->path();
+    cleanup();
+    init();
+    session_->open(path);
+    QVERIFY(session_->surprises() != nullptr);
+    QCOMPARE(session_->surprises()->hasHappened(Surprise::roomLight), hasBegun);
+    acquire_->primary()->trigger();
+    const FailureReport asked = question();
+    QCOMPARE(asked.failure.heading, AcquisitionTrace::headingOf(AlarmKind::ambientChanged));
+    asked.resume->trigger();
+    endsAsIfNothingHadHappened(Surprise::roomLight);
+    session_->open(path);
+    QVERIFY(!session_->surprises()->lasts(Surprise::roomLight));
   }
 
   void aLightThatIsSwitchedOn() {

@@ -168,8 +168,15 @@ class MirrorView : public ImageView {
 bool acceptsText(const QWidget* widget) {
   return qobject_cast<const QLineEdit*>(widget) != nullptr ||
          qobject_cast<const QAbstractItemView*>(widget) != nullptr ||
-         qobject_cast<const QAbstractSpinBox*>(widget) != nullptr ||
-         qobject_cast<const QComboBox*>(widget) != nullptr;
+         qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
+}
+
+/// A closed list would choose what begins with the letter: a projector's screen, unseen.
+bool wouldChoose(const QWidget* widget, const QKeyEvent& key) {
+  const QString typed = key.text();
+  const bool isTyped = (key.modifiers() & ~Qt::ShiftModifier) == Qt::NoModifier &&
+                       key.key() != Qt::Key_Space && !typed.isEmpty() && typed.front().isPrint();
+  return isTyped && qobject_cast<const QComboBox*>(widget) != nullptr;
 }
 
 /// Pictures beside each other. Wherever on the page the focus is, but where something is typed: A held shows
@@ -208,8 +215,10 @@ class OutputStage : public QWidget {
     const bool isOriginal = key->key() == Qt::Key_A;
     // Once it is down it goes up, whatever has come between.
     const bool isMeant = key->modifiers() == Qt::NoModifier && !acceptsText(QApplication::focusWidget());
-    if (!isMeant && !(isOriginal && original_.isDown())) return false;
+    const bool isLetter = wouldChoose(QApplication::focusWidget(), *key);
+    if (!isMeant && !(isOriginal && original_.isDown())) return isLetter;
     const bool isPressed = event->type() == QEvent::KeyPress, isRepeated = key->isAutoRepeat();
+    if (isLetter && !isOriginal && !isSwitch(key->key())) return true;
     if (!isOriginal) return isPressed && (isRepeated ? isSwitch(key->key()) : act(key->key()));
     original_.take(*key);
     return true;

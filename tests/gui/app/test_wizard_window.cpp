@@ -2,6 +2,7 @@
 // The wizard driven by mouse and keyboard, from the first page to the output window, on a small simulated
 // venue. Runs on two screens, see tests/support/with-two-screens.
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDesktopServices>
 #include <QLineEdit>
 #include <QMimeData>
@@ -441,6 +442,9 @@ class TestWizardWindow : public QObject {
     QVERIFY(output.chosen().has_value());
     // A rehearsal shines nowhere until somebody says where.
     QVERIFY(output.screens()[*output.chosen()].isPageOnly);
+    find<QComboBox>("output-screen")->setFocus();
+    QTest::keyClick(find<QComboBox>("output-screen"), Qt::Key_D);  // which DUMMY1 begins with
+    QVERIFY(output.screens()[*output.chosen()].isPageOnly);
     shineOnTheSecondScreen();
     QVERIFY(!output.screens()[*output.chosen()].operators && !output.screens()[*output.chosen()].isPageOnly);
     wizard_->window().activateWindow();
@@ -474,6 +478,14 @@ class TestWizardWindow : public QObject {
       QTest::keyClick(where, Qt::Key_B);
       QVERIFY(!wizard_->page<OutputPage>().isBlack());
     }
+    // In a closed list they are meant no less, and no screen is chosen by them.
+    auto* screens = find<QComboBox>("output-screen");
+    const std::optional<std::size_t> screen = output.chosen();
+    screens->setFocus();
+    QTest::keyClick(screens, Qt::Key_T);
+    QVERIFY(output.isOpen() && output.chosen() == screen && output.projection().showsChart());
+    for (std::size_t i = 0; i < allTestCharts.size(); ++i) QTest::keyClick(screens, Qt::Key_T);
+    QVERIFY(!output.projection().showsChart());
     find<QWidget>("playlist")->setFocus();
     QTest::keyPress(find<QWidget>("playlist"), Qt::Key_A);
     QVERIFY(wizard_->page<OutputPage>().isCompensated());

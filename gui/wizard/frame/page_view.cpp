@@ -15,6 +15,15 @@ constexpr const char* beginsHereName = "beginsHere";
 
 }  // namespace
 
+NotYetSeen::NotYetSeen(QObject* widget) : widget_(qobject_cast<QWidget*>(widget)) {
+  if (widget_ != nullptr && (widget_->parentWidget() != nullptr || widget_->isVisible())) widget_ = nullptr;
+  if (widget_ != nullptr) widget_->setAttribute(Qt::WA_DontShowOnScreen);
+}
+
+NotYetSeen::~NotYetSeen() {
+  if (widget_ != nullptr) widget_->setAttribute(Qt::WA_DontShowOnScreen, false);
+}
+
 bool focusFirst(QWidget* region) {
   QWidget* first = nullptr;
   for (QWidget* child : region->findChildren<QWidget*>()) {

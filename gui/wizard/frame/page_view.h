@@ -15,10 +15,26 @@ struct PageView {
   QWidget* inspector = nullptr;
 };
 
+/// Keeps a widget that is in no window yet from being seen as a window of its own while it is told to be
+/// visible.
+class NotYetSeen {
+ public:
+  explicit NotYetSeen(QObject* widget);
+  ~NotYetSeen();
+  NotYetSeen(const NotYetSeen&) = delete;
+  NotYetSeen& operator=(const NotYetSeen&) = delete;
+
+ private:
+  QWidget* widget_;  // nullptr: it is in a window, or none at all
+};
+
 /// Refreshes now, and whenever one of these signals of the page comes.
 template <typename Refresh, typename... Signals>
 void refreshOn(PageModel& page, QObject* context, Refresh refresh, Signals... signal) {
-  refresh();
+  {
+    const NotYetSeen notYet(context);
+    refresh();
+  }
   (QObject::connect(&page, signal, context, refresh), ...);
 }
 

@@ -700,6 +700,18 @@ class TestWizardWindow : public QObject {
     help = find<HelpWindow>("help");
     QVERIFY(help != nullptr && help->isVisible());
     QCOMPARE(find<QListWidget>("help-pages")->currentRow(), shown);
+    // No part of a page is seen as a window of its own while it is made.
+    struct Windows : QObject {
+      QStringList shown;
+      bool eventFilter(QObject* watched, QEvent* event) override {
+        auto* widget = qobject_cast<QWidget*>(watched);
+        if (event->type() == QEvent::Show && widget != nullptr && widget->isWindow() &&
+            !widget->testAttribute(Qt::WA_DontShowOnScreen))
+          shown << QString(widget->metaObject()->className()) + ' ' + widget->objectName();
+        return false;
+      }
+    } windows;
+    qApp->installEventFilter(&windows);
     // Its words have room.
     for (const char* name : {"open-settings", "open-help"})
       QVERIFY2(!find<QPushButton>(name)->text().isEmpty(), name);

@@ -387,10 +387,6 @@
         <translation>إظهار الكل</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>ملء الشاشة (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>حفظ</translation>
     </message>
@@ -421,6 +417,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>ملء الشاشة، حفظ</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>ملء الشاشة (F11 في الصورة)</translation>
     </message>
 </context>
 <context>
@@ -5230,6 +5230,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>يقل ما يقع في القاعة من ضوء هذه الشاشة (F9)</translation>
     </message>
 </context>
 <context>

@@ -379,10 +379,6 @@
         <translation>Alles zeigen</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>Vollbild (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Speichern</translation>
     </message>
@@ -413,6 +409,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>Ganzer Bildschirm, speichern</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>Vollbild (F11 im Bild)</translation>
     </message>
 </context>
 <context>
@@ -5102,6 +5102,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>Vom Licht dieses Bildschirms fällt weniger in den Raum (F9)</translation>
     </message>
 </context>
 <context>

@@ -379,10 +379,6 @@
         <translation>Mostrar todo</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>Pantalla completa (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Guardar</translation>
     </message>
@@ -413,6 +409,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>Pantalla completa, guardar</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>Pantalla completa (F11 en la imagen)</translation>
     </message>
 </context>
 <context>
@@ -5102,6 +5102,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>Cae menos luz de esta pantalla en la sala (F9)</translation>
     </message>
 </context>
 <context>

@@ -379,10 +379,6 @@
         <translation>Tout afficher</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>Plein écran (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Enregistrer</translation>
     </message>
@@ -413,6 +409,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>Plein écran, enregistrer</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>Plein écran (F11 dans l’image)</translation>
     </message>
 </context>
 <context>
@@ -5102,6 +5102,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>Moins de lumière de cet écran tombe dans la salle (F9)</translation>
     </message>
 </context>
 <context>

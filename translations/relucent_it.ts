@@ -379,10 +379,6 @@
         <translation>Mostra tutto</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>Schermo intero (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>Salva</translation>
     </message>
@@ -413,6 +409,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>Schermo intero, salva</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>Schermo intero (F11 nell’immagine)</translation>
     </message>
 </context>
 <context>
@@ -5102,6 +5102,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>Meno luce di questo schermo cade nella sala (F9)</translation>
     </message>
 </context>
 <context>

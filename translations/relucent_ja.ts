@@ -377,10 +377,6 @@
         <translation>全体を表示</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>全画面（F11）</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>保存</translation>
     </message>
@@ -411,6 +407,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>全画面、保存</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>全画面（画像内で F11）</translation>
     </message>
 </context>
 <context>
@@ -5070,6 +5070,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>この画面から室内に入る光を減らします（F9）</translation>
     </message>
 </context>
 <context>

@@ -377,10 +377,6 @@
         <translation>显示全部</translation>
     </message>
     <message>
-        <source>Whole screen (F11)</source>
-        <translation>全屏 (F11)</translation>
-    </message>
-    <message>
         <source>Save</source>
         <translation>保存</translation>
     </message>
@@ -411,6 +407,10 @@
     <message>
         <source>Whole screen, save</source>
         <translation>全屏、保存</translation>
+    </message>
+    <message>
+        <source>Whole screen (F11 in the picture)</source>
+        <translation>全屏（在图像中按 F11）</translation>
     </message>
 </context>
 <context>
@@ -5070,6 +5070,10 @@
     <message>
         <source>F1</source>
         <translation>F1</translation>
+    </message>
+    <message>
+        <source>Less light from this screen falls into the room (F9)</source>
+        <translation>减少本屏幕落入场内的光 (F9)</translation>
     </message>
 </context>
 <context>

@@ -116,6 +116,7 @@ void MainWindow::buildHeader() {
   connect(&preferences_, &Preferences::changed, dim_, [this] { dim_->setChecked(preferences_.isDimmed()); });
   auto look = [this] {
     dim_->setText(Theme::instance().isDimmed() ? tr("Pictures dimmed") : tr("Dim pictures"));
+    dim_->setToolTip(tr("Less light from this screen falls into the room (F9)"));
     dim_->setIcon(iconOf(Icon::moon, colours().text));
   };
   connect(&Theme::instance(), &Theme::changed, this, look);
@@ -204,7 +205,12 @@ void MainWindow::bindKeys() {
   key(QKeySequence("F1"), [this] { showHelp(); });
   key(QKeySequence("F6"), [this] { moveToNextRegion(); });
   key(QKeySequence("F9"), [this] { dim_->toggle(); });
-  key(QKeySequence("F11"), [this] { isFullScreen() ? showNormal() : showFullScreen(); });
+  key(QKeySequence("F11"), [this] { setFullScreen(!isFullScreen()); });
+}
+
+/// What it was before, maximized or not, it is again afterwards.
+void MainWindow::setFullScreen(bool whole) {
+  setWindowState(windowState().setFlag(Qt::WindowFullScreen, whole));
 }
 
 void MainWindow::followFocus(QWidget* before, QWidget* now) {
@@ -283,12 +289,14 @@ void MainWindow::returnFocus() {
   hasWorked_ = false;
 }
 
-/// Enter does what the button with the focus says, as it does on tiles.
+/// Enter does what the button with the focus says, as it does on tiles. Esc leaves the whole screen, where
+/// nothing on the page has a use for it.
 void MainWindow::keyPressEvent(QKeyEvent* event) {
   auto* button = qobject_cast<QAbstractButton*>(focusWidget());
   const bool isEnter = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
   if (isEnter && !event->isAutoRepeat() && button != nullptr && !button->isCheckable())
     return button->click();
+  if (event->key() == Qt::Key_Escape && isFullScreen()) return setFullScreen(false);
   QMainWindow::keyPressEvent(event);
 }
 

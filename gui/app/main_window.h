@@ -54,6 +54,7 @@ class MainWindow : public QMainWindow {
   void buildRailFooter();
   void fitRailFooter();
   void bindKeys();
+  void setFullScreen(bool whole);
   void refresh();
   void moveToNextRegion();
   void returnFocus();

@@ -105,9 +105,12 @@ void PlaneView::paintWords(QPainter& painter) {
     if (isFlat()) paintMarks(painter);
   }
   if (saving_) return;
-  if (isWholeScreen())
-    drawTag(painter, {rect().center().x() - tagSize(tr("Esc goes back")).width() / 2.0, 12.0},
+  if (isWholeScreen()) {
+    const QSizeF size = tagSize(tr("Esc goes back"));
+    // Below what may stand at the top, at the sides of a divider.
+    drawTag(painter, {rect().center().x() - size.width() / 2.0, 12.0 + size.height() + 12.0},
             tr("Esc goes back"), darkColours().secondary);
+  }
   if (!hasFocus()) return;
   painter.setPen(QPen(darkColours().text, 2.0));
   painter.setBrush(Qt::NoBrush);

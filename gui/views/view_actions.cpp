@@ -84,7 +84,7 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
   QToolButton* fit = toolOf(Icon::fit, Translated::tr("Show everything"));
   QObject::connect(fit, &QToolButton::clicked, &view, [&view] { view.link().look(1.0, {0.5, 0.5}); });
   card.addAction(fit);
-  QToolButton* whole = toolOf(Icon::monitor, Translated::tr("Whole screen (F11)"));
+  QToolButton* whole = toolOf(Icon::monitor, Translated::tr("Whole screen (F11 in the picture)"));
   QObject::connect(whole, &QToolButton::clicked, &view, [&view] { view.setWholeScreen(true); });
   card.addAction(whole);
   QToolButton* save = menuButton(Icon::save, Translated::tr("Save"));
@@ -100,7 +100,7 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
 void addViewMenu(Card& card, const std::function<ShownView()>& shown,
                  const std::function<void(const Failure&)>& failed) {
   QToolButton* button = menuButton(Icon::monitor, Translated::tr("Whole screen, save"));
-  QAction* whole = button->menu()->addAction(Translated::tr("Whole screen (F11)"));
+  QAction* whole = button->menu()->addAction(Translated::tr("Whole screen (F11 in the picture)"));
   QObject::connect(whole, &QAction::triggered, &card, [shown] { shown().view.setWholeScreen(true); });
   addSaving(card, *button, shown, failed);
   card.addAction(button);

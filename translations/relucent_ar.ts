@@ -7286,10 +7286,6 @@ projector %2</source>
         <source>The output is open. Close it first.</source>
         <translation>الخرج مفتوح. أغلقه أولًا.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>اعرض على %1</translation>
@@ -7298,6 +7294,10 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>لا سطح للتدريب: يضيء هذا الشاشة %1 حتى توقفه أو تغادر.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>إعادة تسمية موقع</translation>
     </message>
@@ -9090,14 +9090,14 @@ projector %2</source>
         <source>No other screen is plugged in.</source>
         <translation>لا شاشة أخرى موصولة.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء ما لم تختر شاشة.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>حاول بعد ذلك مرة أخرى.</translation>
     </message>

@@ -3443,7 +3443,7 @@
     </message>
     <message>
         <source>%1 px blocks</source>
-        <translation>Blöcke von %1 px</translation>
+        <translation>%1-px-Blöcke</translation>
     </message>
     <message>
         <source>Expected now</source>
@@ -7134,10 +7134,6 @@ Projektor %2</translation>
         <source>The output is open. Close it first.</source>
         <translation>Die Ausgabe ist offen. Erst schließen.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>Auf %1 werfen</translation>
@@ -7146,6 +7142,10 @@ Projektor %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Eine Probe hat keine Fläche: Dies leuchtet auf dem Bildschirm %1, bis Sie es beenden oder weggehen.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>Spielort umbenennen</translation>
     </message>
@@ -8890,14 +8890,14 @@ Projektor %2</translation>
         <source>No other screen is plugged in.</source>
         <translation>Kein anderer Bildschirm angesteckt.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. Projiziert wird nichts, außer Sie wählen einen Bildschirm.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>Versuchen Sie es danach noch einmal.</translation>
     </message>

@@ -3443,7 +3443,7 @@
     </message>
     <message>
         <source>%1 px blocks</source>
-        <translation>bloques de %1 px</translation>
+        <translation>a %1 px</translation>
     </message>
     <message>
         <source>Expected now</source>
@@ -7134,10 +7134,6 @@ proyector %2</translation>
         <source>The output is open. Close it first.</source>
         <translation>La salida está abierta. Ciérrela antes.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>Proyectar en %1</translation>
@@ -7146,6 +7142,10 @@ proyector %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Un ensayo no tiene superficie: esto ilumina la pantalla %1 hasta que lo detenga o salga.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>Cambiar el nombre de un lugar</translation>
     </message>
@@ -8890,14 +8890,14 @@ proyector %2</translation>
         <source>No other screen is plugged in.</source>
         <translation>No hay otra pantalla conectada.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada, salvo que elija una pantalla.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>Inténtelo de nuevo después.</translation>
     </message>

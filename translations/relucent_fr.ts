@@ -3443,7 +3443,7 @@
     </message>
     <message>
         <source>%1 px blocks</source>
-        <translation>blocs de %1 px</translation>
+        <translation>à %1 px</translation>
     </message>
     <message>
         <source>Expected now</source>
@@ -7134,10 +7134,6 @@ projecteur %2</translation>
         <source>The output is open. Close it first.</source>
         <translation>La sortie est ouverte. Fermez-la d’abord.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>Projeter sur %1</translation>
@@ -7146,6 +7142,10 @@ projecteur %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Une répétition n’a pas de surface : ceci éclaire l’écran %1 jusqu’à ce que vous l’arrêtiez ou partiez.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>Renommer un lieu</translation>
     </message>
@@ -8890,14 +8890,14 @@ projecteur %2</translation>
         <source>No other screen is plugged in.</source>
         <translation>Aucun autre écran n’est branché.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté, sauf si vous choisissez un écran.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>Réessayez ensuite.</translation>
     </message>

@@ -3443,7 +3443,7 @@
     </message>
     <message>
         <source>%1 px blocks</source>
-        <translation>blocchi di %1 px</translation>
+        <translation>a %1 px</translation>
     </message>
     <message>
         <source>Expected now</source>
@@ -7134,10 +7134,6 @@ proiettore %2</translation>
         <source>The output is open. Close it first.</source>
         <translation>L’uscita è aperta. Prima chiuderla.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>Proietta su %1</translation>
@@ -7146,6 +7142,10 @@ proiettore %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Una prova non ha superficie: questo illumina lo schermo %1 finché non si ferma o si esce.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>Rinomina un luogo</translation>
     </message>
@@ -8890,14 +8890,14 @@ proiettore %2</translation>
         <source>No other screen is plugged in.</source>
         <translation>Nessun altro schermo collegato.</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato, a meno che non si scelga uno schermo.</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>Riprovare dopo.</translation>
     </message>

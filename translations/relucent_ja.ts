@@ -7096,10 +7096,6 @@ projector %2</source>
         <source>The output is open. Close it first.</source>
         <translation>出力が開いています。先に閉じます。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>%1 に投影</translation>
@@ -7108,6 +7104,10 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>リハーサルには面がありません。停止するかページを離れるまで、画面 %1 に映します。</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>会場の名前を変更</translation>
     </message>
@@ -8840,14 +8840,14 @@ projector %2</source>
         <source>No other screen is plugged in.</source>
         <translation>ほかの画面が接続されていません。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>同じ手順を、模擬のプロジェクターとカメラで行います。画面を選ばない限り、何も投影しません。</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>そのあとでもう一度お試しください。</translation>
     </message>

@@ -7096,10 +7096,6 @@ projector %2</source>
         <source>The output is open. Close it first.</source>
         <translation>输出已打开。请先关闭。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::RenameDialog</name>
-    <message>
     <message>
         <source>Shine on %1</source>
         <translation>投到 %1</translation>
@@ -7108,6 +7104,10 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>排练没有表面：在您停止或离开之前，这会点亮屏幕 %1。</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::RenameDialog</name>
+    <message>
         <source>Rename a venue</source>
         <translation>重命名场地</translation>
     </message>
@@ -8840,14 +8840,14 @@ projector %2</source>
         <source>No other screen is plugged in.</source>
         <translation>没有接上其他屏幕。</translation>
     </message>
-</context>
-<context>
-    <name>relucent::gui::VenueTidy</name>
-    <message>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>步骤相同，使用模拟的投影机和相机。除非您选择屏幕，否则不会投影。</translation>
     </message>
+</context>
+<context>
+    <name>relucent::gui::VenueTidy</name>
+    <message>
         <source>Try again then.</source>
         <translation>之后请重试。</translation>
     </message>

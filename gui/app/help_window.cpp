@@ -160,7 +160,8 @@ void HelpWindow::search(const QString& words) {
     if (page.id == before) list_->setCurrentItem(item);
   }
   if (list_->currentRow() < 0 && list_->count() > 0) list_->setCurrentRow(0);
-  if (list_->count() == 0) text_->setPlainText(tr("No page holds these words."));
+  // As a page: where the text becomes wider, it is written again, and the page of before must not come back.
+  if (list_->count() == 0) text_->show({{}, {}, tr("No page holds these words."), {}});
   fill();
 }
 

@@ -70,6 +70,28 @@ class TestHelpWindow : public QObject {
     QCOMPARE(sizes(*text->document()), sizes(*fresh.document()));
   }
 
+  /// Law: words that no page holds show no page, whichever was read before.
+  void whatNoPageHoldsIsSaidAlone() {
+    HelpWindow help("en");
+    help.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&help));
+    auto* text = help.findChild<HelpText*>("help-text");
+    auto* search = help.findChild<QLineEdit*>("help-search");
+    for (int i = 0; i < helpPages("en").size(); ++i) {
+      help.showPage(i);
+      QCoreApplication::processEvents();
+      search->setText("nowhere-to-be-found");
+      QCoreApplication::processEvents();
+      QCOMPARE(text->toPlainText().trimmed(), QString("No page holds these words."));
+      help.resize(help.width() + (i % 2 == 0 ? 40 : -40), help.height());
+      QCoreApplication::processEvents();
+      QCOMPARE(text->toPlainText().trimmed(), QString("No page holds these words."));
+    }
+    // Whoever asks for keys finds them.
+    search->setText("keyboard shortcuts");
+    QVERIFY(text->toPlainText().contains("Alt+Left"));
+  }
+
   void everyLibraryIsNamedWithVersionAndLicence() {
     QString about = helpPages("en").last().text;
     QVERIFY(about.contains("Permission is hereby granted"));

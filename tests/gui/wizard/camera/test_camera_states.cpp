@@ -133,9 +133,9 @@ class TestCameraStates : public QObject {
     QTest::newRow("within") << "++++ +-++ ++++"
                             << "Missing are places within it";
     QTest::newRow("an edge, and within") << "-+++ -+-+ -+++"
-                                         << "Missing: at the left and places within it.";
+                                         << "Missing: at the left, places within it.";
     QTest::newRow("two edges that meet") << "---- -+++ -+++"
-                                         << "Missing: at the left and at the top.";
+                                         << "Missing: at the left, at the top.";
   }
   /// Law: all that the map shows as missing is said.
   void whatIsMissingIsSaid() {

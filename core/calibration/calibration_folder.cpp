@@ -9,6 +9,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/file_name.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/leftovers.h"
@@ -102,8 +103,12 @@ Error damaged(const fs::path& manifest, const Message& what) {
 
 /// The manifest, with everything that this class later takes for granted.
 Json readManifest(const fs::path& file) {
-  Json manifest = Json::parse(readFile(file), nullptr, false);
-  if (manifest.is_discarded() || !manifest.is_object())
+  Json manifest;
+  try {
+    manifest = parsedJson<Json>(readFile(file));
+  } catch (const Json::exception&) {  // nothing, and so no manifest
+  }
+  if (!manifest.is_object())
     throw damaged(file, RELUCENT_MESSAGE("calibration.manifest-damaged",
                                          "the file that describes the venue is damaged"));
   if (manifest.value("format", Json()) != calibrationFormat)

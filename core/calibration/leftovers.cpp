@@ -6,6 +6,7 @@
 #include <string>
 
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/results_json.h"
 #include "relucent/calibration/shot_journal.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// The entries of all stages. The folder is open and locked: its manifest was found sound.
 Json resultsIn(const CalibrationFolder& folder) {
-  return Json::parse(readFile(folder.path() / CalibrationFolder::manifestName)).at("results");
+  return parsedJson<Json>(readFile(folder.path() / CalibrationFolder::manifestName)).at("results");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/fingerprint.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 
 namespace relucent::calibration {
@@ -43,7 +44,7 @@ std::size_t bytesOf(SampleCoding coding) {
 }
 
 double fullScale(int bits) {
-  return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1U);
+  return static_cast<double>((std::uint64_t{1} << static_cast<unsigned>(bits)) - 1U);
 }
 
 /// Samples of one frame as they are stored, before they are compressed.
@@ -208,7 +209,10 @@ std::size_t storedBytesOf(const Json& frame) {
 std::optional<rig::RawFrame> frameFrom(const Json& description, std::string_view stored) {
   const auto coding = description.at("samples").get<SampleCoding>();
   const std::size_t size = bytesOf(description);
-  if (size == 0) return std::nullopt;
+  const int bits = description.at("bits");
+  constexpr int most = 32;
+  if (size == 0 || bits < 0 || bits > most || (bits == 0 && coding != SampleCoding::floats))
+    return std::nullopt;
   std::optional<Bytes> unpacked;
   if (description.contains("bytes")) {
     unpacked = decompressed(stored, coding, size, description.at("channels").get<std::size_t>());
@@ -216,8 +220,8 @@ std::optional<rig::RawFrame> frameFrom(const Json& description, std::string_view
   }
   const char* from = unpacked ? unpacked->data() : stored.data();
   rig::RawFrame frame{
-      image::Image({description.at("width"), description.at("height")}, description.at("channels")),
-      description.at("bits"), description.at("seconds")};
+      image::Image({description.at("width"), description.at("height")}, description.at("channels")), bits,
+      description.at("seconds")};
   switch (coding) {
     case SampleCoding::codes8:
       readSamples<std::uint8_t>(from, frame.signal.data(), fullScale(frame.bits));
@@ -237,14 +241,16 @@ bool isKnownVersion(const Json& version) {
 }
 
 /// The line before the samples; null unless it is one of ours.
-Json headerOf(std::string_view content) {
+Json headerOf(std::string_view content) try {
   const std::size_t line = content.find('\n');
   if (line == std::string_view::npos) return {};
   const std::string_view text = content.substr(0, line);
-  Json header = Json::parse(text.begin(), text.end(), nullptr, false);
+  Json header = parsedJson<Json>(text);
   const bool isOurs = header.is_object() && header.value("format", Json()) == shotFormat &&
                       isKnownVersion(header.value("version", Json())) && header.contains("checksum");
   return isOurs ? std::move(header) : Json();
+} catch (const Json::exception&) {
+  return {};
 }
 
 /// Throws: Json::exception for a header that lacks something.

@@ -5,6 +5,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 
 namespace relucent::sentinels {
@@ -117,7 +118,7 @@ std::optional<AcquisitionRecord> loadAcquisitionRecord(const fs::path& folder) {
   if (!fs::exists(file)) return std::nullopt;
   const std::string text = readFile(file);
   try {
-    const Json json = Json::parse(text);
+    const Json json = parsedJson<Json>(text);
     AcquisitionRecord record;
     record.seconds = json.at("seconds");
     record.levels = json.at("levels").get<std::vector<int>>();

@@ -5,6 +5,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
 
 namespace relucent::pipeline {
@@ -46,7 +47,7 @@ std::optional<DriftRecord> loadDriftRecord(const fs::path& folder) {
   const fs::path file = folder / driftRecordName;
   if (!fs::exists(file)) return std::nullopt;
   try {
-    const calibration::Json json = calibration::Json::parse(readFile(file));
+    const calibration::Json json = parsedJson<calibration::Json>(readFile(file));
     return DriftRecord{json.at("checked").get<std::string>(),
                        json.at("measurement").get<std::string>(),
                        verdictFrom(json.at("verdict").get<std::string>(), file),

@@ -7,6 +7,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/pipeline/stored_settings.h"
 
@@ -73,7 +74,7 @@ std::vector<Mask> masksFromJson(const Json& json) {
 
 std::vector<Mask> readMasks(const std::filesystem::path& file) {
   try {
-    const Json json = Json::parse(readFile(file));
+    const Json json = parsedJson<Json>(readFile(file));
     if (!json.is_object() || !json.contains("masks"))
       throw Error(
           ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("masks.no-list", "this file holds no list of masks"),

@@ -6,6 +6,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/calibration/json.h"
 #include "relucent/pipeline/command_devices.h"
@@ -64,7 +65,7 @@ std::map<std::size_t, std::string> passwordsOf(const calibration::CalibrationFol
   } catch (const Error&) {
     return passwords;  // somebody else's: the projector will say that it asks for one
   }
-  const calibration::Json read = calibration::Json::parse(text);
+  const calibration::Json read = parsedJson<calibration::Json>(text);
   for (const auto& [number, password] : read.at("passwords").items())
     passwords[std::stoul(number) - 1] = password.get<std::string>();
   return passwords;

@@ -5,6 +5,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/calibration/message_json.h"
 #include "relucent/pipeline/picture_error_json.h"
@@ -65,7 +66,8 @@ std::vector<NightRecord> nightsOf(const fs::path& calibration) {
   if (!fs::exists(file, code)) return {};
   std::vector<NightRecord> nights;
   try {
-    for (const std::string& line : linesOf(readFile(file))) nights.push_back(nightFrom(Json::parse(line)));
+    for (const std::string& line : linesOf(readFile(file)))
+      nights.push_back(nightFrom(parsedJson<Json>(line)));
   } catch (const Json::exception& cause) {
     throw Error(
         ErrorKind::format,

@@ -7,6 +7,7 @@
 #include "relucent/base/file.h"
 #include "relucent/base/file_name.h"
 #include "relucent/base/fingerprint.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/image/exr.h"
 #include "relucent/pipeline/picture_error_json.h"
@@ -35,7 +36,7 @@ std::string plainName(const std::string& name) {
 PerfectedPicture recordFrom(const fs::path& calibration, const std::string& key) {
   const fs::path file = recordOf(calibration, key);
   try {
-    const calibration::Json json = calibration::Json::parse(readFile(file));
+    const calibration::Json json = parsedJson<calibration::Json>(readFile(file));
     if (json.value("version", recordVersion) > recordVersion)
       throw Error(ErrorKind::format,
                   RELUCENT_ENGLISH_MESSAGE("perfect.of-newer-version",

@@ -4,6 +4,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/picture_error_json.h"
@@ -99,7 +100,7 @@ void saveProofRecord(const ProofRecord& record, const fs::path& folder) {
 std::optional<ProofRecord> loadProofRecord(const fs::path& folder) {
   if (!fs::exists(folder / fileName)) return std::nullopt;
   try {
-    const calibration::Json json = calibration::Json::parse(readFile(folder / fileName));
+    const calibration::Json json = parsedJson<calibration::Json>(readFile(folder / fileName));
     ProofRecord record;
     record.taken = json.at("taken").get<std::string>();
     record.measurement = json.at("measurement").get<std::string>();

@@ -7,6 +7,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/lowered.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
 
 namespace relucent::pipeline {
@@ -28,7 +29,7 @@ bool isStill(const fs::path& file) {
 std::vector<fs::path> ofPlaylist(const fs::path& file) {
   try {
     std::vector<fs::path> stills;
-    const calibration::Json playlist = calibration::Json::parse(readFile(file));
+    const calibration::Json playlist = parsedJson<calibration::Json>(readFile(file));
     for (const calibration::Json& item : playlist.at("items"))
       if (const fs::path path = item.at("path").get<std::string>(); isStill(path))
         stills.push_back((fs::absolute(file).parent_path() / path).lexically_normal());

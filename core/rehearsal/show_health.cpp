@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "relucent/base/error.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/json.h"
 
 namespace relucent::rehearsal {
@@ -36,7 +37,7 @@ std::string textOf(ShowTime time) {
 
 ShowHealth showHealthFrom(std::string_view text) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = parsedJson<Json>(text);
     ShowHealth health;
     const std::optional<ShowTime> updated = showTimeFrom(json.at("updated").get<std::string>());
     if (!updated)

@@ -9,6 +9,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/fingerprint.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/devices/recording/recording.h"
 #include "relucent/platform/files.h"
 
@@ -84,7 +85,7 @@ RecordedDevices readRecordedDevices(const fs::path& folder) {
   const fs::path file = folder / devicesName;
   const std::string content = readFile(file);
   try {
-    const Json json = Json::parse(content);
+    const Json json = parsedJson<Json>(content);
     if (json.at("format") != formatName)
       throw Error(
           ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("device.not-a-recording", "this is not a recording"),
@@ -137,8 +138,14 @@ std::vector<RecordedPhotograph> readPhotographs(const fs::path& folder) {
   if (!fs::exists(file, code)) return photographs;
   std::istringstream lines(readFile(file));
   for (std::string line; std::getline(lines, line);) {
-    const Json json = Json::parse(line, nullptr, false);
-    if (json.is_discarded()) continue;  // cut short
+    Json json;
+    try {
+      json = parsedJson<Json>(line);
+    } catch (const Json::parse_error&) {
+      continue;  // cut short
+    } catch (const Json::exception& cause) {
+      failDamaged(file, cause);
+    }
     try {
       photographs.push_back(photographFrom(json));
     } catch (const Json::exception& cause) {

@@ -17,6 +17,16 @@ std::string fingerprintOf(const std::vector<image::Image>& patterns, const std::
   return fingerprint.hex();
 }
 
+/// Logs lie in calibrations, which come from strangers: what is in them need not be of these devices.
+bool fits(const Shot& shot, std::size_t exposures, const Rig& rig) {
+  const auto isOfRig = [&rig](const std::vector<RawFrame>& frames) {
+    return std::ranges::equal(frames, rig.cameras, [](const RawFrame& frame, const auto& camera) {
+      return frame.signal.size() == camera->size() && frame.signal.channels() == 3;
+    });
+  };
+  return shot.frames.size() == exposures && std::ranges::all_of(shot.frames, isOfRig);
+}
+
 }  // namespace
 
 std::uint64_t plainBytes(const Shot& shot) {
@@ -57,7 +67,8 @@ Shot ShotTaker::take(const std::vector<image::Image>& encodedPatterns, const std
 
   Shot shot{{stage_, shots()}, fingerprintOf(encodedPatterns, exposures), {}, exposures};
   taken_.push_back({shot.fingerprint, static_cast<int>(exposures.size())});
-  if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint)) {
+  if (std::optional<Shot> kept = log_.find(shot.id, shot.fingerprint);
+      kept && fits(*kept, exposures.size(), rig_)) {
     lastEnd_.reset();
     return *std::move(kept);
   }

@@ -129,6 +129,37 @@ class TestShotTaker : public QObject {
     }
   }
 
+  /// Law: a log from elsewhere is believed only where its shots are of these devices.
+  void whatDoesNotFitTheDevicesIsTakenAnew_data() {
+    QTest::addColumn<int>("change");
+    QTest::newRow("no exposure") << 0;
+    QTest::newRow("an exposure too many") << 1;
+    QTest::newRow("a camera less") << 2;
+    QTest::newRow("a photograph of another size") << 3;
+    QTest::newRow("a photograph without colours") << 4;
+  }
+  void whatDoesNotFitTheDevicesIsTakenAnew() {
+    QFETCH(int, change);
+    MemoryLog log;
+    const auto take = [&] {
+      diary_.clear();
+      return ShotTaker(rig_, log, "acquisition").take({pattern(0), pattern(1)}, {0.5}, Progress());
+    };
+    const Shot sound = take();
+    std::vector<std::vector<RawFrame>>& frames = log.shots.begin()->second.frames;
+    if (change == 0) frames.clear();
+    if (change == 1) frames.push_back(frames.front());
+    if (change == 2) frames.front().pop_back();
+    if (change == 3) frames.front()[1].signal = Image({2, 3}, 3);
+    if (change == 4) frames.front()[0].signal = Image({3, 2}, 1);
+    const Shot again = take();
+    QVERIFY(!diary_.empty());
+    QCOMPARE(again.frames.size(), sound.frames.size());
+    QCOMPARE(log.shots.begin()->second.frames.front().size(), std::size_t{2});
+    QCOMPARE(take().frames.size(), std::size_t{1});
+    QVERIFY(diary_.empty());
+  }
+
   void forgottenShotsAreTakenAnew() {
     MemoryLog log;
     ShotTaker shots(rig_, log, "acquisition");

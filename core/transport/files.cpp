@@ -264,7 +264,7 @@ class TransportFile {
   static void readIndices(const NpzReader& reader, BlockSparse& blocks, const std::string& prefix) {
     std::uint64_t count = reader.header(prefix + "indices").count();
     std::vector<std::int64_t> start = reader.integers(prefix + "indptr");
-    bool ordered = start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
+    bool ordered = !start.empty() && start.front() == 0 && start.back() == static_cast<std::int64_t>(count) &&
                    std::is_sorted(start.begin(), start.end());
     if (!ordered)
       reader.fail(RELUCENT_ENGLISH_MESSAGE("transport.indptr-invalid",

@@ -70,7 +70,8 @@ class NpzReader {
  private:
   struct Archive;
   class Member;
-  NpyHeader headerOf(Member& member, const std::string& name) const;
+  /// `bytes`: that the archive announces of the member.
+  NpyHeader headerOf(Member& member, const std::string& name, std::uint64_t bytes) const;
 
   std::filesystem::path path_;
   std::unique_ptr<Archive> archive_;

@@ -13,11 +13,14 @@ namespace relucent::transport {
 namespace {
 
 constexpr std::uint64_t readBytes = 4 << 20;  // read at once: enough for several threads
+/// Of a member's bytes to those of the archive: more than deflated zeros come to.
+constexpr std::uint64_t largestRatio = 1100;
 
 }  // namespace
 
 struct NpzReader::Archive {
   zip_t* zip = nullptr;
+  std::uint64_t bytes = 0;
 };
 
 /// An open member that closes itself.
@@ -53,7 +56,11 @@ class NpzReader::Member {
 NpzReader::NpzReader(const std::filesystem::path& path) : path_(path), archive_(std::make_unique<Archive>()) {
   int code = 0;
   archive_->zip = zip_open(path.c_str(), ZIP_RDONLY, &code);
-  if (archive_->zip != nullptr) return;
+  if (archive_->zip != nullptr) {
+    std::error_code ignored;
+    archive_->bytes = std::filesystem::file_size(path, ignored);
+    return;
+  }
   if (code == ZIP_ER_NOENT || code == ZIP_ER_OPEN || code == ZIP_ER_READ)
     throw Error(ErrorKind::disk,
                 RELUCENT_ENGLISH_MESSAGE("transport.cannot-read-file", "cannot read the file"),
@@ -76,7 +83,7 @@ bool NpzReader::has(const std::string& name) const {
   return zip_name_locate(archive_->zip, (name + ".npy").c_str(), 0) >= 0;
 }
 
-NpyHeader NpzReader::headerOf(Member& member, const std::string& name) const {
+NpyHeader NpzReader::headerOf(Member& member, const std::string& name, std::uint64_t announced) const {
   auto dictionary =
       readNpyDictionary([&](char* out, std::uint64_t bytes) { return member.read(out, bytes); });
   if (!dictionary)
@@ -87,6 +94,18 @@ NpyHeader NpzReader::headerOf(Member& member, const std::string& name) const {
     fail(RELUCENT_ENGLISH_MESSAGE("transport.array-kind-unexpected",
                                   "has an array '{}' of a kind that is not expected")
              .with(name));
+  // What the archive can hold must hold what the member announces, and that what the header announces, before
+  // anybody takes memory for it.
+  std::uint64_t room = announced / largestRatio > archive_->bytes ? 0 : announced / header->itemBytes();
+  const bool empty = std::ranges::count(header->shape, 0U) > 0;
+  bool fits = empty || room > 0;
+  for (const std::uint64_t length : header->shape) {
+    if (empty || !fits) break;
+    fits = length <= room;
+    room /= length;
+  }
+  if (!fits)
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.ends-within-array", "ends within the array '{}'").with(name));
   return *header;
 }
 
@@ -96,17 +115,8 @@ void NpzReader::read(const std::string& name, const Take& take) const {
   if (zip_stat(archive_->zip, (name + ".npy").c_str(), 0, &stat) != 0)
     fail(RELUCENT_ENGLISH_MESSAGE("transport.no-array", "has no array '{}'").with(name));
   Member member(archive_->zip, stat.index);
-  NpyHeader parsed = headerOf(member, name);
+  NpyHeader parsed = headerOf(member, name, stat.size);
   std::uint64_t itemBytes = parsed.itemBytes();
-  // What the zip announces must hold what the header announces, before memory is taken for it.
-  std::uint64_t room = stat.size / itemBytes;
-  bool empty = std::find(parsed.shape.begin(), parsed.shape.end(), 0u) != parsed.shape.end();
-  for (std::uint64_t length : parsed.shape) {
-    if (empty) break;
-    if (length > room)
-      fail(RELUCENT_ENGLISH_MESSAGE("transport.ends-within-array", "ends within the array '{}'").with(name));
-    room /= length;
-  }
   std::uint64_t count = parsed.count(), most = std::max<std::uint64_t>(1, readBytes / itemBytes);
   std::uint64_t inner = count > 0 && !parsed.shape.empty() ? count / parsed.shape[0] : 1;
   if (inner <= most) most -= most % inner;
@@ -132,10 +142,12 @@ void NpzReader::read(const std::string& name, const Take& take) const {
 }
 
 NpyHeader NpzReader::header(const std::string& name) const {
-  zip_int64_t index = zip_name_locate(archive_->zip, (name + ".npy").c_str(), 0);
-  if (index < 0) fail(RELUCENT_ENGLISH_MESSAGE("transport.no-array", "has no array '{}'").with(name));
-  Member member(archive_->zip, static_cast<zip_uint64_t>(index));
-  return headerOf(member, name);
+  zip_stat_t stat;
+  zip_stat_init(&stat);
+  if (zip_stat(archive_->zip, (name + ".npy").c_str(), 0, &stat) != 0)
+    fail(RELUCENT_ENGLISH_MESSAGE("transport.no-array", "has no array '{}'").with(name));
+  Member member(archive_->zip, stat.index);
+  return headerOf(member, name, stat.size);
 }
 
 std::vector<std::int64_t> NpzReader::integers(const std::string& name) const {

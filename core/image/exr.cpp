@@ -32,6 +32,11 @@ namespace {
 
 /// More than any camera or projector delivers; a damaged header can ask for anything.
 constexpr std::size_t largestSampleCount = std::size_t{1} << 30;
+/// Pixels of a display window around next to nothing.
+constexpr std::size_t largestEmptyRaster = std::size_t{1} << 25;
+/// Samples to a byte of the file: more than any of OpenEXR's compressions comes to, of a picture of one
+/// colour.
+constexpr std::size_t mostSamplesPerByte = std::size_t{1} << 16;
 
 std::string joined(const std::vector<std::string>& names) {
   return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
@@ -131,7 +136,7 @@ void checkKind(const Imf::InputFile& file, const fs::path& path) {
                                    "save it again as R, G, B at full resolution"));
 }
 
-ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
+ExrImage readPixels(Imf::InputFile& file, std::size_t fileBytes, const fs::path& path) {
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
   const Size size = sizeOf(window);
@@ -143,7 +148,7 @@ ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
     failFormat(path,
                RELUCENT_ENGLISH_MESSAGE("image.exr-without-channels", "the OpenEXR file has no channels"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-another-file", "choose another file"));
-  if (size.count() > largestSampleCount / channels)
+  if (size.count() > std::min(largestSampleCount, mostSamplesPerByte * fileBytes) / channels)
     failFormat(
         path,
         RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
@@ -218,6 +223,9 @@ std::string encoded(const ExrImage& image, ExrType type, const std::vector<Sampl
     file.setFrameBuffer(frame);
     file.writePixels(image.pixels.height());
   }  // closing the file writes its table of lines
+  // OpenEXR keeps to itself that there was no memory to compress the last lines: their places are empty.
+  detail::MemoryInput written(stream.content(), path.filename().string());
+  if (!Imf::InputFile(written).isComplete()) throw std::bad_alloc();
   return stream.content();
 }
 
@@ -236,7 +244,7 @@ ExrImage readExr(const fs::path& path) {
     detail::MemoryInput stream(content, path.filename().string());
     Imf::InputFile file(stream);
     checkKind(file, path);
-    return readPixels(file, path);
+    return readPixels(file, content.size(), path);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -285,7 +293,8 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
             .with(as::size(size), as::size(*expected)),
         RELUCENT_ENGLISH_MESSAGE("image.choose-picture-of-size", "choose a picture of that size"),
         path.string());
-  if (size.count() > largestSampleCount / 3)
+  // An empty picture may lie on a large raster, but not on any.
+  if (size.count() > std::clamp(64 * exr.pixels.pixels(), largestEmptyRaster, largestSampleCount / 3))
     failFormat(
         path,
         RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")

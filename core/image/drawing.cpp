@@ -7,20 +7,25 @@
 #include <opencv2/imgproc.hpp>
 
 #include "relucent/image/colour.h"
+#include "relucent/image/opencv_memory.h"
 
 namespace relucent::image::drawing {
 
 cv::Mat canvas(Size size, const cv::Scalar& encoded) {
-  return cv::Mat(size.height * oversampling, size.width * oversampling, CV_32FC3, encoded);
+  return withinMemory(
+      [&] { return cv::Mat(size.height * oversampling, size.width * oversampling, CV_32FC3, encoded); });
 }
 
 Image finished(const cv::Mat& encoded, Size size) {
-  cv::Mat linear = encoded.clone();
+  cv::Mat linear = withinMemory([&] { return encoded.clone(); });
   linear.forEach<cv::Vec3f>([](cv::Vec3f& pixel, const int*) {
     for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(srgbDecode(std::clamp(pixel[c], 0.0f, 1.0f)));
   });
-  cv::Mat small;
-  cv::resize(linear, small, cv::Size(size.width, size.height), 0, 0, cv::INTER_AREA);
+  const cv::Mat small = withinMemory([&] {
+    cv::Mat means;
+    cv::resize(linear, means, cv::Size(size.width, size.height), 0, 0, cv::INTER_AREA);
+    return means;
+  });
   return Image(size, 3, std::vector<float>(small.ptr<float>(), small.ptr<float>() + size.count() * 3));
 }
 

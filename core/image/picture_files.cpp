@@ -189,8 +189,13 @@ std::string encodedAs(const char* ending, const Image& encoded, int bits) {
           encoded.channels());
   std::vector<std::uint8_t> bytes;
   const cv::Mat picture = bits == 8 ? quantised<std::uint8_t>(encoded) : quantised<std::uint16_t>(encoded);
-  require(cv::imencode(ending, picture, bytes), "OpenCV cannot encode {}x{} pixels as {}", encoded.width(),
-          encoded.height(), ending);
+  bool isDone = false;
+  try {
+    isDone = cv::imencode(ending, picture, bytes);
+  } catch (const cv::Exception&) {
+    throw std::bad_alloc();  // what such a picture of ours can fail for
+  }
+  require(isDone, "OpenCV cannot encode {}x{} pixels as {}", encoded.width(), encoded.height(), ending);
   return {bytes.begin(), bytes.end()};
 }
 

@@ -8,6 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/parallel.h"
+#include "relucent/image/opencv_memory.h"
 
 namespace relucent::image {
 namespace {
@@ -128,8 +129,10 @@ Point mapped(const Homography& map, Point point) {
 Image resized(const Image& image, Size size) {
   require(!image.empty() && !size.empty(), "{}x{} pixels cannot become {}x{}", image.width(), image.height(),
           size.width, size.height);
-  const cv::Mat wide = scaledAxis(matOf(image), cv::Size(size.width, image.height()));
-  const cv::Mat result = scaledAxis(wide, cv::Size(size.width, size.height));
+  const cv::Mat result = withinMemory([&] {
+    const cv::Mat wide = scaledAxis(matOf(image), cv::Size(size.width, image.height()));
+    return scaledAxis(wide, cv::Size(size.width, size.height));
+  });
   const float* begin = result.ptr<float>();
   return Image(size, image.channels(),
                std::vector<float>(begin, begin + size.count() * static_cast<std::size_t>(image.channels())));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program is killed at random instants of a calibration and of resuming it, and resumed to the end.
+//   RELUCENT_KILLS      how often, a row; RELUCENT_KILL_SEED  of the instants: for those who have more time
 #include <sys/stat.h>
 
 #include <QDirIterator>
@@ -34,6 +35,13 @@ QString scratch() {
   QFileInfo memory("/dev/shm");
   return (memory.isDir() && memory.isWritable() ? memory.filePath() : QDir::tempPath()) +
          "/relucent-killed-XXXXXX";
+}
+
+/// Of the environment; none: `otherwise`.
+int asked(const char* name, int otherwise) {
+  bool isGiven = false;
+  const int value = qEnvironmentVariableIntValue(name, &isGiven);
+  return isGiven ? value : otherwise;
 }
 
 QByteArray contentOf(const QString& path) {
@@ -164,7 +172,7 @@ class TestKilled : public QObject {
   void endsInTheSameBits() {
     QFETCH(QString, mode);
     QFETCH(quint64, seed);
-    constexpr int wantedKills = 15;
+    const int wantedKills = asked("RELUCENT_KILLS", 15);
     QTemporaryDir folder(scratch());
     auto campaign = [&](int number) {
       QString calibration = folder.filePath(QString::number(number)), cache = folder.filePath("cache");
@@ -187,7 +195,8 @@ class TestKilled : public QObject {
 
     int kills = 0, takenAgain = 0;
     std::map<QString, int> killedIn;
-    Random random{20071028, seed};
+    const auto more = static_cast<std::uint64_t>(asked("RELUCENT_KILL_SEED", 0));
+    Random random{20071028 + more, seed};
     for (int number = 1; kills < wantedKills; ++number) {
       QVERIFY2(number <= 4 * wantedKills / killsPerCalibration, "the program hardly ever lives to be killed");
       Campaign disturbed = campaign(number);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/calibration/message_json.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace relucent {
@@ -25,9 +26,15 @@ struct ToJson {
   Json operator()(const Argument::Sentence& sentence) const { return {{"message", sentence.front()}}; }
 };
 
+/// As many as a number has, whatever a stranger's file asks for.
+int countFrom(const Json& json) {
+  constexpr int most = 17;
+  return std::clamp(json.get<int>(), 0, most);
+}
+
 Digits digitsFrom(const Json& json) {
-  if (json.contains("decimals")) return as::decimals(json.at("decimals").get<int>());
-  if (json.contains("significant")) return as::digits(json.at("significant").get<int>());
+  if (json.contains("decimals")) return as::decimals(countFrom(json.at("decimals")));
+  if (json.contains("significant")) return as::digits(std::max(1, countFrom(json.at("significant"))));
   return {};
 }
 

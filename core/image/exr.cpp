@@ -110,6 +110,146 @@ std::map<std::string, ExrAttribute> attributesOf(const Imf::Header& header) {
   throw Error(ErrorKind::format, std::move(what), std::move(advice), path.string());
 }
 
+[[noreturn]] void failDamaged(const fs::path& path) {
+  failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.exr-damaged", "the OpenEXR file is damaged or cut short"),
+             RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
+                                      "copy it again, or write it again with its program"));
+}
+
+/// Number of four bytes, the lowest first. Contract: there are as many.
+std::uint32_t numberAt(std::string_view content, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 4; i-- > 0;) number = number << 8U | static_cast<unsigned char>(content[at + i]);
+  return number;
+}
+
+/// Whether a list of channels ends where it is said to: names, and what each channel is.
+bool channelsFit(std::string_view list) {
+  constexpr std::size_t channelBytes = 16;
+  while (!list.empty() && list.front() != '\0') {
+    const std::size_t name = list.find('\0');
+    if (name == std::string_view::npos || list.size() - name - 1 < channelBytes) return false;
+    list.remove_prefix(name + 1 + channelBytes);
+  }
+  return list.size() == 1;
+}
+
+/// Whether a value of the type has as many bytes as it is said to: OpenEXR reads what the type has, and takes
+/// what follows for the next attribute's name.
+bool valueFits(std::string_view type, std::string_view value) {
+  static const std::map<std::string_view, std::size_t> bytes{{"box2f", 16},
+                                                             {"box2i", 16},
+                                                             {"chromaticities", 32},
+                                                             {"compression", 1},
+                                                             {"deepImageState", 1},
+                                                             {"double", 8},
+                                                             {"envmap", 1},
+                                                             {"float", 4},
+                                                             {"int", 4},
+                                                             {"keycode", 28},
+                                                             {"lineOrder", 1},
+                                                             {"m33f", 36},
+                                                             {"m33d", 72},
+                                                             {"m44f", 64},
+                                                             {"m44d", 128},
+                                                             {"rational", 8},
+                                                             {"tiledesc", 9},
+                                                             {"timecode", 8},
+                                                             {"v2d", 16},
+                                                             {"v2f", 8},
+                                                             {"v2i", 8},
+                                                             {"v3d", 24},
+                                                             {"v3f", 12},
+                                                             {"v3i", 12}};
+  constexpr std::size_t number = 4;
+  if (const auto fixed = bytes.find(type); fixed != bytes.end()) return value.size() == fixed->second;
+  if (type == "chlist") return channelsFit(value);
+  if (type == "floatvector") return value.size() % number == 0;
+  if (type == "preview")
+    return value.size() >= 2 * number && value.size() % number == 0 &&
+           (value.size() - 2 * number) / number ==
+               std::uint64_t{numberAt(value, 0)} * numberAt(value, number);
+  return true;
+}
+
+[[noreturn]] void failImplausible(const fs::path& path, Size size) {
+  failFormat(
+      path,
+      RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
+          .with(as::size(size)),
+      RELUCENT_ENGLISH_MESSAGE("image.check-file",
+                               "check the file: it is damaged, or far larger than any camera's picture"));
+}
+
+/// What a header says of its picture, as far as OpenEXR takes memory by it.
+struct Claims {
+  Imath::Box2i window{{0, 0}, {0, 0}};
+  std::uint64_t channels = 1, linesAtOnce = 1, tile = 1;
+
+  void hear(std::string_view name, std::string_view type, std::string_view value) {
+    constexpr std::size_t number = 4;
+    if (name == "dataWindow" && type == "box2i")
+      for (int i = 0; i < 2; ++i) {
+        window.min[i] = static_cast<int>(numberAt(value, static_cast<std::size_t>(i) * number));
+        window.max[i] = static_cast<int>(numberAt(value, static_cast<std::size_t>(i + 2) * number));
+      }
+    // The shortest has a letter, the end of its name, and sixteen bytes.
+    if (type == "chlist") channels = std::max<std::uint64_t>(1, value.size() / 18);
+    if (type == "tiledesc") tile = std::uint64_t{numberAt(value, 0)} * numberAt(value, number);
+    if (type == "compression") linesAtOnce = linesOf(static_cast<unsigned char>(value.front()));
+  }
+  /// Throws: Error{format} for more than a file of so many bytes can hold.
+  void check(std::size_t bytes, const fs::path& path) const {
+    const std::uint64_t most = std::clamp(mostSamplesPerByte * bytes, largestEmptyRaster, largestSampleCount);
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                       height = std::int64_t{window.max.y} - window.min.y + 1;
+    // OpenEXR refuses those.
+    if (std::min(width, height) <= 0 || std::max(width, height) > std::numeric_limits<int>::max()) return;
+    const std::uint64_t lines = std::max(linesAtOnce, static_cast<std::uint64_t>(height));
+    if (lines > most / channels / static_cast<std::uint64_t>(width) || tile > most / channels)
+      failImplausible(path, {static_cast<int>(width), static_cast<int>(height)});
+  }
+
+ private:
+  static std::uint64_t linesOf(unsigned compression) {
+    constexpr std::uint64_t few = 16, many = 32, most = 256;
+    if (compression <= Imf::ZIPS_COMPRESSION) return 1;
+    if (compression == Imf::ZIP_COMPRESSION || compression == Imf::PXR24_COMPRESSION) return few;
+    return compression == Imf::DWAB_COMPRESSION ? most : many;
+  }
+};
+
+/// OpenEXR takes memory by what a header says before it reads what is said: two gigabytes for a file of some
+/// hundred bytes.  Throws: Error{format} unless the headers and all of their attributes end within the file,
+/// and are of pictures that it can hold.
+void checkHeaders(std::string_view content, const fs::path& path) {
+  constexpr std::size_t number = 4;
+  std::size_t at = 2 * number;  // behind magic number and version
+  if (at > content.size()) failDamaged(path);
+  const bool hasSeveralParts = Imf::isMultiPart(static_cast<int>(numberAt(content, number)));
+  const auto nextText = [&] {
+    const std::size_t begin = at, end = std::min(content.find('\0', at), content.size());
+    at = std::min(end + 1, content.size());
+    return content.substr(begin, end - begin);
+  };
+  do {
+    Claims claims;
+    while (at < content.size() && content[at] != '\0') {
+      const std::string_view name = nextText(), type = nextText();
+      if (content.size() - at < number) failDamaged(path);
+      const std::size_t length = numberAt(content, at);
+      at += number;
+      const std::string_view value = content.substr(at, length);
+      if (value.size() < length || !valueFits(type, value)) failDamaged(path);
+      claims.hear(name, type, value);
+      at += length;
+    }
+    if (at == content.size()) failDamaged(path);
+    claims.check(content.size(), path);
+    ++at;  // the empty name that ends a header
+  } while (hasSeveralParts && at < content.size() && content[at] != '\0');
+}
+
 /// Throws: Error{format} for the kinds of OpenEXR files that are no plain pictures.
 void checkKind(const Imf::InputFile& file, const fs::path& path) {
   const Imf::Header& header = file.header();
@@ -136,7 +276,7 @@ void checkKind(const Imf::InputFile& file, const fs::path& path) {
                                    "save it again as R, G, B at full resolution"));
 }
 
-ExrImage readPixels(Imf::InputFile& file, std::size_t fileBytes, const fs::path& path) {
+ExrImage readPixels(Imf::InputFile& file, const fs::path& path) {
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
   const Size size = sizeOf(window);
@@ -148,13 +288,7 @@ ExrImage readPixels(Imf::InputFile& file, std::size_t fileBytes, const fs::path&
     failFormat(path,
                RELUCENT_ENGLISH_MESSAGE("image.exr-without-channels", "the OpenEXR file has no channels"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-another-file", "choose another file"));
-  if (size.count() > std::min(largestSampleCount, mostSamplesPerByte * fileBytes) / channels)
-    failFormat(
-        path,
-        RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
-            .with(as::size(size)),
-        RELUCENT_ENGLISH_MESSAGE("image.check-file",
-                                 "check the file: it is damaged, or far larger than any camera's picture"));
+  if (size.count() > largestSampleCount / channels) failImplausible(path, size);
   image.pixels = Image(size, static_cast<int>(channels));
   image.dataOrigin = {window.min.x, window.min.y};
   image.displayOrigin = {header.displayWindow().min.x, header.displayWindow().min.y};
@@ -240,11 +374,12 @@ ExrImage readExr(const fs::path& path) {
   if (!looksLikeExr(content))
     failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.not-exr", "this is not an OpenEXR file"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-exr-file", "choose an .exr file"));
+  checkHeaders(content, path);
   try {
     detail::MemoryInput stream(content, path.filename().string());
     Imf::InputFile file(stream);
     checkKind(file, path);
-    return readPixels(file, content.size(), path);
+    return readPixels(file, path);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -255,10 +390,7 @@ ExrImage readExr(const fs::path& path) {
                                  "close other programs, or make the picture smaller"),
         path.string());
   } catch (const std::exception&) {
-    failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.exr-damaged", "the OpenEXR file is damaged or cut short"),
-               RELUCENT_ENGLISH_MESSAGE("image.copy-or-write-again",
-                                        "copy it again, or write it again with its program"));
+    failDamaged(path);
   }
 }
 
@@ -295,12 +427,7 @@ Image readRgbExr(const fs::path& path, std::optional<Size> expected) {
         path.string());
   // An empty picture may lie on a large raster, but not on any.
   if (size.count() > std::clamp(64 * exr.pixels.pixels(), largestEmptyRaster, largestSampleCount / 3))
-    failFormat(
-        path,
-        RELUCENT_ENGLISH_MESSAGE("image.exr-size-implausible", "the OpenEXR file claims {} pixels")
-            .with(as::size(size)),
-        RELUCENT_ENGLISH_MESSAGE("image.check-file",
-                                 "check the file: it is damaged, or far larger than any camera's picture"));
+    failImplausible(path, size);
 
   auto placeOf = [&](const char* name) {
     return std::find(exr.channelNames.begin(), exr.channelNames.end(), name) - exr.channelNames.begin();

@@ -3,7 +3,10 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfTiledOutputFile.h>
 
 #include <QTemporaryDir>
@@ -247,6 +250,27 @@ class TestExr : public QObject {
       out.writePixels(8);
     }
     QVERIFY(mentions(sentenceOf([&] { readExr(file("chroma.exr")); }, ErrorKind::format), "RY"));
+  }
+
+  void filesOfSeveralPartsAreRefused() {
+    const std::vector<float> samples(64);
+    std::vector<Imf::Header> headers(2, Imf::Header(8, 8));
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+      headers[i].setName(i == 0 ? "left" : "right");
+      headers[i].setType(Imf::SCANLINEIMAGE);
+      headers[i].channels().insert("Y", Imf::Channel(Imf::FLOAT));
+    }
+    {
+      Imf::MultiPartOutputFile out(file("parts.exr").c_str(), headers.data(), 2);
+      for (int i = 0; i < 2; ++i) {
+        Imf::OutputPart part(out, i);
+        Imf::FrameBuffer frame;
+        frame.insert("Y", Imf::Slice::Make(Imf::FLOAT, samples.data(), headers.front().dataWindow()));
+        part.setFrameBuffer(frame);
+        part.writePixels(8);
+      }
+    }
+    QVERIFY(mentions(sentenceOf([&] { readExr(file("parts.exr")); }, ErrorKind::format), "several parts"));
   }
 
   void anUnfinishedFileIsRefused() {

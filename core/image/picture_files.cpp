@@ -21,11 +21,28 @@ namespace {
 
 constexpr std::string_view pngSignature{"\x89PNG\r\n\x1a\n", 8};
 constexpr std::string_view jpegStart{"\xff\xd8", 2};
+/// Pixels to a byte of the file: more than a picture of one colour comes to.
+constexpr std::size_t mostPixelsPerByte = std::size_t{1} << 16;
 
 [[noreturn]] void failShort(const fs::path& path) {
   throw Error(
       ErrorKind::format, RELUCENT_ENGLISH_MESSAGE("image.damaged", "the picture is damaged or cut short"),
       RELUCENT_ENGLISH_MESSAGE("image.copy-or-take-again", "copy it again, or take it again"), path.string());
+}
+
+/// What `call` returns, which reads the picture.  Throws: Error{memory} where there is too little.
+template <typename Call>
+auto orTooLittleMemory(const fs::path& path, const Call& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw Error(
+        ErrorKind::memory,
+        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
+        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
+                                 "close other programs, or make the picture smaller"),
+        path.string());
+  }
 }
 
 std::uint32_t bigEndian32(std::string_view bytes) {
@@ -86,16 +103,11 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
   try {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
     picture = cv::imdecode(bytes, flags);
-  } catch (const std::bad_alloc&) {
-    throw Error(
-        ErrorKind::memory,
-        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
-        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
-                                 "close other programs, or make the picture smaller"),
-        path.string());
   } catch (const cv::Exception&) {
     // Sizes beyond OpenCV's limits end here; told below like everything that cannot be decoded.
   }
+  // libjpeg makes up what the file does not have.
+  if (picture.total() > mostPixelsPerByte * content.size()) picture.release();
   if (picture.empty() && looksLikePicture(content))
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("image.damaged-or-too-large",
@@ -202,20 +214,24 @@ std::string encodedAs(const char* ending, const Image& encoded, int bits) {
 }  // namespace
 
 Picture readPicture(const fs::path& path, Orientation orientation) {
-  const std::string content = readFile(path);
-  if (looksLikeExr(content)) return {readRgbExr(path), 0};
-  if (content.empty()) failShort(path);
-  const cv::Mat picture = decode(content, orientation, path);
-  const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : 0;
-  return {toRgb(picture, path), bits};
+  return orTooLittleMemory(path, [&]() -> Picture {
+    const std::string content = readFile(path);
+    if (looksLikeExr(content)) return {readRgbExr(path), 0};
+    if (content.empty()) failShort(path);
+    const cv::Mat picture = decode(content, orientation, path);
+    const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : 0;
+    return {toRgb(picture, path), bits};
+  });
 }
 
 Image readLinearContent(const fs::path& path) {
-  Picture picture = readPicture(path, Orientation::upright);
-  Image linear = picture.bits == 0 ? std::move(picture.encoded) : srgbDecoded(picture.encoded);
-  checkFinite(linear, path);
-  for (float& value : linear.data()) value = std::max(value, 0.0f);
-  return linear;
+  return orTooLittleMemory(path, [&] {
+    Picture picture = readPicture(path, Orientation::upright);
+    Image linear = picture.bits == 0 ? std::move(picture.encoded) : srgbDecoded(picture.encoded);
+    checkFinite(linear, path);
+    for (float& value : linear.data()) value = std::max(value, 0.0f);
+    return linear;
+  });
 }
 
 std::string encodePng(const Image& encoded, int bits) {

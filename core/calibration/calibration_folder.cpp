@@ -126,6 +126,7 @@ Json readManifest(const fs::path& file) {
                                          "open it with that version, or update this one"),
                 file.string());
 
+  if (manifest.contains("settings") && manifest["settings"].is_null()) manifest["settings"] = Json::object();
   auto isText = [](const Json& value) { return value.is_string(); };
   // Calibrations come from strangers: what they name lies within them.
   auto isResult = [&](const Json& entry) {
@@ -141,8 +142,8 @@ Json readManifest(const fs::path& file) {
   };
   Json results = manifest.value("results", Json());
   bool whole = isText(manifest.value("software", Json())) && isText(manifest.value("created", Json())) &&
-               manifest.contains("rig") && manifest.contains("settings") && results.is_object() &&
-               std::all_of(results.begin(), results.end(), [&](const Json& entries) {
+               manifest.contains("rig") && manifest.value("settings", Json()).is_object() &&
+               results.is_object() && std::all_of(results.begin(), results.end(), [&](const Json& entries) {
                  return entries.is_array() && std::all_of(entries.begin(), entries.end(), isResult);
                });
   if (!whole)

@@ -74,6 +74,27 @@ class TestMessageJson : public QObject {
     QVERIFY(json.get<Message>() == Message::plain("it is far away"));
   }
 
+  /// Of a stranger's file: it is shown with the digits that a number can have.
+  void digitsAreThoseOfANumber_data() {
+    QTest::addColumn<QString>("argument");
+    QTest::addColumn<QString>("shown");
+    QTest::newRow("negative decimals") << R"({"share": 0.045, "decimals": -1})"
+                                       << "it is 4 away";
+    QTest::newRow("no significant digit") << R"({"number": 0.25, "significant": 0})"
+                                          << "it is 0.2 away";
+    QTest::newRow("negative significant digits") << R"({"number": 0.25, "significant": -2147483648})"
+                                                 << "it is 0.2 away";
+    QTest::newRow("a billion decimals") << R"({"number": 0.25, "decimals": 1000000000})"
+                                        << "it is 0.25000000000000000 away";
+  }
+  void digitsAreThoseOfANumber() {
+    QFETCH(QString, argument);
+    QFETCH(QString, shown);
+    const Json json = Json::parse(R"({"id": "test.far", "pattern": "it is {} away", "arguments": [)" +
+                                  argument.toStdString() + R"(], "english": "it is far away"})");
+    QCOMPARE(QString::fromStdString(english(json.get<Message>())), shown);
+  }
+
   void anythingElseIsRefused_data() {
     QTest::addColumn<QString>("json");
     QTest::newRow("number") << "3";

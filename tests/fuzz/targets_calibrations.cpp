@@ -54,7 +54,7 @@ std::string withRig(const std::string& manifest, const pipeline::RigSettings& ri
   return json.dump(1);
 }
 
-std::vector<std::string> manifestSeeds() {
+std::vector<std::string> madeManifests() {
   const fs::path& path = changedCalibration();
   const fs::path manifest = path / CalibrationFolder::manifestName;
   std::vector<std::string> seeds{readFile(manifest)};
@@ -86,6 +86,11 @@ std::vector<std::string> manifestSeeds() {
   seeds.push_back(withRig(seeds.front(), screen));
   seeds.push_back(withRig(seeds.front(), pipeline::ReplayRigSettings{"recorded"}));
   return seeds;
+}
+
+std::vector<std::string> manifestSeeds() {
+  static const std::vector<std::string> made = madeManifests();
+  return made;
 }
 
 void fuzzManifest(Bytes input) {

@@ -189,8 +189,19 @@ void fuzzRecording(Bytes input) {
 std::vector<std::string> recordedSeeds() {
   const fs::path file = scratch() / "photographs.jsonl";
   fs::remove(file);
-  devices::appendPhotograph(scratch(), {0, {"acquisition", 3}, 1, 0.02, 0.02, 12, "a.exr", {"ab", "cd"}});
-  devices::appendPhotograph(scratch(), {1, {"linearization", 0}, 0, 0.02, 0.02, 8, "b.exr", {"ab"}});
+  devices::RecordedPhotograph photograph;
+  photograph.shot = rig::ShotId{"acquisition", 3};
+  photograph.exposure = 1;
+  photograph.asked = photograph.seconds = 0.02;
+  photograph.bits = 12;
+  photograph.file = "a.exr";
+  photograph.patterns = {"ab", "cd"};
+  devices::appendPhotograph(scratch(), photograph);
+  photograph.camera = 1;
+  photograph.shot = rig::ShotId{"linearization", 0};
+  photograph.file = "b.exr";
+  photograph.patterns.pop_back();
+  devices::appendPhotograph(scratch(), photograph);
   return {readFile(file)};
 }
 
@@ -249,12 +260,12 @@ std::vector<FuzzTarget> measurementTargets() {
                                            "\"bytes\":18446744073709551615"};
   return {
       {"transport file", fuzzTransportFile, transportSeeds, Form::bytes, 600, {"PK\x01\x02", "PK\x05\x06"}},
-      {"transport arrays", fuzzTransportArrays, arraySeeds, Form::bytes, 800, npyWords},
+      {"transport arrays", fuzzTransportArrays, arraySeeds, Form::bytes, 150, npyWords},
       {"blocks", fuzzBlocks, arraySeeds, Form::bytes, 800, npyWords},
       {"windows", fuzzWindows, windowSeeds, Form::bytes, 500, npyWords},
       {"acquisition file", fuzzAcquisitionFile, acquisitionSeeds, Form::bytes, 300, {}},
       {"traced venue", fuzzTracedVenue, tracedSeeds, Form::bytes, 1000, {}},
-      {"shot", fuzzShot, shotSeeds, Form::jsonLine, 3000, shotWords},
+      {"shot", fuzzShot, shotSeeds, Form::jsonLine, 1500, shotWords},
       {"recording", fuzzRecording, recordingSeeds, Form::json, 1000, {}},
       {"recorded photographs", fuzzRecorded, recordedSeeds, Form::bytes, 1000, {}}};
 }

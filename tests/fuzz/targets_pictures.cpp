@@ -7,8 +7,8 @@
 #include <ImfTiledOutputFile.h>
 #include <half.h>
 #include <zlib.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 
@@ -231,7 +231,7 @@ std::vector<FuzzTarget> pictureTargets() {
   const std::vector<std::string> pngWords{"IHDR", "IDAT", "PLTE",     "tRNS",     "IEND",     "gAMA", "iCCP",
                                           "eXIf", "acTL", "\xff\xd8", "\xff\xda", "\xff\xd9", "II*",  "MM"};
   return {{"exr", fuzzExr, exrSeeds, Form::bytes, 1500, exrWords},
-          {"picture", fuzzPicture, pictureSeeds, Form::bytes, 1500, pngWords},
+          {"picture", fuzzPicture, pictureSeeds, Form::bytes, 400, pngWords},
           {"png", fuzzPng, pngSeeds, Form::bytes, 1000, pngWords},
           {"raw", fuzzRaw, rawSeeds, Form::bytes, 300, {}},
           {"import", fuzzImport, importSeeds, Form::bytes, 20, pngWords}};

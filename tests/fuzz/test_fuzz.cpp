@@ -2,9 +2,8 @@
 // Readers of strangers' bytes, each with thousands of inputs that are sound but for a few places.
 //   RELUCENT_FUZZ_EXECUTIONS  of each target, instead of its own number
 //   RELUCENT_FUZZ_SEED        of the inputs
-//   RELUCENT_FUZZ_KEEP        a folder for what is found; it also holds each target's last input, which is
-//   the
-//                             one that a crash came of
+//   RELUCENT_FUZZ_KEEP        a folder for what is found; it also holds each target's last input, the one
+//                             that a crash came of
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -101,12 +100,48 @@ std::string withArray(const std::string& target, std::size_t seed, const std::st
 }
 
 /// An OpenEXR file, one of whose two windows is said to end there.
-std::string withExrWindow(const std::string& name, std::int32_t right, std::int32_t bottom) {
-  std::string file = targetNamed("exr").seeds().front();
+std::string withExrWindow(const std::string& name, std::int32_t right, std::int32_t bottom,
+                          std::size_t seed = 0) {
+  std::string file = targetNamed("exr").seeds().at(seed);
   const std::size_t at = file.find(name + '\0' + "box2i") + name.size() + 1 + 6 + 4;
   std::memcpy(&file[at + 8], &right, sizeof right);
   std::memcpy(&file[at + 12], &bottom, sizeof bottom);
   return file;
+}
+
+/// What stands before the value of an attribute of an OpenEXR file.
+std::string exrAttribute(const std::string& name, const std::string& type, std::size_t length) {
+  std::string attribute = name + '\0' + type + '\0';
+  for (int i = 0; i < 4; ++i) attribute += static_cast<char>(length >> (8 * i) & 0xffU);
+  return attribute;
+}
+
+/// One with attributes at its beginning.
+std::string withExrAttributes(const std::string& attributes) {
+  constexpr std::size_t prelude = 8;  // magic number and version
+  return targetNamed("exr").seeds().front().insert(prelude, attributes);
+}
+
+/// A photograph that is said to be so large, most of which libjpeg makes up.
+std::string withJpegSize(int width, int height) {
+  std::string file;
+  for (const std::string& seed : targetNamed("picture").seeds())
+    if (file.empty() && seed.starts_with("\xff\xd8")) file = seed;
+  const std::size_t at = file.find("\xff\xc0") + 5;  // start of the frame, its length, bits
+  for (std::size_t i = 0; i < 2; ++i) {
+    file.at(at + i) = static_cast<char>(height >> (8 - 8 * i) & 0xff);
+    file.at(at + 2 + i) = static_cast<char>(width >> (8 - 8 * i) & 0xff);
+  }
+  return file;
+}
+
+/// A sound one of the target with something else instead of its first `what`.
+std::string withInstead(const std::string& target, std::size_t seed, const std::string& what,
+                        const std::string& instead) {
+  std::string input = targetNamed(target).seeds().at(seed);
+  const std::size_t at = input.find(what);
+  if (at == std::string::npos) qFatal("no %s in a seed of %s", what.c_str(), target.c_str());
+  return input.replace(at, what.size(), instead);
 }
 
 }  // namespace
@@ -177,7 +212,22 @@ class TestFuzz : public QObject {
     row("colours of a great many kinds", "blocks",
         withArray("blocks", 2, arrayOf("mixing", {"<f4", {7, std::uint64_t{1} << 36, 3, 3}}, 64)));
     row("a picture of a few bytes and many pixels", "exr", withExrWindow("dataWindow", 40'000'000, 6));
+    row("a line of many pixels", "exr", withExrWindow("dataWindow", 8'000'000, 1, 3));
+    row("a tile of many", "exr",
+        withInstead("exr", 8, std::string("\x04\0\0\0\x04\0\0\0", 8),
+                    std::string("\0\x20\0\0\0\x20\0\0", 8)));
+    row("a photograph of a few bytes and many pixels", "picture", withJpegSize(9000, 6000));
+    row("a manifest whose settings are a text", "manifest",
+        withInstead("manifest", 0, R"("settings":)", R"("settings":"a","other":)"));
     row("a picture within a huge frame", "exr", withExrWindow("displayWindow", 18000, 18000));
+    const std::string owner = exrAttribute("owner", "string", 1'800'000'000);
+    row("a picture whose owner's name is longer than the file", "exr", withExrAttributes(owner));
+    row("the same within a number that is longer than numbers are", "exr",
+        withExrAttributes(exrAttribute("a", "float", 4 + owner.size()) + std::string(4, '\0') + owner));
+    row("groups without row starts", "blocks",
+        withArray("blocks", 2, arrayOf("group_indptr", {"<i4", {0}}, 0)));
+    row("a night's number of negative digits", "nights",
+        withInstead("nights", 1, R"("decimals":0)", R"("decimals":-1)"));
   }
   void whatWasFoundStaysMended() {
     QFETCH(QString, name);

@@ -224,8 +224,6 @@ class TestFuzz : public QObject {
     row("a picture whose owner's name is longer than the file", "exr", withExrAttributes(owner));
     row("the same within a number that is longer than numbers are", "exr",
         withExrAttributes(exrAttribute("a", "float", 4 + owner.size()) + std::string(4, '\0') + owner));
-    row("groups without row starts", "blocks",
-        withArray("blocks", 2, arrayOf("group_indptr", {"<i4", {0}}, 0)));
     row("a night's number of negative digits", "nights",
         withInstead("nights", 1, R"("decimals":0)", R"("decimals":-1)"));
   }

@@ -3,6 +3,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/parsed_json.h"
 #include "relucent/calibration/enum_json.h"
 
 namespace relucent::pipeline {
@@ -25,7 +26,7 @@ std::shared_ptr<venue::Surprises> loadSurprises(const std::filesystem::path& fol
   const std::filesystem::path file = folder / surprisesName;
   if (!std::filesystem::exists(file)) return nullptr;
   try {
-    const Json json = Json::parse(readFile(file));
+    const Json json = parsedJson<Json>(readFile(file));
     venue::SurpriseSettings settings;
     settings.kinds = json.at("kinds").get<std::vector<Surprise>>();
     settings.seed = json.at("seed").get<std::uint64_t>();

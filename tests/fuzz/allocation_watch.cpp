@@ -15,7 +15,9 @@
 #endif
 
 #ifdef RELUCENT_ADDRESS_SANITIZER
-#include <sanitizer/allocator_interface.h>
+// GCC brings the function without its header, sanitizer/allocator_interface.h.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc)(const volatile void*, std::size_t),
+                                                         void (*free)(const volatile void*));
 #endif
 
 namespace relucent::fuzz {

@@ -69,6 +69,29 @@ bool jpegIsWhole(std::string_view content) {
   return end != std::string_view::npos && (scan == std::string_view::npos || scan < end);
 }
 
+/// Pixels that a JPEG's first frame is said to have; 0: none is found. Source: ITU T.81, B.1.1.
+std::uint64_t jpegPixels(std::string_view content) {
+  constexpr std::size_t frame = 9;  // marker, length, bits, height, width
+  for (std::size_t at = jpegStart.size(); at + frame <= content.size();) {
+    const auto marker = static_cast<unsigned char>(content[at + 1]);
+    const bool isMarker = static_cast<unsigned char>(content[at]) == 0xffU && marker != 0 && marker != 0xffU;
+    if (!isMarker) {  // what libjpeg passes over too
+      ++at;
+      continue;
+    }
+    const auto numberAt = [&](std::size_t place) {
+      return static_cast<unsigned char>(content[place]) * 256U +
+             static_cast<unsigned char>(content[place + 1]);
+    };
+    const bool hasLength = marker != 0x01U && (marker < 0xd0U || marker > 0xd8U);
+    const bool isFrame =
+        marker >= 0xc0U && marker <= 0xcfU && marker != 0xc4U && marker != 0xc8U && marker != 0xccU;
+    if (isFrame) return std::uint64_t{numberAt(at + 5)} * numberAt(at + 7);
+    at += 2 + (hasLength ? numberAt(at + 2) : 0);
+  }
+  return 0;
+}
+
 /// libpng complains on standard error and libjpeg fills what is missing with grey: both are asked only for
 /// files that are whole.
 void checkWhole(std::string_view content, const fs::path& path) {
@@ -90,6 +113,20 @@ void silenceOpenCv() {
       cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 }
 
+/// Empty: it cannot be.
+cv::Mat decoded(const std::string& content, int flags) {
+  const std::size_t most = mostPixelsPerByte * content.size();
+  // libjpeg makes up what the file does not have, and memory is taken for it first.
+  if (content.starts_with(jpegStart) && jpegPixels(content) > most) return {};
+  try {
+    const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
+    cv::Mat picture = cv::imdecode(bytes, flags);
+    return picture.total() > most ? cv::Mat() : picture;
+  } catch (const cv::Exception&) {
+    return {};  // sizes beyond OpenCV's limits end here
+  }
+}
+
 cv::Mat decode(const std::string& content, Orientation orientation, const fs::path& path) {
   checkWhole(content, path);
   silenceOpenCv();
@@ -99,15 +136,7 @@ cv::Mat decode(const std::string& content, Orientation orientation, const fs::pa
     flags = cv::IMREAD_COLOR;
     if (orientation == Orientation::asStored) flags |= cv::IMREAD_IGNORE_ORIENTATION;
   }
-  cv::Mat picture;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data()));
-    picture = cv::imdecode(bytes, flags);
-  } catch (const cv::Exception&) {
-    // Sizes beyond OpenCV's limits end here; told below like everything that cannot be decoded.
-  }
-  // libjpeg makes up what the file does not have.
-  if (picture.total() > mostPixelsPerByte * content.size()) picture.release();
+  const cv::Mat picture = decoded(content, flags);
   if (picture.empty() && looksLikePicture(content))
     throw Error(ErrorKind::format,
                 RELUCENT_ENGLISH_MESSAGE("image.damaged-or-too-large",

@@ -30,6 +30,7 @@ class Reader {
   bool take(std::vector<Value>& values, std::size_t count) {
     if (count > content_.size() / sizeof(Value)) return false;
     values.resize(count);
+    if (count == 0) return true;
     std::memcpy(values.data(), content_.data(), count * sizeof(Value));
     content_.remove_prefix(count * sizeof(Value));
     return true;

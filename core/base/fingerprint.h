@@ -23,11 +23,13 @@ class Fingerprint {
   Fingerprint& addBytes(const void* data, std::size_t bytes);
   Fingerprint& add(std::string_view text) { return addBytes(text.data(), text.size()); }
   template <typename Number>
-  requires std::is_arithmetic_v<Number> Fingerprint& add(Number value) {
+    requires std::is_arithmetic_v<Number>
+  Fingerprint& add(Number value) {
     return addBytes(&value, sizeof(value));
   }
   template <typename Number>
-  requires std::is_arithmetic_v<Number> Fingerprint& add(const std::vector<Number>& values) {
+    requires std::is_arithmetic_v<Number>
+  Fingerprint& add(const std::vector<Number>& values) {
     return addBytes(values.data(), values.size() * sizeof(Number));
   }
 

@@ -229,7 +229,8 @@ class MessagePattern {
     return Message(id_, pattern_, singular_, {Argument(std::forward<Arguments>(arguments))...});
   }
   operator Message() const  // NOLINT
-      requires(gaps == 0) {
+    requires(gaps == 0)
+  {
     return Message(id_, pattern_, singular_, {});
   }
 

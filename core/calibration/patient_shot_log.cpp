@@ -9,8 +9,7 @@ void PatientShotLog::keep(const rig::Shot& shot) {
     for (const auto& projector : rig_.projectors) projector->show(image::Image(projector->size(), 3, 0.0f));
   };
   const auto needed = [](std::uint64_t bytesOfShot) { return spare + shotsAhead * bytesOfShot; };
-  room_.write(
-      needed(rig::plainBytes(shot)), [&] { log_.keep(shot); }, darken);
+  room_.write(needed(rig::plainBytes(shot)), [&] { log_.keep(shot); }, darken);
   const std::uint64_t next = needed(log_.bytesOfLast());
   room_.waitFor(next, 2 * next, darken);
 }

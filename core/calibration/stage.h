@@ -70,9 +70,7 @@ constexpr const StageDescription& descriptionOf(Stage stage) {
 }
 
 inline constexpr std::array<EnumName<Stage>, stageCount> stageNames = std::apply(
-    [](const auto&... records) {
-      return std::array{EnumName<Stage>{records.stage, records.name}...};
-    },
+    [](const auto&... records) { return std::array{EnumName<Stage>{records.stage, records.name}...}; },
     stageTable);
 constexpr EnumNames<Stage> namesOf(Stage) {
   return {"stage", stageNames};

@@ -38,29 +38,19 @@ const std::array kinds{
     ChangeKind{"projector", "X,Y,DEGREES[,NUMBER]", 3, 4,
                [](const Values& v, venue::Changes& c) { c.projectors.push_back(turnedBy(v)); }},
     ChangeKind{"lamps", "RED,GREEN,BLUE: what is left of their light", 3, 3,
-               [](const Values& v, venue::Changes& c) {
-                 c.lamps = {v[0], v[1], v[2]};
-               }},
+               [](const Values& v, venue::Changes& c) { c.lamps = {v[0], v[1], v[2]}; }},
     ChangeKind{"filter", "RED,GREEN,BLUE: what it lets through to the cameras", 3, 3,
-               [](const Values& v, venue::Changes& c) {
-                 c.filter = {v[0], v[1], v[2]};
-               }},
+               [](const Values& v, venue::Changes& c) { c.filter = {v[0], v[1], v[2]}; }},
     ChangeKind{"dust", "SHARE: of light that it takes", 1, 1,
                [](const Values& v, venue::Changes& c) { c.dust = v[0]; }},
     ChangeKind{"ambient", "SHARE: room light, as --ambient of calibrate", 1, 1,
                [](const Values& v, venue::Changes& c) { c.ambient = v[0]; }},
     ChangeKind{"painted", "X,Y,RADIUS: metres around a place in the first camera's picture, as shares of it",
-               3, 3,
-               [](const Values& v, venue::Changes& c) {
-                 c.painted.push_back({{v[0], v[1]}, v[2]});
-               }},
+               3, 3, [](const Values& v, venue::Changes& c) { c.painted.push_back({{v[0], v[1]}, v[2]}); }},
     ChangeKind{"moved", "X,Y,DISTANCE: what is seen there, metres to the right", 3, 3,
-               [](const Values& v, venue::Changes& c) {
-                 c.moved.push_back({{v[0], v[1]}, v[2]});
-               }},
-    ChangeKind{"added", "X,Y,DIAMETER: a ball, metres", 3, 3, [](const Values& v, venue::Changes& c) {
-                 c.added.push_back({{v[0], v[1]}, v[2]});
-               }}};
+               [](const Values& v, venue::Changes& c) { c.moved.push_back({{v[0], v[1]}, v[2]}); }},
+    ChangeKind{"added", "X,Y,DIAMETER: a ball, metres", 3, 3,
+               [](const Values& v, venue::Changes& c) { c.added.push_back({{v[0], v[1]}, v[2]}); }}};
 
 Values valuesOf(std::string_view text, const std::string& whole) {
   Values values;

@@ -12,9 +12,9 @@ namespace relucent::compensation {
 Seams blackSteps(const MeasuredVenue& venue, const Target& target, const SeamPairs& pairs, double lift);
 
 /// The least black lift with which black steps are not seen: steps(lift) <= CIEDE2000 `seen`, found to a
-/// ten-thousandth of white; 0 where nothing is to be seen anyhow, and where even `most` is not enough: then all
-/// black would be grey, and the edges would still be there.
-/// `target`: of any picture; `pairs`: of seamPairs() within it.
+/// ten-thousandth of white; 0 where nothing is to be seen anyhow, and where even `most` is not enough: then
+/// all black would be grey, and the edges would still be there. `target`: of any picture; `pairs`: of
+/// seamPairs() within it.
 double leastBlackLift(const MeasuredVenue& venue, const Target& target, const SeamPairs& pairs,
                       double seen = 1.0, double most = 0.05);
 

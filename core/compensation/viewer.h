@@ -30,9 +30,9 @@ double widestDistance(std::span<const Position> positions);
 /// cameras; positions are finite. Source: core/compensation/README.md.
 std::vector<double> viewerWeights(std::span<const Position> cameras, const Position& viewer);
 
-/// What views count for a viewer which count `home` when nobody is followed: home times viewerWeights(), as shares of
-/// their sum, and a thousandth of home's at the least. What only others see stays theirs: it costs him nothing,
-/// and nothing jumps as he passes a camera. Empty: nothing is asked for where he stands.
+/// What views count for a viewer which count `home` when nobody is followed: home times viewerWeights(), as
+/// shares of their sum, and a thousandth of home's at the least. What only others see stays theirs: it costs
+/// him nothing, and nothing jumps as he passes a camera. Empty: nothing is asked for where he stands.
 ///   home: 0 or more, one for each camera.
 std::vector<double> followedWeights(std::span<const Position> cameras, std::span<const double> home,
                                     const Position& viewer);

@@ -89,8 +89,8 @@ void PatchSums::addPatch(std::size_t patch, const float* columns, std::size_t st
 void PatchSums::addStored(const float* waiting, float* sums) const noexcept {
   parallelFor(0, clearStart_.size() - 1, 4, [&](std::size_t range) {
     for (std::uint32_t i = clearStart_[range]; i < clearStart_[range + 1]; ++i)
-      std::fill(sums + sumFloats * std::size_t{clear_[i].begin}, sums + sumFloats * std::size_t{clear_[i].end},
-                0.0f);
+      std::fill(sums + sumFloats * std::size_t{clear_[i].begin},
+                sums + sumFloats * std::size_t{clear_[i].end}, 0.0f);
     for (std::uint32_t i = pieceStart_[range]; i < pieceStart_[range + 1]; ++i) {
       for (std::uint32_t place = piece_[i].begin; place < piece_[i].end; ++place) {
         float* out = sums + sumFloats * std::size_t{placeNode_[place]};

@@ -22,7 +22,8 @@ class ViewFollower {
 
   /// Weights for a viewer at a place: followedWeights() of those views that show something, blended by his
   /// presence with what is asked for when nobody is followed. Empty: nothing is asked for where he stands.
-  ///   home: of the views themselves;  rest: when nobody is followed, home or for whoever stands at a sweet spot.
+  ///   home: of the views themselves;  rest: when nobody is followed, home or for whoever stands at a sweet
+  ///   spot.
   std::vector<double> weightsFor(std::span<const compensation::Position> cameras,
                                  std::span<const double> home, std::span<const double> rest,
                                  const compensation::Position& viewer, double presence) const;

@@ -320,9 +320,8 @@ std::vector<NodeShare> sharesOf(const Footprint& footprint, Size projector) {
   if (footprint.halo > 0.0f) {
     int wide = haloLevel(projector);
     Size wideGrid = gridAt(projector, wide);
-    visitHalo({footprint.x, footprint.y, wide, wideGrid}, [&](int x, int y, float weight) {
-      shares.push_back({wide, x, y, footprint.halo * weight});
-    });
+    visitHalo({footprint.x, footprint.y, wide, wideGrid},
+              [&](int x, int y, float weight) { shares.push_back({wide, x, y, footprint.halo * weight}); });
     if (wide == level) shares = merged(std::move(shares));
   }
   return shares;

@@ -246,11 +246,9 @@ RELUCENT_KERNEL void invertIn(const float* upper, std::size_t stride, std::size_
   __VA_ARGS__ void invert##set(const float* upper, std::size_t stride, std::size_t order, float* inverse) { \
     invertIn<width>(upper, stride, order, inverse);                                                         \
   }
-#define RELUCENT_SYSTEM_KERNELS_OF(set, instructions)                                               \
-  {                                                                                                 \
-    instructions, variation##set, gather##set, weigh##set, relight##set, gram##set, eliminate##set, \
-        invert##set                                                                                 \
-  }
+#define RELUCENT_SYSTEM_KERNELS_OF(set, instructions)        \
+  {instructions, variation##set, gather##set,    weigh##set, \
+   relight##set, gram##set,      eliminate##set, invert##set}
 
 RELUCENT_SYSTEM_KERNELS(Baseline, 4, 3, 4)
 #ifdef __x86_64__

@@ -15,7 +15,7 @@ namespace relucent::pipeline {
 struct CalibrateResult {
   int patterns = 0;   // shown, all stages
   int exposures = 0;  // photographed, all stages
-  struct Seconds {  // wall time of each stage, earlier runs of a resumed calibration included
+  struct Seconds {    // wall time of each stage, earlier runs of a resumed calibration included
     double linearization = 0.0;
     double acquisition = 0.0;
     double inverse = 0.0;

@@ -68,8 +68,7 @@ class Lookup {
   /// Owned by this. Throws: Cancelled.
   std::vector<GInetAddress*> addresses(Deadline deadline, const Progress& progress) {
     GSource* tick = g_timeout_source_new(static_cast<guint>(betweenLooks.count()));
-    g_source_set_callback(
-        tick, [](gpointer) -> gboolean { return G_SOURCE_CONTINUE; }, nullptr, nullptr);
+    g_source_set_callback(tick, [](gpointer) -> gboolean { return G_SOURCE_CONTINUE; }, nullptr, nullptr);
     g_source_attach(tick, context_);
     const std::unique_ptr<GSource, void (*)(GSource*)> ticking(tick, [](GSource* source) {
       g_source_destroy(source);

@@ -21,7 +21,7 @@ void interrupt(int) {
 
 InterruptionSignals::InterruptionSignals(void (*handler)()) {
   called = handler;
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = interrupt;
   action.sa_flags = SA_RESTART;  // files that are being written are written to the end
   ::sigemptyset(&action.sa_mask);

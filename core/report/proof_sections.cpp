@@ -66,8 +66,8 @@ void addDrift(const ReportDrift& drift, PageData& warnings, PageData& assurances
       break;
     case acquisition::Verdict::remeasure:
       warnings << PageData(fmt::format(
-          "Checked for drift on {}: something has changed, the calibration should be repaired. {}",
-          when, figures));
+          "Checked for drift on {}: something has changed, the calibration should be repaired. {}", when,
+          figures));
       break;
     case acquisition::Verdict::startAgain:
       warnings << PageData(

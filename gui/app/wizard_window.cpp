@@ -32,7 +32,8 @@ WizardWindow::WizardWindow(QSettings& settings, std::filesystem::path cache, con
   Theme::instance().apply(preferences_.isLight() ? Look::light : Look::dark);
   follow();
   for (const std::unique_ptr<PageModel>& page : pages_) wizard_.add(*page);
-  // Under a style sheet, each widget that is put into another has all its children styled again: it comes last.
+  // Under a style sheet, each widget that is put into another has all its children styled again: it comes
+  // last.
   const QString sheet = qApp->styleSheet();
   qApp->setStyleSheet({});
   window_ = makeWindow();

@@ -61,8 +61,7 @@ StreamAddress streamAddressFrom(const QString& which) {
   if (const QString hold = which.mid(address.url.size()); !hold.isEmpty() && hold != "#hold=last") {
     if (hold != "#hold=black")
       throw Error(ErrorKind::input,
-                  RELUCENT_MESSAGE("stream.unknown-hold",
-                                   "the stream's address ends in an unknown choice"),
+                  RELUCENT_MESSAGE("stream.unknown-hold", "the stream's address ends in an unknown choice"),
                   RELUCENT_MESSAGE("stream.write-hold", "write #hold=last or #hold=black"),
                   shownStream(which).toStdString());
     address.hold = StreamAddress::Hold::black;

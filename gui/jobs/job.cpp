@@ -27,8 +27,7 @@ class Job::Sink : public ProgressSink {
  private:
   void post() {
     if (std::exchange(reports_->posted, true)) return;
-    QMetaObject::invokeMethod(
-        &job_, [&job = job_] { job.takeReports(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(&job_, [&job = job_] { job.takeReports(); }, Qt::QueuedConnection);
   }
 
   Job& job_;
@@ -64,8 +63,7 @@ void Job::start(Work work) {
       end = State::failed;
       failure = failureOf(std::current_exception());
     }
-    QMetaObject::invokeMethod(
-        this, [this, end, failure] { finish(end, failure); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(this, [this, end, failure] { finish(end, failure); }, Qt::QueuedConnection);
   }));
   thread_->start();
 }

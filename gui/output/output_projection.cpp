@@ -111,10 +111,7 @@ void OutputProjection::play() {
   if (isSeen && !keepStep) engine_ = tr("%1, shown without OpenGL").arg(engine_);
   player_ = std::make_unique<Player>(std::move(made_->renderer), content_, windows);
   // What these lead to ends the objects that tell it: later, when they are done telling.
-  auto closeLater = [this] {
-    QMetaObject::invokeMethod(
-        this, [this] { close(); }, Qt::QueuedConnection);
-  };
+  auto closeLater = [this] { QMetaObject::invokeMethod(this, [this] { close(); }, Qt::QueuedConnection); };
   // The player itself looks at the projectors' other keys.
   for (const auto& window : windows_)
     connect(window.get(), &ProjectorWindow::keyPressed, this, [this, closeLater](int key) {

@@ -56,9 +56,8 @@ Player::Player(std::unique_ptr<FrameRenderer> renderer, std::shared_ptr<ContentS
   connect(&preparing_, &QFutureWatcherBase::finished, this, &Player::setPrepared);
   for (ProjectorWindow* window : windows_) {
     connect(window, &ProjectorWindow::keyPressed, this, [this](int key) { handleKey(key); });
-    connect(window, &ProjectorWindow::dragged, this, [this](double right, double up) {
-      walk({right, up, 0.0});
-    });
+    connect(window, &ProjectorWindow::dragged, this,
+            [this](double right, double up) { walk({right, up, 0.0}); });
     connect(window, &ProjectorWindow::displayFound, this, &Player::present);
   }
 }

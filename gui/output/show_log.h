@@ -19,8 +19,7 @@ class ShowLog {
   /// What each line begins with.
   using Mark = std::function<QString()>;
   /// Creates the folder. Throws: Error{disk}.
-  explicit ShowLog(
-      const QString& folder, Mark mark = [] { return QString(); });
+  explicit ShowLog(const QString& folder, Mark mark = [] { return QString(); });
   ~ShowLog();
 
   void tell(const QString& sentence);

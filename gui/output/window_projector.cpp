@@ -318,8 +318,7 @@ bool WindowProjector::stayedVisible() {
 }
 
 void WindowProjector::rest() {
-  QMetaObject::invokeMethod(
-      stage_, [stage = stage_] { stage->rest(); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(stage_, [stage = stage_] { stage->rest(); }, Qt::QueuedConnection);
 }
 
 }  // namespace relucent::gui

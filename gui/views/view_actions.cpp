@@ -88,12 +88,7 @@ void addViewActions(Card& card, PlaneView& view, ViewValues values,
   QObject::connect(whole, &QToolButton::clicked, &view, [&view] { view.setWholeScreen(true); });
   card.addAction(whole);
   QToolButton* save = menuButton(Icon::save, Translated::tr("Save"));
-  addSaving(
-      card, *save,
-      [&view, values = std::move(values)] {
-        return ShownView{view, values};
-      },
-      failed);
+  addSaving(card, *save, [&view, values = std::move(values)] { return ShownView{view, values}; }, failed);
   card.addAction(save);
 }
 

@@ -63,8 +63,7 @@ VtkView::VtkView(QWidget* parent) : QWidget(parent), scene_(std::make_unique<Vtk
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   if (isPossible())
-    column->addWidget(canvas_ = new VtkCanvas(
-                          *scene_, [this] { refuse(); }, this));
+    column->addWidget(canvas_ = new VtkCanvas(*scene_, [this] { refuse(); }, this));
   else
     refuse();
 }

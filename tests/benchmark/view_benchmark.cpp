@@ -48,9 +48,8 @@ nlohmann::json pictures(const MatrixPictures& matrix) {
   };
   nlohmann::json seconds;
   for (std::size_t share : {std::size_t{1}, std::size_t{4}, std::size_t{64}, std::size_t{256}})
-    seconds[std::to_string(share)] = quickest([&] {
-      matrix.density(part(share), share == 1 ? Size{768, 480} : Size{1024, 768});
-    });
+    seconds[std::to_string(share)] =
+        quickest([&] { matrix.density(part(share), share == 1 ? Size{768, 480} : Size{1024, 768}); });
   return seconds;
 }
 

@@ -255,8 +255,7 @@ int FakeProjector::connections() const {
 }
 
 void FakeProjector::beFound() {
-  QMetaObject::invokeMethod(
-      machine_.get(), [this] { machine_->beFound(); }, Qt::BlockingQueuedConnection);
+  QMetaObject::invokeMethod(machine_.get(), [this] { machine_->beFound(); }, Qt::BlockingQueuedConnection);
 }
 
 }  // namespace relucent::test

@@ -339,8 +339,7 @@ void SrtSender::run(quint16 port) {
   if (avio_open2(&to, url.constData(), AVIO_FLAG_WRITE, &interrupt, nullptr) < 0) return;
   TransportStream stream;
   while (!stopped_) {
-    const QByteArray bytes =
-        stream.picture({64, 48}, isGreen ? Samples{145, 54, 34} : Samples{81, 90, 240});
+    const QByteArray bytes = stream.picture({64, 48}, isGreen ? Samples{145, 54, 34} : Samples{81, 90, 240});
     avio_write(to, reinterpret_cast<const unsigned char*>(bytes.constData()), static_cast<int>(bytes.size()));
     avio_flush(to);
     std::this_thread::sleep_for(std::chrono::milliseconds(interval));

@@ -144,8 +144,7 @@ class TestCommands : public QObject {
     QStringList arguments{"calibrate", calibration, "--levels", "9"};
     for (const char* number : {"0", "1"})
       arguments << "--projector-command"
-                << "cp {image} " + folder.path() + "/shown-" + number + ".png"
-                << "--camera-command"
+                << "cp {image} " + folder.path() + "/shown-" + number + ".png" << "--camera-command"
                 << tool("command-venue") + " photograph-several " + folder.path() +
                        " {exposure} {output} {shot} " + number;
     arguments << "--projector"

@@ -106,7 +106,7 @@ std::map<QString, QByteArray> filesOf(const QString& calibration) {
 std::map<QString, ino_t> shotInodes(const QString& calibration) {
   std::map<QString, ino_t> inodes;
   for (const QString& name : QDir(calibration + "/shots").entryList({"*.shot"}, QDir::Files)) {
-    struct stat status {};
+    struct stat status{};
     if (::stat((calibration + "/shots/" + name).toLocal8Bit().constData(), &status) == 0)
       inodes[name] = status.st_ino;
   }

@@ -362,8 +362,7 @@ bool OpenGlBackend::renderTo(const ContentFrame& frame, const FrameRequest& requ
 
 bool OpenGlBackend::render(const ContentFrame& frame, const FrameRequest& request,
                            std::span<std::uint32_t> words, FrameReport& report) noexcept {
-  return renderTo(
-      frame, request, [&] { objects_->words.read(0, words.data(), words.size_bytes()); }, report);
+  return renderTo(frame, request, [&] { objects_->words.read(0, words.data(), words.size_bytes()); }, report);
 }
 
 bool OpenGlBackend::sharesTextures() const {

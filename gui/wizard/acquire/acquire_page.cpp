@@ -35,9 +35,7 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
             recallTrace();
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe.")});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
       room_(this) {
   makeCommands();
   connect(&session_, &Session::opened, this, [this] {
@@ -88,12 +86,9 @@ void AcquirePage::makeCommands() {
   startNow_ = addCommand(Icon::play, [this] { begin(); });
   stay_ = addCommand(Icon::stop, [this] { stay(); });
   next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
-  pause_ = addCommand(
-      Icon::pause, [this] { pause(); }, QKeySequence("Ctrl+P"));
-  resume_ = addCommand(
-      Icon::play, [this] { resume(); }, QKeySequence("Ctrl+P"));
-  keep_ = addCommand(
-      Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
+  pause_ = addCommand(Icon::pause, [this] { pause(); }, QKeySequence("Ctrl+P"));
+  resume_ = addCommand(Icon::play, [this] { resume(); }, QKeySequence("Ctrl+P"));
+  keep_ = addCommand(Icon::save, [this] { stopAndKeep(); }, QKeySequence("Ctrl+K"));
   measureAnew_ = addCommand(Icon::retry, [this] { start(true); });
   return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   goOnMeasuring_ = addCommand(Icon::play, begins);
@@ -389,8 +384,7 @@ void AcquirePage::begin() {
   auto retrying = std::make_shared<RetryingObserver>(trace_, question_, beforeRetry);
   sentinels::AlarmHandler handler = [this, retrying, question = question_](const sentinels::Alarm& alarm) {
     if (retrying->triesAgain(alarm.kind)) return sentinels::Answer::retry;
-    QMetaObject::invokeMethod(
-        this, [this, alarm] { askAboutAlarm(alarm); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(this, [this, alarm] { askAboutAlarm(alarm); }, Qt::QueuedConnection);
     return question->wait();
   };
   auto expects = [this](const pipeline::Outlook& outlook) { trace_.expects(outlook); };

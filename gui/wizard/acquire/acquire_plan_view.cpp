@@ -226,9 +226,8 @@ QWidget* floodlightCard(AcquirePage& model) {
     card->setSubtitle(flood.lit.picture.isNull() ? white : whole);
     view->setAccessibleDescription(flood.lit.picture.isNull() ? QString() : whole);
   };
-  auto making = std::make_shared<Latest<FloodlightPicture>>(show, [&model](const Failure& failure) {
-    Q_EMIT model.failed({failure, {}});
-  });
+  auto making = std::make_shared<Latest<FloodlightPicture>>(
+      show, [&model](const Failure& failure) { Q_EMIT model.failed({failure, {}}); });
   auto refresh = [&model, card, view, show, making,
                   shown = std::optional<std::pair<int, std::size_t>>()]() mutable {
     card->setVisible(!model.isMeasuring());

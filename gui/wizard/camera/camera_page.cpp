@@ -51,9 +51,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
             }
             tellAll();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }) {
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }) {
   keep_ = addCommand(Icon::next, [this] { goOn(); });
   pause_ = addCommand(Icon::pause, [this] { finish(); });
   again_ = addCommand(Icon::retry, [this] {
@@ -74,9 +72,8 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     Q_EMIT camerasListed();
     tellStatus();
   });
-  connect(&finder_, &CameraFinder::failed, this, [this](const Failure& failure) {
-    Q_EMIT failed({failure, tr("Nothing was changed.")});
-  });
+  connect(&finder_, &CameraFinder::failed, this,
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("Nothing was changed.")}); });
   connect(&session_, &Session::stepsChanged, this, &CameraPage::tellAll);
   connect(&session_, &Session::devicesChanged, this, &CameraPage::tellStatus);
   connect(&job_, &Job::progressed, this, &CameraPage::tellProgress);
@@ -462,8 +459,7 @@ void CameraPage::start() {
       }
       QMutexLocker lock(&shared->guard);
       if (!std::exchange(shared->posted, true))
-        QMetaObject::invokeMethod(
-            this, [this] { takeSharedState(); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(this, [this] { takeSharedState(); }, Qt::QueuedConnection);
       lock.unlock();
       // Twice a second: the screen's own light falls into the room.
       while (since.elapsed() < 500) {

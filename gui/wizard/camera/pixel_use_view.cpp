@@ -50,8 +50,7 @@ class PixelUseView : public QWidget {
     QObject::connect(box_, &QComboBox::activated, &model, [&model](int index) {
       model.choosePixels(model.pixelForecasts()[static_cast<std::size_t>(index)].use);
     });
-    refreshOn(
-        model, this, [this] { refresh(); }, &CameraPage::settingsChanged, &CameraPage::resultChanged);
+    refreshOn(model, this, [this] { refresh(); }, &CameraPage::settingsChanged, &CameraPage::resultChanged);
   }
 
  private:

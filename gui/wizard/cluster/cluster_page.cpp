@@ -73,21 +73,16 @@ ClusterPage::ClusterPage(Session& session, QObject* parent)
             prepared_ = std::move(prepared);
             compute();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe.")});
-          }),
-      computing_([this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
-                 [this](const Failure& failure) {
-                   Q_EMIT failed({failure, tr("What is measured is safe.")});
-                 }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
+      computing_(
+          [this](std::shared_ptr<const ClusterResult> result) { show(std::move(result)); },
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
       timing_(
           [this](const engine::FrameCost& cost) {
             frameCost_ = cost;
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe.")});
-          }) {
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }) {
   accept_ = addCommand(Icon::next, [this] { accept(); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   if (session_.isOpen()) settings_ = session_.settings().clustering;

@@ -133,8 +133,7 @@ void Nudge::look() {
         QMutexLocker lock(&shared->guard);
         shared->sight = std::move(sight);
         if (!std::exchange(shared->posted, true))
-          QMetaObject::invokeMethod(
-              this, [this] { takeSight(); }, Qt::QueuedConnection);
+          QMetaObject::invokeMethod(this, [this] { takeSight(); }, Qt::QueuedConnection);
       }
       while (since.elapsed() < betweenLooks) {
         progress.checkpoint();

@@ -26,10 +26,8 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent), room_(this) {
   next_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   measure_ = addCommand(Icon::play, [this] { measure(false); });
-  stop_ = addCommand(
-      Icon::stop, [this] { finish(); }, QKeySequence("Ctrl+K"));
-  again_ = addCommand(
-      Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
+  stop_ = addCommand(Icon::stop, [this] { finish(); }, QKeySequence("Ctrl+K"));
+  again_ = addCommand(Icon::retry, [this] { measure(true); }, QKeySequence("Ctrl+R"));
   return_ = addCommand(Icon::back, [this] { returnToEarlier(); });
   retry_ = addCommand(Icon::retry, [this] { measure(false); });
   goOn_ = addCommand(Icon::play, [this] { room_.goOn(); });

@@ -26,10 +26,8 @@ OutputPage::OutputPage(Session& session, QObject* parent)
       config_(QStandardPaths::writableLocation(QStandardPaths::GenericConfigLocation)) {
   open_ = addCommand(Icon::play, [this] { open(); });
   install_ = addCommand(Icon::power, [this] { install(); });
-  freeze_ = addCommand(
-      Icon::pause, [this] { setFrozen(!isFrozen()); }, QKeySequence("Ctrl+P"));
-  black_ = addCommand(
-      Icon::black, [this] { setBlack(!isBlack()); }, QKeySequence("Ctrl+B"));
+  freeze_ = addCommand(Icon::pause, [this] { setFrozen(!isFrozen()); }, QKeySequence("Ctrl+P"));
+  black_ = addCommand(Icon::black, [this] { setBlack(!isBlack()); }, QKeySequence("Ctrl+B"));
   close_ = addCommand(Icon::stop, [this] { close(); });
   prove_ = addCommand(Icon::camera, [this] { verify(); });
   checkDrift_ = addCommand(Icon::drift, [this] { checkDrift(); });

@@ -67,8 +67,7 @@ class PlaybackCard : public Card {
                            axisOf(0.0, 20.0, OutputPage::tr("Frame time, ms")));
     chart_->setAccessibleName(OutputPage::tr("Frame times of the last minute"));
     body()->addWidget(chart_, 1);
-    refreshOn(
-        page_, this, [this] { refresh(); }, &OutputPage::progressChanged);
+    refreshOn(page_, this, [this] { refresh(); }, &OutputPage::progressChanged);
   }
 
  private:

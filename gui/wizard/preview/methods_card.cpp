@@ -110,8 +110,7 @@ MethodsCard::MethodsCard(PreviewPage& page, QWidget* parent)
     unfolded_ = !unfolded_;
     arrange();
   });
-  refreshOn(
-      page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
+  refreshOn(page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
 }
 
 void MethodsCard::setFoldable(bool foldable) {

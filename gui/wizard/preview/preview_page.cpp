@@ -74,9 +74,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             compareNext();
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("What is measured is safe.")});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("What is measured is safe.")}); }),
       reading_(
           [this](std::pair<std::string, std::shared_ptr<const image::Image>> read) {
             adoptContent(read.first, read.second);
@@ -84,9 +82,7 @@ PreviewPage::PreviewPage(Session& session, QObject* parent)
             after.picture = read.first;
             setSettings(after, tr("Picture"));
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, tr("The picture of before stays.")});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("The picture of before stays.")}); }),
       perfecting_(session, stepName),
       masks_(
           settings_,

@@ -96,8 +96,7 @@ class PreviewStage : public QWidget {
       for (std::size_t i = 0; i < views_.size(); ++i)
         views_[i]->setVisible(i == static_cast<std::size_t>(index));
     });
-    refreshOn(
-        page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
+    refreshOn(page_, this, [this] { refresh(); }, &PreviewPage::settingsChanged, &PreviewPage::resultChanged);
   }
 
  protected:

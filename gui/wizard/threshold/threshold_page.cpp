@@ -34,9 +34,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             if (!keepsEverything(cut_)) kept_ = statistics;
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }),
       first_(
           [this](transport::TransportStatistics statistics) {
             whole_ = statistics;
@@ -44,9 +42,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             suggest(statistics);
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }),
       looking_(
           [this](std::shared_ptr<const transport::PixelFootprint> footprint) {
             if (!adopted_ || !picked_ ||
@@ -57,9 +53,7 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             if (!looking_.isBusy() && std::exchange(follows_, false)) followFootprint();
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }),
       lighting_(
           [this](std::shared_ptr<const std::vector<float>> lit) {
             if (!adopted_ || !pickedProjector_ || lit->size() != adopted_->transport.cameras().count())
@@ -67,18 +61,14 @@ ThresholdPage::ThresholdPage(Session& session, QObject* parent)
             lit_ = std::move(lit);
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }),
       picturing_(
           [this](std::shared_ptr<const transport::MatrixPictures> matrix) {
             if (!adopted_ || &matrix->transport() != &adopted_->transport) return;
             matrix_ = std::move(matrix);
             tellResult();
           },
-          [this](const Failure& failure) {
-            Q_EMIT failed({failure, {}});
-          }),
+          [this](const Failure& failure) { Q_EMIT failed({failure, {}}); }),
       lightening_(
           [this](Floodlights read) {
             if (read.first != floodlights_.first) return;

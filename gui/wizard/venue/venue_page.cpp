@@ -65,13 +65,11 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   connect(&session_, &Session::stepsChanged, this, &VenuePage::tellSettings);
   connect(&session_, &Session::devicesChanged, this, &VenuePage::tellSettings);
   connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::tellSettings);
-  connect(&finder_, &CameraFinder::failed, this, [this](const Failure& failure) {
-    Q_EMIT failed({failure, tr("Nothing was changed.")});
-  });
+  connect(&finder_, &CameraFinder::failed, this,
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("Nothing was changed.")}); });
   connect(&network_, &VenueNetwork::changed, this, &VenuePage::tellSettings);
-  connect(&network_, &VenueNetwork::failed, this, [this](const Failure& failure) {
-    Q_EMIT failed({failure, tr("Nothing was changed.")});
-  });
+  connect(&network_, &VenueNetwork::failed, this,
+          [this](const Failure& failure) { Q_EMIT failed({failure, tr("Nothing was changed.")}); });
   connect(&session_, &Session::acquisitionChanged, this, [this] { keepThumbnail(session_); });
   connect(&session_, &Session::opened, this, [this] {
     if (session_.isOpen()) recent_.add(QString::fromStdString(session_.path().string()));

@@ -13,7 +13,7 @@ namespace relucent::gui {
 namespace {
 
 QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& name, const QString& example,
-                       std::string pipeline::CommandRigSettings::*part) {
+                       std::string pipeline::CommandRigSettings::* part) {
   column->addWidget(labelOf(name, "note"));
   auto* line = new QLineEdit(QString::fromStdString(model.script().*part));
   line->setPlaceholderText(example);
@@ -60,7 +60,7 @@ QWidget* scriptInspector(VenuePage& model) {
   column->addWidget(consentToBegin(model));
   column->addWidget(labelOf(VenuePage::tr("Projector's pixels"), "section"));
   auto* row = new QHBoxLayout;
-  for (int Size::*side : {&Size::width, &Size::height}) {
+  for (int Size::* side : {&Size::width, &Size::height}) {
     auto* box = new QSpinBox;
     box->setRange(8, 8192);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);

@@ -51,8 +51,7 @@ class KeepingPart : public QWidget {
           QFileDialog::getExistingDirectory(this, VenuePage::tr("Choose a folder"), model_.folder());
       if (!chosen.isEmpty()) model_.setFolder(chosen);
     });
-    refreshOn(
-        model, this, [this] { refresh(); }, &VenuePage::settingsChanged);
+    refreshOn(model, this, [this] { refresh(); }, &VenuePage::settingsChanged);
     connect(&model, &VenuePage::remedyWanted, this, [this] {
       if (model_.remedy() == VenuePage::Remedy::name) pointOut(name_);
       if (model_.remedy() == VenuePage::Remedy::folder) pointOut(folder_);

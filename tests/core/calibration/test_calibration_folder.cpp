@@ -89,7 +89,9 @@ class TestCalibrationFolder : public QObject {
   }
 
   void createRefusesWhatIsThere() {
-    { CalibrationFolder::create(root_ / "taken", {}, {}); }
+    {
+      CalibrationFolder::create(root_ / "taken", {}, {});
+    }
     std::string manifest = readFile(root_ / "taken/calibration.relucent");
     std::string sentence = sentenceOf([&] { CalibrationFolder::create(root_ / "taken", {}, {}); });
     QVERIFY2(contains(sentence, "resume") && contains(sentence, "another name"), sentence.c_str());
@@ -245,7 +247,9 @@ class TestCalibrationFolder : public QObject {
   }
 
   void aReaderCannotStore() {
-    { CalibrationFolder::create(root_ / "c", {}, {}); }
+    {
+      CalibrationFolder::create(root_ / "c", {}, {});
+    }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", Access::read);
     QVERIFY_EXCEPTION_THROWN(folder.store(Stage::threshold, "f", {}), std::logic_error);
     QVERIFY_EXCEPTION_THROWN(folder.setSettings({}), std::logic_error);
@@ -303,7 +307,9 @@ class TestCalibrationFolder : public QObject {
 
   void numbersSurviveToTheLastBit() {
     std::vector<double> numbers{0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -2.5e-17};
-    { CalibrationFolder::create(root_ / "c", {}, {}).store(Stage::threshold, "f", {{"numbers", numbers}}); }
+    {
+      CalibrationFolder::create(root_ / "c", {}, {}).store(Stage::threshold, "f", {{"numbers", numbers}});
+    }
     CalibrationFolder folder = CalibrationFolder::open(root_ / "c", Access::read);
     QCOMPARE(folder.latest(Stage::threshold)->values->at("numbers").get<std::vector<double>>(), numbers);
   }
@@ -327,7 +333,9 @@ class TestCalibrationFolder : public QObject {
   }
 
   void leftoversAreClearedAwayAndNothingElse() {
-    { CalibrationFolder::create(root_ / "c", {}, {}); }
+    {
+      CalibrationFolder::create(root_ / "c", {}, {});
+    }
     createFolder(root_ / "c/results/.acquisition-1.part");
     writeFileAtomically(root_ / "c/results/.acquisition-1.part/transport.npz", "half");
     writeFileAtomically(root_ / "c/.parts-list", "the technician's own");

@@ -113,9 +113,10 @@ class TestProgram : public QObject {
     QCOMPARE(stopped.status, 1);
     QVERIFY2(stopped.err.contains("the disk is full; every photograph so far is safe"), stopped.err);
 
-    const Run waited = inside(mount + calibrate +
-                              "2> $2/said & while kill -0 $! && ! grep -q Paused $2/said; do sleep 0.1; done; "
-                              "mount -o remount,size=300m $2/disk; wait $!; cp -r $2/disk/venue $2/waited");
+    const Run waited =
+        inside(mount + calibrate +
+               "2> $2/said & while kill -0 $! && ! grep -q Paused $2/said; do sleep 0.1; done; "
+               "mount -o remount,size=300m $2/disk; wait $!; cp -r $2/disk/venue $2/waited");
     QVERIFY2(waited.status == 0, waited.err);
     const Run undisturbed = inside("mkdir -p $2/disk; " + calibrate);
     QCOMPARE(undisturbed.status, 0);
@@ -149,7 +150,9 @@ class TestProgram : public QObject {
     pid_t child = ::fork();
     if (child == 0) {
       ::signal(SIGTERM, [](int) { ::_exit(42); });
-      { Interruption interruption; }
+      {
+        Interruption interruption;
+      }
       ::raise(SIGTERM);
       ::_exit(0);
     }

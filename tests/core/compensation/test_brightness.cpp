@@ -77,9 +77,8 @@ class TestBrightness : public QObject {
     QFETCH(Brightness, way);
     const BrightnessFit fit(way, 4.0 / 3.0);
     const BrightnessField dark = fit.fit(samplesOf(0.01f, [](float, float) { return Limits{0.03f, 1.0f}; }));
-    const BrightnessField bright = fit.fit(samplesOf(0.9f, [](float, float) {
-      return Limits{0.001f, 0.6f};
-    }));
+    const BrightnessField bright =
+        fit.fit(samplesOf(0.9f, [](float, float) { return Limits{0.001f, 0.6f}; }));
     if (way == Brightness::even) {
       QCOMPARE(dark.octaves, BrightnessField().octaves);
       QCOMPARE(bright.octaves, BrightnessField().octaves);
@@ -99,9 +98,8 @@ class TestBrightness : public QObject {
   /// in between.
   void regionsFollowTheirLight() {
     QFETCH(double, aspect);
-    const auto samples = samplesOf(0.3f, [](float u, float) {
-      return u < 0.5f ? Limits{0.001f, 0.2f} : Limits{0.4f, 1.5f};
-    });
+    const auto samples =
+        samplesOf(0.3f, [](float u, float) { return u < 0.5f ? Limits{0.001f, 0.2f} : Limits{0.4f, 1.5f}; });
     const BrightnessField one = BrightnessFit(Brightness::picture, aspect).fit(samples);
     QVERIFY(mostOf(one) == leastOf(one));
     const BrightnessField field = BrightnessFit(Brightness::region, aspect).fit(samples);
@@ -124,9 +122,8 @@ class TestBrightness : public QObject {
     BrightnessField before;
     for (int frame = 0; frame <= 40; ++frame) {
       const float grey = 0.01f + 0.0005f * static_cast<float>(frame);
-      const BrightnessField field = fit.fit(samplesOf(grey, [](float u, float) {
-        return Limits{0.02f, 0.5f + u};
-      }));
+      const BrightnessField field =
+          fit.fit(samplesOf(grey, [](float u, float) { return Limits{0.02f, 0.5f + u}; }));
       if (frame > 0)
         for (std::size_t i = 0; i < field.octaves.size(); ++i)
           QVERIFY2(std::abs(field.octaves[i] - before.octaves[i]) < 0.15f,

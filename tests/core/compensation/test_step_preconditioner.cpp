@@ -20,7 +20,8 @@ Scene sceneOf(int seed) {
   return makeScene(settings);
 }
 
-/// A dense T whose channels pass `passed` of their light each, from some camera pixels to some projector pixels.
+/// A dense T whose channels pass `passed` of their light each, from some camera pixels to some projector
+/// pixels.
 TransportMatrix filtered(const std::array<float, 3>& passed, std::uint64_t seed) {
   const Size projector{3, 2}, camera{4, 3};
   const NodeLayout layout{Rasters(projector)};
@@ -89,8 +90,7 @@ class TestStepPreconditioner : public QObject {
   /// Whatever the weights and the share of light in each channel.
   void isExactWhereSurfacesAreGrey() {
     QFETCH(int, seed);
-    const TransportMatrix transport =
-        filtered({0.9f, 0.3f, 0.05f}, static_cast<std::uint64_t>(seed));
+    const TransportMatrix transport = filtered({0.9f, 0.3f, 0.05f}, static_cast<std::uint64_t>(seed));
     const CameraMask usable(transport.cameras().count(), 1);
     const CameraStack nothing(3 * usable.size());
     ProjectorMask free(transport.projectors().count(), 1);

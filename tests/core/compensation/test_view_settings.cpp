@@ -257,8 +257,8 @@ class TestViewSettings : public QObject {
              qPrintable(QString("%1 %2").arg(answers[0]).arg(answers[1])));
   }
 
-  /// Law: for whoever stands at a camera it is as if nearly that one alone asked, the others for a thousandth,
-  /// and between two by the way; his weights are times those of the views.
+  /// Law: for whoever stands at a camera it is as if nearly that one alone asked, the others for a
+  /// thousandth, and between two by the way; his weights are times those of the views.
   void aViewerWeighsTheViews() {
     TargetSettings settings = weighing({1.0, 0.5});
     settings.views[0].position = Position{0, 0, 0};

@@ -36,10 +36,7 @@ CameraKind darkKind() {
               [](const std::string& place, const CameraWishes& wishes) {
                 return std::make_unique<DarkCamera>(place, wishes.size.value_or(Size{8, 6}));
               },
-          .list =
-              [] {
-                return std::vector<ListedCamera>{{"dark:cellar", Message::plain("Dark"), true}};
-              },
+          .list = [] { return std::vector<ListedCamera>{{"dark:cellar", Message::plain("Dark"), true}}; },
           .devices =
               [](std::vector<std::string> places) {
                 std::ranges::replace(places, "under the stairs", "cellar");
@@ -133,17 +130,11 @@ class TestCameraRegistry : public QObject {
   }
 
   void whatIsNotThereIsTold() {
-    const std::string video = sentenceOf(
-        [] {
-          cameraRegistry().open({"v4l2", "/dev/no-such-video"}, {});
-        },
-        ErrorKind::device);
+    const std::string video =
+        sentenceOf([] { cameraRegistry().open({"v4l2", "/dev/no-such-video"}, {}); }, ErrorKind::device);
     QVERIFY(mentions(video, "v4l2:/dev/no-such-video: no such video device is plugged in"));
-    const std::string command = sentenceOf(
-        [] {
-          cameraRegistry().open({"command", "shoot"}, {});
-        },
-        ErrorKind::usage);
+    const std::string command =
+        sentenceOf([] { cameraRegistry().open({"command", "shoot"}, {}); }, ErrorKind::usage);
     QVERIFY(mentions(command, "the camera's command does not contain {exposure}"));
   }
 

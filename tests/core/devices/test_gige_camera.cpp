@@ -228,11 +228,8 @@ class TestGigeCamera : public QObject {
     QCOMPARE(venue.camera->traits().remarks.size(), std::size_t{1});
     QVERIFY(mentions(english(venue.camera->traits().remarks[0]),
                      "claims exposures up to 10 s but reaches only 0.05 s"));
-    const std::string sentence = sentenceOf(
-        [&] {
-          venue.camera->capture({{"test", 1}, 0, 0.5});
-        },
-        ErrorKind::device);
+    const std::string sentence =
+        sentenceOf([&] { venue.camera->capture({{"test", 1}, 0, 0.5}); }, ErrorKind::device);
     QVERIFY(mentions(sentence, "genicam:127.0.0.1: the camera was asked to expose 0.5 s but exposes 0.05 s"));
   }
 
@@ -276,11 +273,8 @@ class TestGigeCamera : public QObject {
     patience.attempts = 2;
     venue.open(Venue::genicam(), patience);
     venue.fake->losePackets(1.0);
-    const std::string sentence = sentenceOf(
-        [&] {
-          venue.camera->capture({{"test", 1}, 0, 0.01});
-        },
-        ErrorKind::device);
+    const std::string sentence =
+        sentenceOf([&] { venue.camera->capture({{"test", 1}, 0, 0.01}); }, ErrorKind::device);
     QVERIFY(mentions(sentence, "2 attempts at a photograph failed: no photograph came within 0.11 s"));
     QVERIFY(mentions(sentence, "check the camera's cable"));
     venue.fake->losePackets(0.0);

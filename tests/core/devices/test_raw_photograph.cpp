@@ -177,11 +177,8 @@ class TestRawPhotograph : public QObject {
   void whatIsNoUsableRawFileIsTold() {
     QFETCH(QByteArray, bytes);
     QFETCH(QString, part);
-    const std::string sentence = sentenceOf(
-        [&] {
-          rawPhotograph({bytes.begin(), bytes.end()}, "IMG_0001.DNG");
-        },
-        ErrorKind::format);
+    const std::string sentence =
+        sentenceOf([&] { rawPhotograph({bytes.begin(), bytes.end()}, "IMG_0001.DNG"); }, ErrorKind::format);
     QVERIFY(mentions(sentence, part.toStdString()));
     QVERIFY(mentions(sentence, "IMG_0001.DNG: "));
   }

@@ -148,19 +148,13 @@ class TestRecording : public QObject {
     Rig rig = recorded(scene().rig(), folder);
     photographed(rig, 1);
     Rig again = replayed(folder);
-    const std::string before = sentenceOf(
-        [&] {
-          again.cameras[0]->capture({{"stage", 0}, 0, 0.02});
-        },
-        ErrorKind::input);
+    const std::string before =
+        sentenceOf([&] { again.cameras[0]->capture({{"stage", 0}, 0, 0.02}); }, ErrorKind::input);
     QVERIFY(mentions(before, "the recording has no photograph of stage 0 with 0.02 s"));  // nothing shown yet
     for (std::size_t i = 0; i < 2; ++i) again.projectors[i]->show(patterns(0.0f)[i]);
     again.cameras[0]->capture({{"stage", 0}, 0, 0.02});
-    const std::string exposure = sentenceOf(
-        [&] {
-          again.cameras[0]->capture({{"stage", 0}, 0, 0.03});
-        },
-        ErrorKind::input);
+    const std::string exposure =
+        sentenceOf([&] { again.cameras[0]->capture({{"stage", 0}, 0, 0.03}); }, ErrorKind::input);
     QVERIFY(mentions(exposure, "use the settings that it was recorded with"));
     QVERIFY_THROWS_EXCEPTION(std::logic_error, again.projectors[0]->show(Image({3, 3}, 3)));
   }
@@ -198,7 +192,9 @@ class TestRecording : public QObject {
     QVERIFY(mentions(sentenceOf([&] { recorded(scene().rig(), folder); }, ErrorKind::input),
                      "holds other things"));
     const fs::path other = fresh();
-    { Rig rig = recorded(scene().rig(), other); }
+    {
+      Rig rig = recorded(scene().rig(), other);
+    }
     Rig different = scene().rig();
     different.cameras.pop_back();
     QVERIFY(mentions(sentenceOf([&] { recorded(std::move(different), other); }, ErrorKind::input),

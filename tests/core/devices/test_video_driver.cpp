@@ -160,11 +160,8 @@ class TestVideoDriver : public QObject {
     QVERIFY(std::abs(frame.seconds - 0.0123) < 1e-12);
     QCOMPARE(frame.bits, 8);
     webcam.script->stubborn = {VideoControl::exposure};
-    const std::string sentence = sentenceOf(
-        [&] {
-          webcam.camera->capture({{"test", 1}, 0, 0.1});
-        },
-        ErrorKind::device);
+    const std::string sentence =
+        sentenceOf([&] { webcam.camera->capture({{"test", 1}, 0, 0.1}); }, ErrorKind::device);
     QVERIFY(mentions(sentence, "was asked to expose 0.1 s but exposes 0.0123 s"));
   }
 

@@ -120,10 +120,7 @@ class TestExr : public QObject {
     QFETCH(bool, fits);
     writeFileAtomically(file("over.exr"), "old");
     const std::string sentence = sentenceOf(
-        [&] {
-          writeExr(file("over.exr"), Image({2, 2}, 3, value), ExrType::half);
-        },
-        ErrorKind::input);
+        [&] { writeExr(file("over.exr"), Image({2, 2}, 3, value), ExrType::half); }, ErrorKind::input);
     QCOMPARE(sentence.empty(), fits);
     if (!fits) {
       QVERIFY(mentions(sentence, "write the picture as float"));
@@ -213,11 +210,7 @@ class TestExr : public QObject {
 
   void anotherSizeIsRefused() {
     writeExr(file("size.exr"), Image({4, 3}, 3), ExrType::half);
-    QVERIFY(mentions(sentenceOf(
-                         [&] {
-                           readRgbExr(file("size.exr"), Size{3, 4});
-                         },
-                         ErrorKind::input),
+    QVERIFY(mentions(sentenceOf([&] { readRgbExr(file("size.exr"), Size{3, 4}); }, ErrorKind::input),
                      "4x3 pixels where 3x4"));
   }
 
@@ -276,7 +269,9 @@ class TestExr : public QObject {
   void anUnfinishedFileIsRefused() {
     Imf::Header header(8, 8);
     header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
-    { Imf::OutputFile out(file("unfinished.exr").c_str(), header); }
+    {
+      Imf::OutputFile out(file("unfinished.exr").c_str(), header);
+    }
     QVERIFY(mentions(sentenceOf([&] { readExr(file("unfinished.exr")); }, ErrorKind::format), "incomplete"));
   }
 

@@ -117,9 +117,8 @@ class TestWindowFile : public QObject {
     add("a pixel beyond the camera", [](Arrays& a) { a.row[1] = 2; });
     add("a negative pixel", [](Arrays& a) { a.row[0] = -1; });
     add("rows of nobody", [](Arrays& a) { a.start[1] = 1; });
-    add("rows that go back", [](Arrays& a) {
-      a.projectors = {8, 4}, a.scale.resize(6), a.start = {0, 3, 2};
-    });
+    add("rows that go back",
+        [](Arrays& a) { a.projectors = {8, 4}, a.scale.resize(6), a.start = {0, 3, 2}; });
     add("rows from below none", [](Arrays& a) { a.start[0] = -1; });
     add("a tile too few", [](Arrays& a) { a.projectors = {8, 4}; });
     add("fewer weights", [](Arrays& a) { a.weight.resize(48); });

@@ -383,11 +383,7 @@ class TestKeptPhotographs : public QObject {
     const CalibrationFolder folder = CalibrationFolder::open(used, Access::write);
     Progress quiet;
     const TidySettings settings{KeptPhotographs::results, false};
-    QVERIFY(mentions(sentenceOf(
-                         [&] {
-                           tidy({first, used}, settings, quiet);
-                         },
-                         ErrorKind::input),
+    QVERIFY(mentions(sentenceOf([&] { tidy({first, used}, settings, quiet); }, ErrorKind::input),
                      "another program"));
     QVERIFY(shotsOf(first) == shots);
   }

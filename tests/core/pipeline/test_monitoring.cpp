@@ -83,13 +83,12 @@ class TestMonitoring : public QObject {
       QTest::addRow("%s, the projector dead", shown.c_str())
           << QByteArray("corner") << content << Made([] { return lamps({0.0f}, FindingKind::dark); });
     }
-    QTest::newRow("film, one of two dead") << QByteArray("relief") << ShownContent::film << Made([] {
-      return lamps({1.0f, 0.0f}, FindingKind::dark);
-    });
+    QTest::newRow("film, one of two dead") << QByteArray("relief") << ShownContent::film
+                                           << Made([] { return lamps({1.0f, 0.0f}, FindingKind::dark); });
     if (isSanitized) return;
-    QTest::newRow("slides, one of two faded") << QByteArray("relief") << ShownContent::slides << Made([] {
-      return lamps({0.95f, 1.0f}, FindingKind::faded);
-    });
+    QTest::newRow("slides, one of two faded")
+        << QByteArray("relief") << ShownContent::slides
+        << Made([] { return lamps({0.95f, 1.0f}, FindingKind::faded); });
     QTest::newRow("dark film, the projector dead") << QByteArray("corner") << ShownContent::dark
                                                    << Made([] { return lamps({0.0f}, FindingKind::dark); });
   }

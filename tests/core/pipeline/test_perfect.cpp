@@ -155,8 +155,8 @@ class TestPerfect : public QObject {
     PerfectSettings settings;
     settings.images = {picture()};
     int told = 0;
-    const PerfectResult result = perfectPictures(
-        folder, settings, rig, [&](std::size_t, const PerfectingRound&) { ++told; }, quiet);
+    const PerfectResult result =
+        perfectPictures(folder, settings, rig, [&](std::size_t, const PerfectingRound&) { ++told; }, quiet);
     const PerfectedImage& image = result.images.front();
     QVERIFY2(image.failure.empty(), englishSentence(image.failure).c_str());
     QCOMPARE(told, static_cast<int>(image.rounds.size()));

@@ -462,9 +462,8 @@ class TestPipeline : public QObject {
     QVERIFY(std::abs(shown.at(2, 1, 0) - 0.75f) < 0.003f);
 
     writeExr(root() / "small.exr", Image({3, 4}, 3, 0.1f), ExrType::floatType);
-    std::string sentence = errorOf([&] {
-      pictureDifference({fileA, root() / "small.exr", root() / "x.png", {}}, silent);
-    });
+    std::string sentence =
+        errorOf([&] { pictureDifference({fileA, root() / "small.exr", root() / "x.png", {}}, silent); });
     QVERIFY2(QString::fromStdString(sentence).contains("6x4 and 3x4"), sentence.c_str());
     sentence = errorOf([&] { pictureDifference({fileA, fileB, root() / "x.gif", {}}, silent); });
     QVERIFY2(QString::fromStdString(sentence).contains(".gif"), sentence.c_str());

@@ -242,18 +242,12 @@ class TestReductions : public QObject {
         memoryNeeded(devices.rig.cameraRasters(), devices.rig.projectorRasters(), settings.acquisition);
     constexpr std::uint64_t plenty = std::uint64_t{1} << 40;
     ensureMemory(devices.rig, settings, {chosen.resident * 3 / 4, plenty});
-    const std::string sentence = sentenceOf(
-        [&] {
-          ensureMemory(devices.rig, settings, {1'000'000, plenty});
-        },
-        ErrorKind::memory);
+    const std::string sentence =
+        sentenceOf([&] { ensureMemory(devices.rig, settings, {1'000'000, plenty}); }, ErrorKind::memory);
     QVERIFY(mentions(sentence, "0.00 GB may be taken"));
-    QVERIFY(mentions(sentenceOf(
-                         [&] {
-                           ensureMemory(devices.rig, settings, {plenty, 20'000'000});
-                         },
-                         ErrorKind::memory),
-                     "0.02 GB may be taken"));
+    QVERIFY(mentions(
+        sentenceOf([&] { ensureMemory(devices.rig, settings, {plenty, 20'000'000}); }, ErrorKind::memory),
+        "0.02 GB may be taken"));
   }
 
   void tooLittleMemoryIsRefusedBeforeTheFirstPhotograph_data() {
@@ -277,10 +271,7 @@ class TestReductions : public QObject {
     devices.rig.projectors[0] =
         std::make_unique<CountedProjector>(std::move(devices.rig.projectors[0]), patterns);
     const std::string sentence = sentenceOf(
-        [&] {
-          chooseReductions(folder, devices.rig, {100'000'000, plenty}, quiet);
-        },
-        ErrorKind::memory);
+        [&] { chooseReductions(folder, devices.rig, {100'000'000, plenty}, quiet); }, ErrorKind::memory);
     QVERIFY(mentions(sentence, "0.10 GB may be taken"));
     QVERIFY(mentions(sentence, advice.toStdString()));
     QCOMPARE(patterns, 0);

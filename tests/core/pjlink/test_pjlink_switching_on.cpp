@@ -94,10 +94,7 @@ class TestPjlinkSwitchingOn : public QObject {
     state.shutter = "31";
     FakeProjector left, right(state, fault);
     const std::string said = sentenceOf(
-        [&] {
-          switchedOn({{"left", left.address()}, {"right", right.address()}});
-        },
-        ErrorKind::device);
+        [&] { switchedOn({{"left", left.address()}, {"right", right.address()}}); }, ErrorKind::device);
     QVERIFY(mentions(said, sentence.toStdString()));
     QVERIFY(mentions(said, toString(right.address())));
   }
@@ -106,11 +103,7 @@ class TestPjlinkSwitchingOn : public QObject {
     FakeProjectorState state;
     state.looksUntilWarm = 1000;
     FakeProjector projector(state);
-    QVERIFY(mentions(sentenceOf(
-                         [&] {
-                           switchedOn({{"left", projector.address()}});
-                         },
-                         ErrorKind::device),
+    QVERIFY(mentions(sentenceOf([&] { switchedOn({{"left", projector.address()}}); }, ErrorKind::device),
                      "projector left is still warming up or cooling down after 300 s"));
   }
 

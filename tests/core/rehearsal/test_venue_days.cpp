@@ -207,11 +207,8 @@ class TestVenueDays : public QObject {
   }
 
   void aProgramThatIsNotThereIsNamed() {
-    const std::string sentence = sentenceOf(
-        [] {
-          ShowProcess({"/nowhere/relucent", {}, {}, "/nowhere/log"});
-        },
-        ErrorKind::input);
+    const std::string sentence =
+        sentenceOf([] { ShowProcess({"/nowhere/relucent", {}, {}, "/nowhere/log"}); }, ErrorKind::input);
     QVERIFY(mentions(sentence, "/nowhere/relucent") && mentions(sentence, "--program"));
   }
 };

@@ -170,8 +170,7 @@ class TestNodeLayout : public QObject {
       for (int y = 0; y < layout.projectors().size(projector).height; ++y)
         layout.addToLine(projector, y, four, 4);
     for (std::size_t pixel = 0; pixel < layout.projectors().count(); ++pixel)
-      for (std::size_t c = 0; c < 4; ++c)
-        QCOMPARE(four[4 * pixel + c], three[3 * pixel + (c < 3 ? c : 1)]);
+      for (std::size_t c = 0; c < 4; ++c) QCOMPARE(four[4 * pixel + c], three[3 * pixel + (c < 3 ? c : 1)]);
   }
 
   void breachesOfContractAreNamed() {

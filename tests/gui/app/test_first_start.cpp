@@ -36,8 +36,8 @@ class TestFirstStart : public QObject {
   Q_OBJECT
 
  private slots:
-  /// Law: however deep a widget lies, it is styled once before the window is shown. Twice is what Qt does with
-  /// those few that make parts of their own, like lists of combo boxes.
+  /// Law: however deep a widget lies, it is styled once before the window is shown. Twice is what Qt does
+  /// with those few that make parts of their own, like lists of combo boxes.
   void aWidgetIsStyledOnce() {
     const QTemporaryDir folder;
     QSettings settings(folder.filePath("settings.ini"), QSettings::IniFormat);

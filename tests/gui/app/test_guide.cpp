@@ -220,8 +220,9 @@ class TestGuide : public QObject {
             said << (language == "en" ? quote
                                       : beginningOf(sentence.forms.value(0), match.hasCaptured("more")));
         QVERIFY2(!said.isEmpty(), qPrintable(pages[i].id + ": the program never says " + quote));
-        QVERIFY2(std::ranges::any_of(said, [&](const QString& word) { return page.contains(asQuoted(word)); }),
-                 qPrintable(pages[i].id + ": " + quote + ": " + said.join(", ")));
+        QVERIFY2(
+            std::ranges::any_of(said, [&](const QString& word) { return page.contains(asQuoted(word)); }),
+            qPrintable(pages[i].id + ": " + quote + ": " + said.join(", ")));
         ++found;
       }
     }

@@ -109,8 +109,7 @@ class TestEngineRenderer : public QObject {
     QFETCH(int, brightness);
     QByteArray name = venue.toUtf8();
     const auto way = static_cast<Brightness>(brightness);
-    RenderedFrame frame = rendered(
-        name, [] { return false; }, way);
+    RenderedFrame frame = rendered(name, [] { return false; }, way);
     Image wanted = compensated(name, way);
     QCOMPARE(frame.drives.size(), std::size_t{1});
     QCOMPARE(frame.drives[0].size(), QSize(wanted.width(), wanted.height()));
@@ -250,10 +249,7 @@ class TestEngineRenderer : public QObject {
   void positionsOfOtherCamerasAreRefused() {
     Progress silent;
     const auto sentence = sentenceOf(
-        [&] {
-          EngineRenderer(settingsOf("statue3", {{0, 0, 0}, {1, 0, 0}}), silent);
-        },
-        ErrorKind::input);
+        [&] { EngineRenderer(settingsOf("statue3", {{0, 0, 0}, {1, 0, 0}}), silent); }, ErrorKind::input);
     QVERIFY(mentions(sentence, "2 positions are given, and the calibration has 3 cameras"));
   }
 

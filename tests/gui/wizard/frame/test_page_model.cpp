@@ -13,8 +13,7 @@ namespace {
 class ScriptedPage : public PageModel {
  public:
   ScriptedPage() : PageModel({"page", "", "page"}) {
-    go_ = addCommand(
-        Icon::next, [this] { ++runs; }, QKeySequence("Ctrl+G"));
+    go_ = addCommand(Icon::next, [this] { ++runs; }, QKeySequence("Ctrl+G"));
     updateCommands();
   }
   QString subtitle() const override { return {}; }

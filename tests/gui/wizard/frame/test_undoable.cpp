@@ -15,8 +15,7 @@ class TestUndoable : public QObject {
   Undoable<int>::Clock::time_point now_{};
 
   Undoable<int>* change(const char* name, int to) {
-    return new Undoable<int>(
-        name, value_, to, [this](int wanted) { value_ = wanted; }, now_);
+    return new Undoable<int>(name, value_, to, [this](int wanted) { value_ = wanted; }, now_);
   }
 
  private slots:

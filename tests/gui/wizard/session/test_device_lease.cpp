@@ -82,7 +82,9 @@ class TestDeviceLease : public QObject {
 
   void aLeaseThatGoesAwayTellsLater() {
     QSignalSpy changed(session_.get(), &Session::devicesChanged);
-    { const DeviceLease lease = session_->leaseDevices(camera); }
+    {
+      const DeviceLease lease = session_->leaseDevices(camera);
+    }
     QCOMPARE(changed.size(), 1);
     QVERIFY(session_->areDevicesFree());
     QTRY_COMPARE(changed.size(), 2);

@@ -60,9 +60,8 @@ class TestDeviceLists : public QObject {
     own_ = std::make_unique<SimulatedSession>();
     page_ = std::make_unique<VenuePage>(own_->session, RecentVenues(own_->settings));
     page_->setFolder(own_->folder.path());
-    page_->finder().setLister([] {
-      return devices::CameraList{{}, {cameraOf("genicam:1"), cameraOf("genicam:2")}};
-    });
+    page_->finder().setLister(
+        [] { return devices::CameraList{{}, {cameraOf("genicam:1"), cameraOf("genicam:2")}}; });
     page_->setMode(VenuePage::Mode::devices);
     QTRY_COMPARE(page_->finder().cameras().cameras.size(), std::size_t{2});
   }

@@ -5,8 +5,8 @@
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/devices/command/command_consent.h"
-#include "relucent/pipeline/measuring.h"
 #include "relucent/pipeline/command_devices.h"
+#include "relucent/pipeline/measuring.h"
 #include "wizard/venue/venue_page.h"
 
 using namespace relucent;

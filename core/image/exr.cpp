@@ -25,6 +25,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/image/exr_stream.h"
+#include "relucent/image/too_little_memory.h"
 
 namespace relucent::image {
 namespace fs = std::filesystem;
@@ -383,12 +384,7 @@ ExrImage readExr(const fs::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(
-        ErrorKind::memory,
-        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
-        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
-                                 "close other programs, or make the picture smaller"),
-        path.string());
+    throw tooLittleMemory(path);
   } catch (const std::exception&) {
     failDamaged(path);
   }

@@ -14,6 +14,7 @@
 #include "relucent/base/file.h"
 #include "relucent/image/colour.h"
 #include "relucent/image/exr.h"
+#include "relucent/image/too_little_memory.h"
 
 namespace relucent::image {
 namespace fs = std::filesystem;
@@ -36,12 +37,7 @@ auto orTooLittleMemory(const fs::path& path, const Call& call) {
   try {
     return call();
   } catch (const std::bad_alloc&) {
-    throw Error(
-        ErrorKind::memory,
-        RELUCENT_ENGLISH_MESSAGE("image.not-enough-memory", "there is not enough memory to read the picture"),
-        RELUCENT_ENGLISH_MESSAGE("image.free-memory-or-shrink-picture",
-                                 "close other programs, or make the picture smaller"),
-        path.string());
+    throw tooLittleMemory(path);
   }
 }
 

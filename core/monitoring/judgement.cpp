@@ -149,7 +149,10 @@ bool Judgement::addMovement(const std::vector<Finding>& before, double seconds) 
 }
 
 void Judgement::addShadows(const std::vector<Finding>& before, double seconds) {
-  const double limit = (was(FindingKind::shadowed, {}, {}, before) ? stays : 1.0) * settings_.shadow;
+  const bool wasTold = was(FindingKind::shadowed, {}, {}, before);
+  // Where visitors stand in most of the view, light is missing that comes back.
+  if (!wasTold && unrecognised_.shareBeyond(0.5, 1) > 0.0) return;
+  const double limit = (wasTold ? stays : 1.0) * settings_.shadow;
   std::vector<double> missing(cell_.size(), 0.0);
   for (std::size_t c = 0; c < cell_.size(); ++c)
     if (const auto median = cell_[c].median(); median && -*median > limit &&
@@ -157,36 +160,24 @@ void Judgement::addShadows(const std::vector<Finding>& before, double seconds) {
                                                cell_[c].holds(limit, -1) && cell_[c].keeps(alike))
       missing[c] = -*median;
   // Two neighbours, or one that misses half as much again.
-  std::vector<double> counted(cell_.size(), 0.0);
-  for (std::size_t c = 0; c < cell_.size(); ++c) {
-    const std::vector<std::size_t> around = neighboursOf(c);
-    const bool hasNeighbour =
-        std::any_of(around.begin(), around.end(), [&](std::size_t other) { return missing[other] > 0.0; });
-    if (hasNeighbour || missing[c] >= 1.5 * limit) counted[c] = missing[c];
-  }
-  // Where visitors stand in most of the view, light is missing that comes back.
-  if (!was(FindingKind::shadowed, {}, {}, before) && unrecognised_.shareBeyond(0.5, 1) > 0.0) return;
   double sum = 0.0, x = 0.0, y = 0.0, weight = 0.0;
   for (std::size_t c = 0; c < cell_.size(); ++c) {
+    if (missing[c] == 0.0) continue;
     const Pixel at = pixelAt(cells_, c);
-    sum += counted[c] * counted[c];
-    x += counted[c] * (at.x + 0.5) / cells_.width;
-    y += counted[c] * (at.y + 0.5) / cells_.height;
-    weight += counted[c];
+    bool hasNeighbour = false;
+    for (const Pixel& step : {Pixel{1, 0}, Pixel{-1, 0}, Pixel{0, 1}, Pixel{0, -1}}) {
+      const Pixel to{at.x + step.x, at.y + step.y};
+      if (to.x >= 0 && to.y >= 0 && to.x < cells_.width && to.y < cells_.height)
+        hasNeighbour = hasNeighbour || missing[indexOf(cells_, to)] > 0.0;
+    }
+    if (!hasNeighbour && missing[c] < 1.5 * limit) continue;
+    sum += missing[c] * missing[c];
+    x += missing[c] * (at.x + 0.5) / cells_.width;
+    y += missing[c] * (at.y + 0.5) / cells_.height;
+    weight += missing[c];
   }
   if (weight > 0.0)
     add({FindingKind::shadowed, {}, {}, sum / weight, x / weight, y / weight}, before, seconds);
-}
-
-std::vector<std::size_t> Judgement::neighboursOf(std::size_t cell) const {
-  const Pixel at = pixelAt(cells_, cell);
-  std::vector<std::size_t> around;
-  for (const Pixel& step : {Pixel{1, 0}, Pixel{-1, 0}, Pixel{0, 1}, Pixel{0, -1}}) {
-    const Pixel to{at.x + step.x, at.y + step.y};
-    if (to.x >= 0 && to.y >= 0 && to.x < cells_.width && to.y < cells_.height)
-      around.push_back(indexOf(cells_, to));
-  }
-  return around;
 }
 
 double Judgement::informed() const {

@@ -68,7 +68,6 @@ class Judgement {
   /// Whether the view is steady: where it has moved, light is missing beside every edge.
   bool addMovement(const std::vector<Finding>& before, double seconds);
   void addShadows(const std::vector<Finding>& before, double seconds);
-  std::vector<std::size_t> neighboursOf(std::size_t cell) const;
   bool was(FindingKind kind, std::optional<std::size_t> projector, std::optional<std::size_t> channel,
            const std::vector<Finding>& before) const;
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <zip.h>
 
 #include <QRegularExpression>
 #include <QTemporaryDir>
@@ -19,6 +18,7 @@
 #include "relucent/report/pictures.h"
 #include "relucent/report/report.h"
 #include "relucent/report/support_bundle.h"
+#include "support/stored_zip.h"
 
 using namespace relucent;
 using namespace relucent::acquisition;
@@ -102,21 +102,8 @@ ReportData fullData() {
 
 /// The files of a .zip by name.
 std::map<std::string, std::string> unpacked(const std::filesystem::path& path) {
-  std::map<std::string, std::string> files;
-  int code = 0;
-  zip_t* archive = zip_open(path.c_str(), ZIP_RDONLY, &code);
-  if (archive == nullptr) return files;
-  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
-    zip_stat_t found;
-    zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &found);
-    std::string content(found.size, '\0');
-    zip_file_t* file = zip_fopen_index(archive, static_cast<zip_uint64_t>(i), 0);
-    zip_fread(file, content.data(), content.size());
-    zip_fclose(file);
-    files[found.name] = content;
-  }
-  zip_close(archive);
-  return files;
+  const test::ZipMembers members = test::zipMembers(readFile(path));
+  return {members.begin(), members.end()};
 }
 
 QString html(const ReportData& data) {

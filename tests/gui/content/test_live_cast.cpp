@@ -7,11 +7,11 @@
 #include <QPainter>
 #include <QSettings>
 #include <QtTest>
-#include <random>
 
 #include "content/cast_choices.h"
 #include "content/playlist.h"
 #include "support/desktop_double.h"
+#include "support/noise_picture.h"
 #include "support/sentences.h"
 
 using namespace relucent;
@@ -30,15 +30,6 @@ using What = ScreenCastWish::What;
 
 const LivePauses soon{50ms, 200ms, 10'000ms};
 constexpr int patience = 15'000;  // milliseconds, on a machine that is busy
-
-/// Every pixel another colour.
-QImage noise(QSize size, unsigned seed) {
-  std::mt19937 random(seed);
-  QImage picture(size, QImage::Format_RGB32);
-  for (int y = 0; y < size.height(); ++y)
-    for (int x = 0; x < size.width(); ++x) picture.setPixel(x, y, 0xff000000u | (random() & 0xffffffu));
-  return picture;
-}
 
 /// A show whose time goes on.
 class Played {

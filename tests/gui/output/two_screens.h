@@ -5,9 +5,10 @@
 #include <QImage>
 #include <QPixmap>
 #include <QProcess>
-#include <QRandomGenerator>
 #include <QScreen>
 #include <QtTest>
+
+#include "support/noise_picture.h"
 
 /// The two screens of tests/support/with-two-screens: DUMMY0 is the operator's, DUMMY1 a projector's.
 namespace relucent::gui {
@@ -58,13 +59,7 @@ inline int unplugCycles(int usually) {
   return given ? cycles : usually;
 }
 
-inline QImage noise(QSize size, quint32 seed) {
-  QImage image(size, QImage::Format_RGB32);
-  QRandomGenerator random(seed);
-  for (int y = 0; y < size.height(); ++y)
-    for (int x = 0; x < size.width(); ++x) image.setPixel(x, y, random.generate() | 0xff000000u);
-  return image;
-}
+using test::noise;
 
 /// What stands on a screen now.
 inline QImage seenOn(const QString& connector) {

@@ -221,44 +221,40 @@ struct Claims {
 };
 
 /// OpenEXR takes memory by what a header says before it reads what is said: two gigabytes for a file of some
-/// hundred bytes.  Throws: Error{format} unless the headers and all of their attributes end within the file,
-/// and are of pictures that it can hold.
-void checkHeaders(std::string_view content, const fs::path& path) {
+/// hundred bytes.  Throws: Error{format} for several parts, and unless the header and all of its attributes
+/// end within the file, and are of a picture that it can hold.
+void checkHeader(std::string_view content, const fs::path& path) {
   constexpr std::size_t number = 4;
   std::size_t at = 2 * number;  // behind magic number and version
   if (at > content.size()) failDamaged(path);
-  const bool hasSeveralParts = Imf::isMultiPart(static_cast<int>(numberAt(content, number)));
+  if (Imf::isMultiPart(static_cast<int>(numberAt(content, number))))
+    failFormat(path,
+               RELUCENT_ENGLISH_MESSAGE("image.exr-several-parts", "the OpenEXR file has several parts"),
+               RELUCENT_ENGLISH_MESSAGE("image.save-part-alone",
+                                        "save the part that you want as a file of its own"));
   const auto nextText = [&] {
     const std::size_t begin = at, end = std::min(content.find('\0', at), content.size());
     at = std::min(end + 1, content.size());
     return content.substr(begin, end - begin);
   };
-  do {
-    Claims claims;
-    while (at < content.size() && content[at] != '\0') {
-      const std::string_view name = nextText(), type = nextText();
-      if (content.size() - at < number) failDamaged(path);
-      const std::size_t length = numberAt(content, at);
-      at += number;
-      const std::string_view value = content.substr(at, length);
-      if (value.size() < length || !valueFits(type, value)) failDamaged(path);
-      claims.hear(name, type, value);
-      at += length;
-    }
-    if (at == content.size()) failDamaged(path);
-    claims.check(content.size(), path);
-    ++at;  // the empty name that ends a header
-  } while (hasSeveralParts && at < content.size() && content[at] != '\0');
+  Claims claims;
+  while (at < content.size() && content[at] != '\0') {
+    const std::string_view name = nextText(), type = nextText();
+    if (content.size() - at < number) failDamaged(path);
+    const std::size_t length = numberAt(content, at);
+    at += number;
+    const std::string_view value = content.substr(at, length);
+    if (value.size() < length || !valueFits(type, value)) failDamaged(path);
+    claims.hear(name, type, value);
+    at += length;
+  }
+  if (at == content.size()) failDamaged(path);
+  claims.check(content.size(), path);
 }
 
 /// Throws: Error{format} for the kinds of OpenEXR files that are no plain pictures.
 void checkKind(const Imf::InputFile& file, const fs::path& path) {
   const Imf::Header& header = file.header();
-  if (Imf::isMultiPart(file.version()))
-    failFormat(path,
-               RELUCENT_ENGLISH_MESSAGE("image.exr-several-parts", "the OpenEXR file has several parts"),
-               RELUCENT_ENGLISH_MESSAGE("image.save-part-alone",
-                                        "save the part that you want as a file of its own"));
   if (Imf::isNonImage(file.version()) || (header.hasType() && Imf::isDeepData(header.type())))
     failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.exr-deep-data", "the OpenEXR file holds deep data"),
                RELUCENT_ENGLISH_MESSAGE("image.flatten", "flatten it to a plain picture and save it again"));
@@ -375,7 +371,7 @@ ExrImage readExr(const fs::path& path) {
   if (!looksLikeExr(content))
     failFormat(path, RELUCENT_ENGLISH_MESSAGE("image.not-exr", "this is not an OpenEXR file"),
                RELUCENT_ENGLISH_MESSAGE("image.choose-exr-file", "choose an .exr file"));
-  checkHeaders(content, path);
+  checkHeader(content, path);
   try {
     detail::MemoryInput stream(content, path.filename().string());
     Imf::InputFile file(stream);

@@ -24,32 +24,37 @@ requirements() {
   done <"$dependencies"
 }
 
-isInstalled() {
-  [[ $(dpkg-query --show --showformat='${db:Status-Abbrev}' "$1" 2>/dev/null) == ?i* ]]
-}
-
-isOffered() {
-  [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) =~ Candidate:\ [^\(] ]]
-}
-
-# One package per unmet requirement: the first alternative that the release offers, else the first.
+# One package per unmet requirement: the first alternative that the release offers, else the first. The package
+# lists are asked once for all of them: every call of apt-cache reads them from the beginning, which takes a second.
 missingPackages() {
-  local requirement package alternatives choice
+  local wanted line name requirement package alternatives choice
+  local -A isInstalled=() isOffered=()
+  wanted=$(requirements "$@")
+  while read -r line name; do
+    [[ $line == ?i* ]] && isInstalled[$name]=1
+  done < <(dpkg-query --show --showformat='${db:Status-Abbrev}\t${Package}\n')
+  while IFS= read -r line; do
+    if [[ $line =~ ^([^ ].*):$ ]]; then
+      name=${BASH_REMATCH[1]}
+    elif [[ $line =~ Candidate:\ [^\(] ]]; then
+      isOffered[$name]=1
+    fi
+  done < <(tr -s ' |?' '\n' <<<"$wanted" | LC_ALL=C xargs -r apt-cache policy 2>/dev/null)
   while read -r requirement; do
     read -ra alternatives <<<"${requirement//|/ }"
     choice=
     if [[ ${alternatives[-1]} == "?" ]]; then
-      isOffered "${alternatives[0]}" || continue
+      [[ -v isOffered[${alternatives[0]}] ]] || continue
       unset 'alternatives[-1]'
     fi
     for package in "${alternatives[@]}"; do
-      if isInstalled "$package"; then continue 2; fi
+      if [[ -v isInstalled[$package] ]]; then continue 2; fi
     done
     for package in "${alternatives[@]}"; do
-      if isOffered "$package"; then choice=$package && break; fi
+      if [[ -v isOffered[$package] ]]; then choice=$package && break; fi
     done
     echo "${choice:-${alternatives[0]}}"
-  done < <(requirements "$@")
+  done <<<"$wanted"
 }
 
 # Runs a command as root: directly, or through sudo, which may ask for the password only at a terminal.

@@ -21,8 +21,12 @@ SOURCE = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else Path(__file__
 
 TOOLS = {
     # $STATE/installed and $STATE/offered list packages; $STATE/calls is the record.
-    "dpkg-query": 'grep -qxF "${@: -1}" "$STATE/installed" && echo -n "ii "',
-    "apt-cache": 'grep -qxF "$2" "$STATE/offered" && echo "  Candidate: 1.0" || echo "  Candidate: (none)"',
+    "dpkg-query": r"sed 's/^/ii \t/' $STATE/installed; printf 'rc \tremoved\n'",
+    "apt-cache": """echo "$*" >>"$STATE/questions"
+        for name in "${@:2}"; do
+          grep -qxF "$name" "$STATE/offered" && candidate=1.0 || candidate="(none)"
+          printf '%s:\\n  Installed: (none)\\n  Candidate: %s\\n  Version table:\\n' "$name" "$candidate"
+        done""",
     "apt-get": 'echo "$*" >>"$STATE/calls"; [[ $* == *--simulate* ]] && cat "$STATE/plan"; true',
     "cmake": "true",
     "sudo": '[[ -e $STATE/sudo ]] || exit 1; [[ $1 == -n ]] && shift; exec "$@"',
@@ -92,6 +96,21 @@ class Install(Scripted):
         self.says(installed="alpha", offered="alpha new-name", sudo="")
         self.assertEqual(self.install("build").returncode, 0)
         self.assertRegex(self.calls()[-1], r" new-name$")
+
+    def test_what_was_removed_and_left_its_settings_is_missing(self):
+        (self.folder / "packaging/dependencies").write_text("[build]\nremoved\n")
+        self.says(offered="removed", sudo="")
+        self.assertEqual(self.install("build").returncode, 0)
+        self.assertRegex(self.calls()[-1], r" removed$")
+
+    def test_the_package_lists_are_read_once_however_many_packages_there_are(self):
+        names = [f"package-{i}" for i in range(40)]
+        (self.folder / "packaging/dependencies").write_text("[build]\n" + "\n".join(names) + "\n")
+        self.says(offered=" ".join(names), sudo="")
+        self.assertEqual(self.install("build").returncode, 0)
+        self.assertEqual(self.calls()[-1].split()[-40:], names)
+        questions = (self.state / "questions").read_text().split("\n")[:-1]
+        self.assertEqual(len(questions), 2)  # before the lists are brought up to date and after
 
     def test_what_a_release_may_lack_is_installed_only_where_it_is_offered(self):
         (self.folder / "packaging/dependencies").write_text("[build]\nalpha\nsplit-off ?\n")

@@ -424,16 +424,17 @@ class Renewing {
     return now;
   }
 
-  /// Of the rows that were measured as dense patterns tell; of others as T has them, of which more is known
-  /// than their floods say.
+  /// Of the rows that were measured as dense patterns tell; of others what they were, times what became of
+  /// their T, of which more is known than their floods say: what has not changed stays the same to the bit.
   Floods floodsNow(const VerifiedTransport& verified, const photography::References& references) const {
     Floods floods = floodsOf(references);
-    const CameraStack known = verified.transport.floodlight();
+    const CameraStack now = verified.transport.floodlight(), then = former_.transport.floodlight();
     for (std::size_t row = 0; row < verified.flagged.size(); ++row) {
       if (!references.usable[row]) continue;
       const bool isMeasured = !measuredRows_.empty() && measuredRows_[row];
       for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) {
-        floods.light[i] = isMeasured ? measuredFloods_.light[i] : known[i];
+        const float known = then[i] > 0.0f ? former_.flood[i] * (now[i] / then[i]) : now[i];
+        floods.light[i] = isMeasured ? measuredFloods_.light[i] : known;
         floods.variance[i] =
             isMeasured ? measuredFloods_.variance[i] : std::min(floods.variance[i], former_.floodVariance[i]);
       }

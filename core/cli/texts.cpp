@@ -93,7 +93,8 @@ std::string textOf(const pipeline::RepairResult& result) {
   if (!result.after.empty())
     text += fmt::format("Colour error of a picture: {} -> {}.\n", figuresOf(result.before),
                         figuresOf(result.after));
-  return text + fmt::format("{} photographs in {:.0f} s.\n", result.exposures, result.seconds);
+  return text + fmt::format("{} photographs; {:.0f} s, of which the devices took {:.0f} s.\n",
+                            result.exposures, result.seconds, result.photographing);
 }
 
 std::string textOf(const pipeline::NightRecord& night) {

@@ -52,6 +52,21 @@ class WindowBuilder {
     result_.scale_.assign(3 * result_.tiles_.count(), 0.0f);
   }
 
+  /// The weights of a tile whose window is the same in `former`. Returns: whether it is.
+  bool takeOver(const WindowInverse& former, const CameraMask& changed, std::size_t tile) {
+    const std::span<const std::uint32_t> rows = rowsOf(result_, tile), rowsThen = rowsOf(former, tile);
+    if (!std::ranges::equal(rows, rowsThen) ||
+        std::ranges::any_of(rows, [&](std::uint32_t row) { return changed[row] != 0; }))
+      return false;
+    const std::size_t codes = 3 * pixelsOfTile();
+    std::copy_n(former.scale_.begin() + static_cast<std::ptrdiff_t>(3 * tile), 3,
+                result_.scale_.begin() + static_cast<std::ptrdiff_t>(3 * tile));
+    std::copy_n(former.weight_.begin() + static_cast<std::ptrdiff_t>(former.tileStart_[tile] * codes),
+                rows.size() * codes,
+                result_.weight_.begin() + static_cast<std::ptrdiff_t>(result_.tileStart_[tile] * codes));
+    return true;
+  }
+
   void build(std::span<const std::uint32_t> tiles, Progress& progress) {
     constexpr std::size_t batch = 2048;
     for (std::size_t begin = 0; begin < tiles.size(); begin += batch) {
@@ -78,9 +93,9 @@ class WindowBuilder {
               std::int16_t{0});
   }
 
-  std::span<const std::uint32_t> rowsOf(std::size_t tile) const {
-    return {result_.row_.data() + result_.tileStart_[tile],
-            result_.tileStart_[tile + 1] - result_.tileStart_[tile]};
+  static std::span<const std::uint32_t> rowsOf(const WindowInverse& windows, std::size_t tile) {
+    return {windows.row_.data() + windows.tileStart_[tile],
+            windows.tileStart_[tile + 1] - windows.tileStart_[tile]};
   }
 
   /// Pixels [x0, x1) x [y0, y1) of a tile on its projector.
@@ -92,7 +107,7 @@ class WindowBuilder {
   }
 
   void solve(std::size_t tile, Scratch& scratch) {
-    std::span<const std::uint32_t> rows = rowsOf(tile);
+    std::span<const std::uint32_t> rows = rowsOf(result_, tile);
     if (rows.empty()) return;
     std::size_t projector = 0;
     while (projector + 1 < result_.tiles_.devices() && tile >= result_.tiles_.offset(projector + 1))
@@ -193,6 +208,21 @@ WindowInverse PreparedWindows::inverse(double ridge, Progress& progress) const {
   return windows;
 }
 
+WindowInverse PreparedWindows::inverse(double ridge, const WindowInverse& former, const CameraMask& changed,
+                                       Progress& progress) const {
+  require(former.tiles_ == without_.tiles_ && former.tile_ == without_.tile_ &&
+              changed.size() == without_.cameras_.count(),
+          "windows of other tiles or camera pixels are renewed");
+  WindowInverse windows = without_;
+  WindowBuilder builder(near_, layout_, ridge, windows);
+  builder.makeRoom();
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t tile : allTiles())
+    if (!builder.takeOver(former, changed, tile)) others.push_back(tile);
+  builder.build(others, progress);
+  return windows;
+}
+
 void PreparedWindows::renew(WindowInverse& windows, double ridge, std::span<const std::uint32_t> tiles,
                             Progress& progress) const {
   require(windows.tiles_ == without_.tiles_ && windows.row_.size() == without_.row_.size(),
@@ -212,6 +242,15 @@ WindowInverse computeWindows(const transport::TransportMatrix& transport, const 
   PreparedWindows prepared(transport, usable, settings, preparing);
   Progress solving = progress.part(0.6, progress.stage());
   return prepared.inverse(settings.ridge, solving);
+}
+
+WindowInverse renewWindows(const WindowInverse& former, const CameraMask& changed,
+                           const transport::TransportMatrix& transport, const CameraMask& usable,
+                           const WindowSettings& settings, Progress& progress) {
+  Progress preparing = progress.part(0.6, progress.stage());
+  PreparedWindows prepared(transport, usable, settings, preparing);
+  Progress solving = progress.part(0.4, progress.stage());
+  return prepared.inverse(settings.ridge, former, changed, solving);
 }
 
 }  // namespace relucent::inverse

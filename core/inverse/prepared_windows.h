@@ -23,6 +23,10 @@ class PreparedWindows {
   /// Throws: Error{numerics} if a G is not positive definite; Cancelled.
   WindowInverse inverse(double ridge, Progress& progress) const;
 
+  /// The same, see renewWindows(). Contract: `former` was made with that ridge.
+  WindowInverse inverse(double ridge, const WindowInverse& former, const CameraMask& changed,
+                        Progress& progress) const;
+
   /// Steps 4 and 5 again with another ridge for some tiles, counted as in WindowArrays::tiles, of windows
   /// that these made. Throws: as inverse(), the tiles before the one that failed being done.
   void renew(WindowInverse& windows, double ridge, std::span<const std::uint32_t> tiles,
@@ -39,5 +43,13 @@ class PreparedWindows {
   NearField near_;
   WindowInverse without_;  // everything but the weights
 };
+
+/// What computeWindows() makes, to the bit, of a T of which most is as it was when `former` was made with the
+/// same settings: only windows that have camera pixels which are marked, or others than before, are solved.
+/// `changed`: camera pixels whose row of T (transport::differingRows()) or `usable` is another. Throws: as
+/// computeWindows(); std::logic_error if `former` has other tiles.
+WindowInverse renewWindows(const WindowInverse& former, const CameraMask& changed,
+                           const transport::TransportMatrix& transport, const CameraMask& usable,
+                           const WindowSettings& settings, Progress& progress);
 
 }  // namespace relucent::inverse

@@ -214,7 +214,8 @@ calibration::Json toJson(const RepairResult& result) {
           {"before", result.before},
           {"after", result.after},
           {"exposures", result.exposures},
-          {"seconds", result.seconds}};
+          {"seconds", result.seconds},
+          {"photographing_seconds", result.photographing}};
 }
 
 calibration::Json toJson(const NightRecord& night) {

@@ -22,6 +22,7 @@ class ProjectionPhotographs {
   /// Under black projectors.
   hdr::BlackLevel black(const Progress& progress);
   int exposures() const { return shots_.exposures(); }
+  const rig::ShotTimes& times() const { return shots_.times(); }
 
  private:
   ProjectorStack encoded(const ProjectorStack& linear) const;

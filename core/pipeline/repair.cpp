@@ -13,12 +13,15 @@
 #include "relucent/compensation/methods.h"
 #include "relucent/compensation/prediction.h"
 #include "relucent/image/picture_files.h"
+#include "relucent/inverse/prepared_windows.h"
 #include "relucent/pipeline/devices.h"
+#include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/measured_venue.h"
 #include "relucent/pipeline/projection_photographs.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/pipeline/standard_images.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/transport/difference.h"
 
 namespace relucent::pipeline {
 namespace fs = std::filesystem;
@@ -129,6 +132,10 @@ bool isBetter(const RepairResult& result) {
   return any;
 }
 
+double secondsOfDevices(const rig::ShotTimes& times) {
+  return times.showing + times.capturing;
+}
+
 /// A calibration while it is repaired.
 class Repairing {
  public:
@@ -167,31 +174,49 @@ class Repairing {
     result.errorAfter = renewal.errorAfter;
     result.measured = renewal.measured;
     result.exposures = shots.exposures();
+    result.photographing = secondsOfDevices(shots.times());
     if (!result.what.empty()) {
       Progress proving = progress.part(
           0.2, RELUCENT_MESSAGE("stage.photographing-projections", "Photographing the projections"));
-      prove(renewal.acquisition, result, proving);
+      const MeasuredCalibration now = renewed(renewal.acquisition, proving);
+      prove(now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
+      result.seconds = watch.seconds();
+      if (result.end == RepairEnd::repaired) commit(renewal.acquisition, now, result);
     }
     result.seconds = watch.seconds();
-    if (result.end == RepairEnd::repaired) commit(renewal.acquisition, result);
     progress.report(1.0);
     return result;
   }
 
  private:
-  /// The same picture as a show has it by the former T and by the new one, both photographed and compared
-  /// with what can be wanted under the light of now.
-  void prove(const transport::Acquisition& renewed, RepairResult& result, Progress& progress) {
+  /// As it will be read, of what the photographs tell. Windows of what has not changed stay.
+  MeasuredCalibration renewed(const transport::Acquisition& acquisition, Progress& progress) const {
     MeasuredCalibration now;
     now.rig = measured_.rig;
     now.reductions = measured_.reductions;
     now.linearization = measured_.linearization;
-    now.venue = measuredVenueOf(renewed, chosen_.threshold);
-    CalibrateSettings inverting = chosen_;
-    inverting.windows.ridge = measured_.ridge;
-    inverting.chooseRidge = false;
-    now.inverse = invert(now.venue, inverting, progress).inverse;
+    now.venue = measuredVenueOf(acquisition, chosen_.threshold);
+    CameraMask changed = transport::differingRows(now.venue.transport, measured_.venue.transport);
+    for (std::size_t row = 0; row < changed.size(); ++row)
+      if (now.venue.usable[row] != measured_.venue.usable[row]) changed[row] = 1;
+    Progress inverting = progress.part(
+        0.4, RELUCENT_MESSAGE("stage.inverting-light-transport", "Inverting the light transport"));
+    now.ridge = measured_.ridge;
+    now.inverse = inverse::renewWindows(measured_.inverse, changed, now.venue.transport, now.venue.usable,
+                                        windows(), inverting);
+    return now;
+  }
+
+  inverse::WindowSettings windows() const {
+    inverse::WindowSettings windows = chosen_.windows;
+    windows.ridge = measured_.ridge;
+    return windows;
+  }
+
+  /// The same picture as a show has it by the former T and by the new one, both photographed and compared
+  /// with what can be wanted under the light of now.
+  void prove(const MeasuredCalibration& now, RepairResult& result, Progress& progress) {
     const image::Image content = provedPicture(settings_, chosen_.content);
     compensation::CompensatorSettings solver;
     solver.clustering = chosen_.clustering;
@@ -218,9 +243,11 @@ class Repairing {
     result.before = seen(former);
     result.after = seen(renewedPicture);
     result.exposures += photographs.exposures();
+    result.photographing += secondsOfDevices(photographs.times());
   }
 
-  void commit(const transport::Acquisition& renewed, const RepairResult& result) const {
+  void commit(const transport::Acquisition& renewed, const MeasuredCalibration& now,
+              const RepairResult& result) const {
     CalibrationFolder folder = CalibrationFolder::open(path_, CalibrationFolder::Access::write);
     if (fingerprintOfCorrection(folder) != correction_)
       throw Error(ErrorKind::input,
@@ -241,6 +268,7 @@ class Repairing {
     note.psnrAfter = result.after[least].psnr;
     note.cost = {result.seconds, renewed.patterns, result.exposures};
     calibration::storeAcquisition(folder, inputs_, renewed, cost_, note);
+    keepWindows(folder, now.venue, windows(), now.inverse);
   }
 
   fs::path path_;

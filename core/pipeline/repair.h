@@ -46,7 +46,8 @@ struct RepairResult {
   std::vector<PictureError> before, after;  // of a picture by photograph, camera after camera; empty: not
                                             // photographed, as nothing had changed
   int exposures = 0;
-  double seconds = 0.0;  // of photographing and computing; reading the calibration not included
+  double seconds = 0.0;  // of photographing, computing and storing; reading the calibration not included
+  double photographing = 0.0;  // seconds of these that the devices took, part of them while was computed
 };
 
 /// Makes a calibration fit what its venue has become (acquisition/renewal.h), from photographs by its

@@ -57,11 +57,22 @@ double squaredNorm(const NodeTable& nodes, std::vector<NodeDensity>& row) {
   return sum;
 }
 
+bool areSame(const LeafRow& a, const LeafRow& b) {
+  if (!std::ranges::equal(a.columns(), b.columns())) return false;
+  for (std::size_t entry = 0; entry < a.size(); ++entry)
+    if (a.block(entry) != b.block(entry)) return false;
+  return true;
+}
+
+void requireSameDevices(const TransportMatrix& transport, const TransportMatrix& reference) {
+  require(transport.cameras() == reference.cameras() && transport.projectors() == reference.projectors(),
+          "only transport between the same devices can be compared");
+}
+
 }  // namespace
 
 TransportDifference difference(const TransportMatrix& transport, const TransportMatrix& reference) {
-  require(transport.cameras() == reference.cameras() && transport.projectors() == reference.projectors(),
-          "only transport between the same devices can be compared");
+  requireSameDevices(transport, reference);
   std::size_t rows = transport.cameras().count();
   NodeTable nodes(reference.layout());
   std::vector<double> apart(rows), whole(rows);
@@ -90,6 +101,18 @@ TransportDifference difference(const TransportMatrix& transport, const Transport
   result.rowMedian = rowErrors[rowErrors.size() / 2];
   result.rowP95 = rowErrors[rowErrors.size() * 95 / 100];
   return result;
+}
+
+CameraMask differingRows(const TransportMatrix& transport, const TransportMatrix& reference) {
+  requireSameDevices(transport, reference);
+  const std::size_t rows = transport.cameras().count();
+  // The same leaves may be held otherwise, some of them shared, and be summed in another order.
+  const std::vector<ColourBlock> sums = transport.rowSums(), referenceSums = reference.rowSums();
+  CameraMask differ(rows, 0);
+  parallelFor(0, rows, 256, [&](std::size_t row) {
+    differ[row] = sums[row] == referenceSums[row] && areSame(transport.row(row), reference.row(row)) ? 0 : 1;
+  });
+  return differ;
 }
 
 }  // namespace relucent::transport

@@ -20,4 +20,9 @@ struct TransportDifference {
 /// Throws: std::logic_error unless both belong to the same devices.
 TransportDifference difference(const TransportMatrix& transport, const TransportMatrix& reference);
 
+/// Camera pixels whose leaves, or the sums of them, are not the same to the bit: what follows from a row
+/// alone need not be worked out again where they are. Throws: std::logic_error unless both belong to the same
+/// devices.
+CameraMask differingRows(const TransportMatrix& transport, const TransportMatrix& reference);
+
 }  // namespace relucent::transport

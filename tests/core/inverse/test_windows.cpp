@@ -13,6 +13,8 @@
 #include "core/transport/expanded.h"
 #include "relucent/base/error.h"
 #include "relucent/inverse/near_field.h"
+#include "relucent/inverse/prepared_windows.h"
+#include "relucent/transport/difference.h"
 #include "support/stopped.h"
 
 using namespace relucent;
@@ -238,6 +240,51 @@ class TestWindows : public QObject {
     WindowInverse alone = windowsOf(scene);
     QVERIFY(alone == many);
     QVERIFY(alone.apply(r) == ofMany);
+  }
+
+  void renewedWindowsAreThoseMadeAnew_data() {
+    QTest::addColumn<int>("tile");
+    QTest::addColumn<int>("every");  // which camera pixels change
+    QTest::addColumn<bool>("usable");
+    QTest::newRow("none") << 4 << 1 << true;
+    QTest::newRow("a few") << 4 << 37 << true;
+    QTest::newRow("many, large tiles") << 8 << 2 << true;
+    QTest::newRow("no longer usable") << 4 << 23 << false;
+  }
+  void renewedWindowsAreThoseMadeAnew() {
+    QFETCH(int, tile);
+    QFETCH(int, every);
+    QFETCH(bool, usable);
+    WindowSettings settings;
+    settings.tile = tile;
+    const Scene then = makeScene({});
+    Scene now = then;
+    Stack factor(3 * then.usable.size(), 1.0f);
+    for (std::size_t row = 1; row < then.usable.size() && every > 1; ++row) {
+      if (row % static_cast<std::size_t>(every) != 0) continue;
+      if (!usable)
+        now.usable[row] = 0;
+      else  // of another colour, so that it is unmixed otherwise
+        for (std::size_t c = 0; c < 3; ++c) factor[3 * row + c] = 0.9f - 0.3f * static_cast<float>(c);
+    }
+    now.transport = then.transport.withRowsScaled(factor);
+    CameraMask changed = differingRows(now.transport, then.transport);
+    for (std::size_t row = 0; row < changed.size(); ++row)
+      if (now.usable[row] != then.usable[row]) changed[row] = 1;
+    QVERIFY(renewWindows(windowsOf(then, settings), changed, now.transport, now.usable, settings, quiet) ==
+            windowsOf(now, settings));
+  }
+  void whatHasNotChangedIsNotSolvedAgain() {
+    const Scene scene = makeScene({});
+    WindowSettings firm;
+    firm.ridge = 2.0;
+    const WindowInverse former = windowsOf(scene, firm);
+    const CameraMask none(scene.usable.size(), 0);
+    QVERIFY(renewWindows(former, none, scene.transport, scene.usable, {}, quiet) == former);
+    WindowSettings large;
+    large.tile = 8;
+    QVERIFY_THROWS_EXCEPTION(std::logic_error,
+                             renewWindows(former, none, scene.transport, scene.usable, large, quiet));
   }
 
   void twoProjectorsShareTheLight() {

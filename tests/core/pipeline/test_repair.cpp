@@ -14,6 +14,7 @@
 #include "relucent/pipeline/calibrate.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/evaluate.h"
+#include "relucent/pipeline/kept_windows.h"
 #include "relucent/pipeline/proof_record.h"
 #include "relucent/venue/device_faults.h"
 #include "support/sanitized.h"
@@ -217,6 +218,13 @@ class TestRepair : public QObject {
         const bool wasDone = repaired.latest(stage).has_value();
         QVERIFY(!wasDone || progressOf(repaired, stage) == StageProgress::done);
       }
+      // A show that starts does not make them, and they are those that it would make.
+      const MeasuredCalibration read = loadCalibration(repaired, quiet);
+      inverse::WindowSettings windows;
+      windows.ridge = read.ridge;
+      const auto kept = keptWindows(repaired, read.venue, windows);
+      QVERIFY(kept);
+      QVERIFY(*kept == computeWindows(read.venue.transport, read.venue.usable, windows, quiet));
     }
     undoRepair(folder);
     QCOMPARE(correctionOf(folder), correction);

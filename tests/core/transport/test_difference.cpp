@@ -56,10 +56,29 @@ class TestDifference : public QObject {
     QVERIFY(none.rowP95 < 1e-7);
     QCOMPARE(none.rows, std::size_t{18});
   }
+  void rowsDifferWhereAValueDoes() {
+    const TransportMatrix a = randomTransport({6, 3}, {11, 5}, 3, 12);
+    QVERIFY(differingRows(a, a) == CameraMask(18, 0));
+    Stack factor(3 * 18, 1.0f);
+    factor[3 * 4 + 1] = 0.999f;
+    factor[3 * 17] = 0.5f;
+    CameraMask expected(18, 0);
+    expected[4] = expected[17] = 1;
+    QVERIFY(differingRows(a.withRowsScaled(factor), a) == expected);
+    const TransportMatrix fewer =
+        a.filtered([](std::size_t row, const LeafRow& leaves, std::vector<std::uint8_t>& keep) {
+          keep.assign(leaves.size(), 1);
+          if (row == 7) keep.back() = 0;
+        });
+    expected.assign(18, 0);
+    expected[7] = 1;
+    QVERIFY(differingRows(fewer, a) == expected);
+  }
   void refusesOtherDevices() {
     TransportMatrix a = randomTransport({6, 3}, {11, 5}, 3, 2);
     TransportMatrix b = randomTransport({3, 6}, {11, 5}, 3, 2);
     QVERIFY_THROWS_EXCEPTION(std::logic_error, difference(a, b));
+    QVERIFY_THROWS_EXCEPTION(std::logic_error, differingRows(a, b));
   }
 };
 

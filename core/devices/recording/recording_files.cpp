@@ -8,6 +8,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
+#include "relucent/base/file_name.h"
 #include "relucent/base/fingerprint.h"
 #include "relucent/base/parsed_json.h"
 #include "relucent/devices/recording/recording.h"
@@ -50,6 +51,7 @@ RecordedPhotograph photographFrom(const Json& json) {
   photograph.seconds = json.at("seconds");
   photograph.bits = json.at("bits");
   photograph.file = json.at("file");
+  if (!isFileName(photograph.file)) throw std::out_of_range("a photograph that lies elsewhere");
   photograph.patterns = json.at("patterns").get<std::vector<std::string>>();
   return photograph;
 }
@@ -149,6 +151,8 @@ std::vector<RecordedPhotograph> readPhotographs(const fs::path& folder) {
     try {
       photographs.push_back(photographFrom(json));
     } catch (const Json::exception& cause) {
+      failDamaged(file, cause);
+    } catch (const std::out_of_range& cause) {
       failDamaged(file, cause);
     }
   }

@@ -7,6 +7,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/devices/recording/recording.h"
+#include "relucent/devices/recording/recording_files.h"
 #include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/measuring.h"
@@ -183,6 +184,23 @@ class TestRecording : public QObject {
     createFolder(folder);
     writeFileAtomically(folder / "recording.json", content.toStdString());
     QVERIFY(mentions(sentenceOf([&] { replayed(folder); }, kind), part.toStdString()));
+  }
+
+  void photographsElsewhereAreRefused_data() {
+    QTest::addColumn<std::string>("file");
+    QTest::newRow("above") << std::string("../0.tiff");
+    QTest::newRow("anywhere") << std::string("/tmp/0.tiff");
+    QTest::newRow("the folder") << std::string("..");
+    QTest::newRow("none") << std::string();
+  }
+  void photographsElsewhereAreRefused() {
+    QFETCH(std::string, file);
+    const fs::path folder = fresh();
+    createFolder(folder);
+    RecordedPhotograph photograph;
+    photograph.file = file;
+    appendPhotograph(folder, photograph);
+    QVERIFY(mentions(sentenceOf([&] { readPhotographs(folder); }, ErrorKind::format), "lies elsewhere"));
   }
 
   void nothingIsRecordedOverOtherThings() {

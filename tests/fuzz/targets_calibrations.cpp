@@ -22,6 +22,7 @@
 #include "relucent/pipeline/settings_json.h"
 #include "relucent/pipeline/stills.h"
 #include "relucent/pipeline/stored_settings.h"
+#include "relucent/pipeline/surprises_file.h"
 #include "relucent/rehearsal/show_health.h"
 
 namespace relucent::fuzz {
@@ -248,6 +249,22 @@ void fuzzPasswords(Bytes input) {
   pipeline::networkProjectorsOf(CalibrationFolder::open(path, CalibrationFolder::Access::read));
 }
 
+std::vector<std::string> surpriseSeeds() {
+  using venue::Surprise;
+  venue::SurpriseSettings settings;
+  settings.kinds = {Surprise::bump, Surprise::roomLight, Surprise::unplugged};
+  pipeline::saveSurprises(venue::Surprises(settings, {{Surprise::bump}, {Surprise::roomLight}, 3, 2}),
+                          scratch());
+  return {readFile(scratch() / pipeline::surprisesName)};
+}
+void fuzzSurprises(Bytes input) {
+  scratchFile(pipeline::surprisesName, textOf(input));
+  const auto surprises = pipeline::loadSurprises(scratch());
+  if (!surprises) return;
+  for (int pattern = 0; pattern < 100; ++pattern) surprises->during({"acquisition", pattern});
+  surprises->putRight();
+}
+
 std::vector<std::string> healthSeeds() {
   return {
       R"({"updated": "2026-11-26T22:00:00Z", "state": "playing", "item": 0, "failures": 0, "skipped": [],)"
@@ -271,6 +288,7 @@ std::vector<FuzzTarget> calibrationTargets() {
           {"masks", fuzzMasks, maskSeeds, Form::json, 800},
           {"stills", fuzzStills, stillSeeds, Form::json, 500},
           {"projectors' passwords", fuzzPasswords, passwordSeeds, Form::json, 300},
+          {"surprises", fuzzSurprises, surpriseSeeds, Form::json, 500},
           {"health", fuzzHealth, healthSeeds, Form::json, 500}};
 }
 

@@ -58,7 +58,7 @@ struct RehearsalResult {
 };
 
 /// A simulated venue, measured, before which the monitor is tried by simulated photographs of simulated
-/// shows: what `bench monitoring` and tests share.
+/// shows: what the benchmark and tests share.
 class MonitoringRehearsal {
  public:
   /// Measures the venue. Throws: as calibrate().

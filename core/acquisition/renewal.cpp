@@ -36,6 +36,9 @@ constexpr double leastLightChange = 0.003;
 // A row's own change: beyond so many standard deviations and this share.
 constexpr double ownSigmas = 4.0;
 constexpr float leastOwnChange = 0.01f;
+// A row changes of its own where so many of the eight beside it do: of single rows that noise lifts beyond
+// that, one in a hundred, hardly any has them.
+constexpr int leastBeside = 2;
 // Squares of a row's differences, beyond so many times what noise makes of them: 24 values or more, whose
 // squares are off by a third of their mean at one standard deviation.
 constexpr double beyondNoise = 2.5;
@@ -149,6 +152,25 @@ CameraMask widened(const CameraMask& flags, const Rasters& cameras) {
   return wide;
 }
 
+/// Flags that hang together: what is seen of a surface is wider than a pixel, what noise changes is not.
+CameraMask together(const CameraMask& flags, const Rasters& cameras) {
+  CameraMask kept(flags.size(), 0);
+  for (std::size_t camera = 0; camera < cameras.devices(); ++camera) {
+    const Size size = cameras.size(camera);
+    const std::size_t offset = cameras.offset(camera);
+    parallelFor(0, size.count(), 4096, [&](std::size_t i) {
+      if (!flags[offset + i]) return;
+      const Pixel at = pixelAt(size, i);
+      int beside = -1;  // it counts itself
+      for (int y = std::max(0, at.y - 1); y <= std::min(size.height - 1, at.y + 1); ++y)
+        for (int x = std::max(0, at.x - 1); x <= std::min(size.width - 1, at.x + 1); ++x)
+          beside += flags[offset + indexOf(size, {x, y})] ? 1 : 0;
+      kept[offset + i] = beside >= leastBeside ? 1 : 0;
+    });
+  }
+  return kept;
+}
+
 double sumOf(const Stack& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -213,7 +235,8 @@ class Renewing {
         measureShare,
         RELUCENT_MESSAGE("stage.measuring-what-changed", "measuring what is no longer as it was"));
     const CameraMask wrong = toMeasure(*fitted, references, counted);
-    if (auto interrupted = measureAgain(renewal, verified, wrong, context, references, measuring))
+    if (auto interrupted =
+            measureAgain(renewal, verified, *std::move(fitted), wrong, context, references, measuring))
       return *interrupted;
     if (auto interrupted = watch.check(progress)) return *interrupted;
     renewal.change.ambient =
@@ -340,10 +363,12 @@ class Renewing {
         }
         factor[projector][row] = share.matrix().asDiagonal() * change.light[projector];
       });
+    own = together(own, references.cameras);
     change.scaled = shareOf(own, references.usable);
     if (!isLightOther(change)) return transport;
-    return transport.withLightScaled(
-        [&](std::size_t row, std::size_t projector) { return factor[projector][row]; });
+    return transport.withLightScaled([&](std::size_t row, std::size_t projector) -> ColourBlock {
+      return own[row] ? factor[projector][row] : change.light[projector];
+    });
   }
 
   /// Which rows are to be measured; none: it is not worth while.
@@ -362,8 +387,10 @@ class Renewing {
     return wrong;
   }
 
+  /// `found`: what test patterns say of `verified`. Only the rows that are measured again see others.
   std::optional<sentinels::Interruption> measureAgain(Renewal& renewal, VerifiedTransport& verified,
-                                                      const CameraMask& rows, const TreeContext& context,
+                                                      Verification found, const CameraMask& rows,
+                                                      const TreeContext& context,
                                                       const photography::References& all,
                                                       Progress& progress) {
     renewal.errorAfter = renewal.errorAdapted;
@@ -377,16 +404,15 @@ class Renewing {
       return interrupted;
     Progress testing = progress.part(0.2, RELUCENT_MESSAGE("stage.test-patterns", "test patterns"));
     TestPhotographs tests(context, patterns_, patterns_.verificationPatterns);
-    auto formerly = tests.compared(verified.transport, all.usable, testing);
-    if (!formerly) return formerly.interruption();
-    Verification before = *std::move(formerly);
+    auto before = tests.compared(verified.transport, rows, testing);
+    if (!before) return before.interruption();
     auto after = tests.compared(measured.transport, rows, testing);
     if (!after) return after.interruption();
 
     CameraMask better(rows.size(), 0);
     for (std::size_t row = 0; row < rows.size(); ++row)
       better[row] = rows[row] && !measured.unknown[row] &&
-                            (unknown_[row] || after->rows[row].relative() < before.rows[row].relative())
+                            (unknown_[row] || after->rows[row].relative() < before->rows[row].relative())
                         ? 1
                         : 0;
     renewal.measured = shareOf(better, all.usable);
@@ -402,16 +428,13 @@ class Renewing {
     for (std::size_t size = 0; size < verified.residual.size(); ++size)
       replaceRows(verified.residual[size], after->residual[size], better);
     for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (better[row]) {
-        before.rows[row] = after->rows[row];
-        verified.flagged[row] = after->flagged[row];
-      } else if (rows[row]) {
-        verified.flagged[row] = before.flagged[row];
-      }
+      if (!rows[row]) continue;
+      const Verification& now = better[row] ? *after : *before;
+      found.rows[row] = now.rows[row];
+      verified.flagged[row] = now.flagged[row];
     }
     verified.remeasured = static_cast<int>(std::ranges::count(better, 1));
-    verified.error = errorOf(before.rows);
-    renewal.errorAfter = errorOf(before.rows);
+    verified.error = renewal.errorAfter = errorOf(found.rows);
     return std::nullopt;
   }
 

@@ -33,12 +33,53 @@ Prediction predict(const transport::TransportMatrix& transport, std::size_t row,
   return prediction;
 }
 
+/// The sum of a value of each node over every camera pixel's leaves, its own and those that it shares.
+std::vector<float> sumsOverLeaves(const transport::TransportMatrix& transport,
+                                  const std::vector<float>& ofNodes) {
+  const auto sumOf = [&ofNodes](const transport::BlockSparse& leaves, std::size_t row) {
+    float sum = 0.0f;
+    for (const std::uint32_t node : leaves.columnsOf(row)) sum += ofNodes[node];
+    return sum;
+  };
+  const transport::LeafGroups& groups = transport.groups();
+  std::vector<float> ofGroups(groups.count());
+  parallelFor(0, ofGroups.size(), 256,
+              [&](std::size_t group) { ofGroups[group] = sumOf(groups.leaves(), group); });
+  for (std::size_t group = 0; group < ofGroups.size(); ++group)  // parents come first
+    if (const std::uint32_t parent = groups.parent(group); parent != transport::LeafGroups::none)
+      ofGroups[group] += ofGroups[parent];
+  std::vector<float> sums(transport.cameras().count());
+  parallelFor(0, sums.size(), 1024, [&](std::size_t row) {
+    sums[row] = sumOf(transport.ownLeaves(), row);
+    for (std::size_t projector = 0; !groups.empty() && projector < transport.projectors().devices();
+         ++projector)
+      if (const std::uint32_t group = groups.groupOf(row, projector); group != transport::LeafGroups::none)
+        sums[row] += ofGroups[group];
+  });
+  return sums;
+}
+
 std::vector<Prediction> predictions(const transport::TransportMatrix& transport,
                                     const ProjectorStack& pattern, const std::vector<std::uint8_t>& rows) {
-  transport::NodeStack means = transport.layout().means(pattern);
+  // Taking rows apart costs as much as a product with ten times as many.
+  constexpr std::size_t apart = 10;
+  const transport::NodeStack means = transport.layout().means(pattern);
   std::vector<Prediction> predicted(rows.size());
-  parallelFor(0, rows.size(), 256, [&](std::size_t row) {
-    if (rows[row]) predicted[row] = predict(transport, row, means);
+  if (apart * static_cast<std::size_t>(std::count(rows.begin(), rows.end(), 1)) < rows.size()) {
+    parallelFor(0, rows.size(), 256, [&](std::size_t row) {
+      if (rows[row]) predicted[row] = predict(transport, row, means);
+    });
+    return predicted;
+  }
+  std::vector<float> noise(transport.layout().count());
+  parallelFor(0, noise.size(), 4096, [&](std::size_t node) {
+    noise[node] = Eigen::Map<const Eigen::Vector3f>(&means[3 * node]).squaredNorm();
+  });
+  const CameraStack light = transport.apply(pattern);
+  const std::vector<float> leafNoise = sumsOverLeaves(transport, noise);
+  parallelFor(0, rows.size(), 4096, [&](std::size_t row) {
+    if (rows[row])
+      predicted[row] = {{light[3 * row], light[3 * row + 1], light[3 * row + 2]}, leafNoise[row]};
   });
   return predicted;
 }

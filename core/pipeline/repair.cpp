@@ -182,7 +182,12 @@ class Repairing {
       prove(now, result, proving);
       result.end = isBetter(result) ? RepairEnd::repaired : RepairEnd::notBetter;
       result.seconds = watch.seconds();
-      if (result.end == RepairEnd::repaired) commit(renewal.acquisition, now, result);
+      if (result.end == RepairEnd::repaired) {
+        Progress writing =
+            progress.part(0.05, RELUCENT_MESSAGE("stage.writing-results", "Writing the results"));
+        writing.report(0.0);
+        commit(renewal.acquisition, now, result);
+      }
     }
     result.seconds = watch.seconds();
     progress.report(1.0);
@@ -222,6 +227,7 @@ class Repairing {
     solver.clustering = chosen_.clustering;
     const auto solved = [&](const MeasuredCalibration& by, const compensation::Target& target) {
       Progress solving = progress.part(0.2, RELUCENT_MESSAGE("stage.compensating", "Compensating"));
+      solving.report(0.0);
       return compensation::Compensator(by.venue, by.inverse, solver)
           .solve(chosen_.content.method, target, solving);
     };

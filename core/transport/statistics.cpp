@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/transport/statistics.h"
-#include "relucent/transport/shared_fate.h"
 
 #include <algorithm>
 #include <cmath>

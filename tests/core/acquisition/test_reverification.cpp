@@ -2,6 +2,7 @@
 #include <QtTest>
 
 #include "relucent/acquisition/reverification.h"
+#include "relucent/acquisition/verification.h"
 #include "relucent/base/message.h"
 #include "relucent/venue/device_faults.h"
 #include "relucent/venue/venue.h"
@@ -18,7 +19,8 @@ namespace {
 /// A simulated venue, measured once, and looked at again with whatever has changed since.
 class MeasuredVenue {
  public:
-  explicit MeasuredVenue(const char* name) : venue_(settingsOf(name), {}, progress_) {
+  explicit MeasuredVenue(const char* name, const AcquisitionSettings& settings = {})
+      : venue_(settingsOf(name), {}, progress_), settings_(settings) {
     Rig rig = venue_.rig();
     NoShotLog log;
     ShotTaker first(rig, log, "linearization");
@@ -117,6 +119,43 @@ class TestReverification : public QObject {
  private slots:
   void initTestCase() {
     for (const char* name : {"plain", "corner"}) venues_[name] = std::make_unique<MeasuredVenue>(name);
+  }
+
+  /// Law: a few rows, which are taken apart, are predicted as they are by a product with all of T.
+  void rowsArePredictedAlikeHoweverMany() {
+    const MeasuredVenue venue("corner", acquisition::settingsOf(AcquisitionMode::multiplexed));
+    const Acquisition& measured = venue.acquisition();
+    const std::size_t rows = measured.flagged.size();
+    QVERIFY(!measured.transport.groups().empty());
+    const std::vector<float> tolerable(rows, 1.0f);
+    const Expectation expected{measured.transport, measured.black, tolerable};
+    const LightSource light = [&](const ProjectorStack& pattern, const auto&) {
+      hdr::LampLight seen;
+      seen.radiance = measured.transport.apply(pattern);
+      for (float& value : seen.radiance) value *= 1.1f;
+      seen.variance.assign(3 * rows, 1e-4f);
+      seen.valid.assign(3 * rows, 1);
+      return sentinels::Interruptible<hdr::LampLight>(seen);
+    };
+    AcquisitionSettings settings;
+    CameraMask few(rows, 0);
+    for (std::size_t row = 7; row < rows; row += 29) few[row] = 1;
+    Progress quiet;
+    const auto ofAll = verify(expected, light, {settings, CameraMask(rows, 1)}, quiet),
+               ofFew = verify(expected, light, {settings, few}, quiet);
+    QVERIFY(ofAll && ofFew);
+    std::size_t lit = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const Residual &one = ofAll->rows[row], &other = ofFew->rows[row];
+      QCOMPARE(other.light > 0.0, few[row] != 0 && one.light > 0.0);
+      if (!(other.light > 0.0)) continue;
+      ++lit;
+      // Sums of hundreds of single precision, in another order.
+      QVERIFY(std::abs(one.predicted - other.predicted) <= 1e-5 * one.predicted);
+      QVERIFY(std::abs(one.variance - other.variance) <= 1e-5 * one.variance);
+      QVERIFY(one.variance > one.noise);
+    }
+    QVERIFY(lit > 20);
   }
 
   void whatHasChanged_data() {

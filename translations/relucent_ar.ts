@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>دون تصحيح</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>سطوع كل بكسل</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>النوافذ</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>الأفضل الممكن، صور ثابتة</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>كل الانعكاسات، للأفلام</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>دون تصحيح</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>كل الانعكاسات، حلّ كامل، للصور الثابتة</translation>
     </message>
 </context>
 <context>
@@ -4403,10 +4403,6 @@
         <translation>البحث عن كاميرات</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>لا تستجيب أي كاميرا. افحص كابلها وتغذيتها.</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>لا يمكن استخدامها: ⁨%1⁩</translation>
     </message>
@@ -4448,6 +4444,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>مناسبة كالأولى</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>لا تستجيب أي كاميرا. افحص كابلها وتغذيتها، وأغلق البرامج الأخرى التي تستخدمها.</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>يُعثر هنا على: كاميرات الويب وأجهزة الفيديو الأخرى، والكاميرات الصناعية عبر GigE Vision أو USB3 Vision، وكاميرات التصوير الثابت عبر USB.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>أي كاميرا أخرى يقودها برنامج لديك: اضغط «رجوع» واختر «موقع جديد بنص برمجي». يشرح الدليل (F1) كيفية إعداد الكاميرات.</translation>
     </message>
 </context>
 <context>
@@ -4768,10 +4776,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>توقف أحد الأجهزة عن الاستجابة</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>لم ينفّذ القرص ما طُلب منه</translation>
     </message>
@@ -4818,6 +4822,10 @@
     <message>
         <source>What happens</source>
         <translation>ما الذي يحدث</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>لم ينفّذ أحد الأجهزة ما طُلب منه</translation>
     </message>
 </context>
 <context>
@@ -9093,6 +9101,10 @@ projector %2</source>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء ما لم تختر شاشة.</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>لعدد بكسلاتها فقط: برنامج لديك يعرض الصور عليها.</translation>
     </message>
 </context>
 <context>

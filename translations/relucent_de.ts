@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>Keine Korrektur</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>Helligkeit je Pixel</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>Fenster</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>Bestmöglich, Standbilder</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>Alle Reflexe, für Filme</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Unkorrigiert</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>Alle Reflexe, ganz gelöst, für Standbilder</translation>
     </message>
 </context>
 <context>
@@ -4311,10 +4311,6 @@
         <translation>Suche nach Kameras</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Keine Kamera antwortet. Prüfen Sie Kabel und Stromversorgung.</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Nicht nutzbar: %1</translation>
     </message>
@@ -4352,6 +4348,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>So geeignet wie die erste</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>Keine Kamera antwortet. Prüfen Sie Kabel und Stromversorgung, und schließen Sie andere Programme, die sie benutzen.</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>Hier werden gefunden: Webcams und andere Videogeräte, Industriekameras über GigE Vision oder USB3 Vision und Fotoapparate am USB.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>Jede andere wird von einem eigenen Programm gesteuert: gehen Sie „Zurück“ und wählen Sie „Neuer Spielort per Skript“. Die Anleitung (F1) sagt, wie Kameras eingerichtet werden.</translation>
     </message>
 </context>
 <context>
@@ -4652,10 +4660,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>Ein Gerät antwortet nicht mehr</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>Der Zugriff auf das Laufwerk ist gescheitert</translation>
     </message>
@@ -4702,6 +4706,10 @@
     <message>
         <source>What happens</source>
         <translation>Was geschieht</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>Ein Gerät hat nicht getan, was verlangt war</translation>
     </message>
 </context>
 <context>
@@ -8893,6 +8901,10 @@ Projektor %2</translation>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. Projiziert wird nichts, außer Sie wählen einen Bildschirm.</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>Nur wegen seiner Pixel: die Bilder zeigt dort ein Programm von Ihnen.</translation>
     </message>
 </context>
 <context>

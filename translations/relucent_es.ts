@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>Sin corrección</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>El brillo de cada píxel</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>Ventanas</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>Lo mejor posible, imágenes fijas</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>Todos los rebotes, para vídeo</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Sin corregir</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>Todos los rebotes, resueltos del todo, para imágenes fijas</translation>
     </message>
 </context>
 <context>
@@ -4311,10 +4311,6 @@
         <translation>Buscando cámaras</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Ninguna cámara responde. Revise su cable y su alimentación.</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>No se puede usar: %1</translation>
     </message>
@@ -4352,6 +4348,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>Tan adecuada como la primera</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>Ninguna cámara responde. Revise su cable y su alimentación, y cierre otros programas que la usen.</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>Aquí se encuentran: webcams y otros dispositivos de vídeo, cámaras industriales por GigE Vision o USB3 Vision, y cámaras fotográficas por USB.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>Cualquier otra se maneja con un programa propio: pulse «Atrás» y elija «Nuevo lugar por script». La guía (F1) explica cómo se preparan las cámaras.</translation>
     </message>
 </context>
 <context>
@@ -4652,10 +4660,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>Un dispositivo ha dejado de responder</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>El disco no hizo lo que se le pidió</translation>
     </message>
@@ -4702,6 +4706,10 @@
     <message>
         <source>What happens</source>
         <translation>Qué ocurre</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>Un dispositivo no hizo lo que se le pidió</translation>
     </message>
 </context>
 <context>
@@ -8893,6 +8901,10 @@ proyector %2</translation>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada, salvo que elija una pantalla.</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>Solo por sus píxeles: las imágenes las muestra en ella un programa propio.</translation>
     </message>
 </context>
 <context>

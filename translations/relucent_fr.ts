@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>Sans correction</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>Luminosité par pixel</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>Fenêtres</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>Optimum, images fixes</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>Tous les rebonds, pour la vidéo</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Non corrigé</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>Tous les rebonds, résolus jusqu’au bout, images fixes</translation>
     </message>
 </context>
 <context>
@@ -4311,10 +4311,6 @@
         <translation>Recherche de caméras</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Aucune caméra ne répond. Vérifiez son câble et son alimentation.</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Inutilisable&#x202f;: %1</translation>
     </message>
@@ -4352,6 +4348,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>Aussi adaptée que la première</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>Aucune caméra ne répond. Vérifiez son câble et son alimentation, et fermez les autres programmes qui l’utilisent.</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>On trouve ici : webcams et autres périphériques vidéo, caméras industrielles en GigE Vision ou USB3 Vision, et appareils photo en USB.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>Toute autre est pilotée par un programme à vous : « Retour », puis « Nouveau lieu par script ». Le guide (F1) explique comment préparer les caméras.</translation>
     </message>
 </context>
 <context>
@@ -4652,10 +4660,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>Un appareil ne répond plus</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>Le disque n’a pas fait ce qui était demandé</translation>
     </message>
@@ -4702,6 +4706,10 @@
     <message>
         <source>What happens</source>
         <translation>Ce qui se passe</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>Un appareil n’a pas fait ce qui était demandé</translation>
     </message>
 </context>
 <context>
@@ -8893,6 +8901,10 @@ projecteur %2</translation>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté, sauf si vous choisissez un écran.</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>Pour ses pixels seulement : un programme à vous y affiche les images.</translation>
     </message>
 </context>
 <context>

@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>Nessuna correzione</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>Luminosità di ogni pixel</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>Finestre</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>Ottimale, immagini fisse</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>Tutti i rimbalzi, per i video</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>Senza correzione</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>Tutti i rimbalzi, risolti fino in fondo, immagini fisse</translation>
     </message>
 </context>
 <context>
@@ -4311,10 +4311,6 @@
         <translation>Ricerca delle fotocamere</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>Nessuna fotocamera risponde. Controllare il cavo e l’alimentazione.</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>Non utilizzabile: %1</translation>
     </message>
@@ -4352,6 +4348,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>Adatta quanto la prima</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>Nessuna fotocamera risponde. Controllare il cavo e l’alimentazione, e chiudere altri programmi che la usano.</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>Qui si trovano: webcam e altri dispositivi video, telecamere industriali con GigE Vision o USB3 Vision e fotocamere su USB.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>Qualsiasi altra è pilotata da un programma proprio: «Indietro», poi «Nuovo luogo da script». La guida (F1) spiega come si preparano le fotocamere.</translation>
     </message>
 </context>
 <context>
@@ -4652,10 +4660,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>Un dispositivo non risponde più</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>Il disco non ha fatto quanto richiesto</translation>
     </message>
@@ -4702,6 +4706,10 @@
     <message>
         <source>What happens</source>
         <translation>Che cosa accade</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>Un dispositivo non ha fatto quanto richiesto</translation>
     </message>
 </context>
 <context>
@@ -8893,6 +8901,10 @@ proiettore %2</translation>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato, a meno che non si scelga uno schermo.</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>Solo per i suoi pixel: le immagini le mostra un programma proprio.</translation>
     </message>
 </context>
 <context>

@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>補正なし</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>画素ごとの明るさ</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>局所窓</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>最高画質、静止画</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>相互反射すべて、動画用</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>補正なし</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>相互反射すべて、最後まで計算、静止画用</translation>
     </message>
 </context>
 <context>
@@ -4288,10 +4288,6 @@
         <translation>カメラを検索中</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>応答するカメラがありません。ケーブルと電源を確認してください。</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>使用できません：%1</translation>
     </message>
@@ -4328,6 +4324,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>最初のものと同じくらい適しています</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>応答するカメラがありません。ケーブルと電源を確認し、カメラを使っているほかのプログラムを終了してください。</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>ここに表示されるもの：ウェブカメラなどのビデオ機器、GigE VisionまたはUSB3 Visionの産業用カメラ、USB接続のスチルカメラ。</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>そのほかのカメラは、お手持ちのプログラムで動かします。「戻る」を押し、「スクリプトで新しい会場」を選んでください。カメラの準備はガイド（F1）にあります。</translation>
     </message>
 </context>
 <context>
@@ -4623,10 +4631,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>機器が応答しなくなりました</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>ディスクの操作に失敗しました</translation>
     </message>
@@ -4673,6 +4677,10 @@
     <message>
         <source>What happens</source>
         <translation>起きること</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>機器の操作に失敗しました</translation>
     </message>
 </context>
 <context>
@@ -6654,7 +6662,7 @@ projector %2</source>
     </message>
     <message>
         <source>Uncorrected</source>
-        <translation>補正前</translation>
+        <translation>補正なし</translation>
     </message>
     <message>
         <source>Corrected, predicted</source>
@@ -8843,6 +8851,10 @@ projector %2</source>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>同じ手順を、模擬のプロジェクターとカメラで行います。画面を選ばない限り、何も投影しません。</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>ピクセル数のためだけに選びます。画像はお手持ちのプログラムが表示します。</translation>
     </message>
 </context>
 <context>

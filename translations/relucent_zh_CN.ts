@@ -156,10 +156,6 @@
 <context>
     <name>Method</name>
     <message>
-        <source>No correction</source>
-        <translation>不补偿</translation>
-    </message>
-    <message>
         <source>Each pixel&apos;s brightness</source>
         <translation>逐像素亮度</translation>
     </message>
@@ -180,12 +176,16 @@
         <translation>窗口</translation>
     </message>
     <message>
-        <source>Best possible, still pictures</source>
-        <translation>最佳效果，静态图片</translation>
-    </message>
-    <message>
         <source>All bounces, for films</source>
         <translation>全部反射，用于视频</translation>
+    </message>
+    <message>
+        <source>Uncorrected</source>
+        <translation>未补偿</translation>
+    </message>
+    <message>
+        <source>All bounces, solved fully, for stills</source>
+        <translation>全部反射，完全求解，用于静态图片</translation>
     </message>
 </context>
 <context>
@@ -4288,10 +4288,6 @@
         <translation>正在查找相机</translation>
     </message>
     <message>
-        <source>No camera answers. Check its cable and its power.</source>
-        <translation>没有相机响应。请检查线缆和电源。</translation>
-    </message>
-    <message>
         <source>Cannot be used: %1</source>
         <translation>无法使用：%1</translation>
     </message>
@@ -4328,6 +4324,18 @@
     <message>
         <source>As suitable as the first</source>
         <translation>与第一台同样合适</translation>
+    </message>
+    <message>
+        <source>No camera answers. Check its cable and its power, and close other programs that use it.</source>
+        <translation>没有相机响应。请检查线缆和电源，并关闭正在使用它的其他程序。</translation>
+    </message>
+    <message>
+        <source>These are found here: webcams and other video devices, industrial cameras by GigE Vision or USB3 Vision, and still cameras on USB.</source>
+        <translation>这里能找到：网络摄像头和其他视频设备、GigE Vision 或 USB3 Vision 工业相机，以及 USB 连接的照相机。</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
+        <translation>其他相机可由您自己的程序驱动：请“返回”并选择“用脚本新建场地”。指南 (F1) 说明如何设置相机。</translation>
     </message>
 </context>
 <context>
@@ -4623,10 +4631,6 @@
 <context>
     <name>relucent::gui::FailureDialog</name>
     <message>
-        <source>A device stopped answering</source>
-        <translation>一台设备停止响应</translation>
-    </message>
-    <message>
         <source>The disk did not do what was asked</source>
         <translation>磁盘未完成所要求的操作</translation>
     </message>
@@ -4673,6 +4677,10 @@
     <message>
         <source>What happens</source>
         <translation>将会发生什么</translation>
+    </message>
+    <message>
+        <source>A device did not do what was asked</source>
+        <translation>一台设备未完成所要求的操作</translation>
     </message>
 </context>
 <context>
@@ -8843,6 +8851,10 @@ projector %2</source>
     <message>
         <source>The same steps, with a simulated projector and camera. Nothing is projected unless you choose a screen.</source>
         <translation>步骤相同，使用模拟的投影机和相机。除非您选择屏幕，否则不会投影。</translation>
+    </message>
+    <message>
+        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
+        <translation>仅取其像素数：画面由您自己的程序显示。</translation>
     </message>
 </context>
 <context>

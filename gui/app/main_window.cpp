@@ -94,6 +94,7 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
     hasWorked_ = false;
     focusFirst(stages_);
   });
+  connect(rail_, &StepRail::currentPressed, this, [this] { focusFirst(stages_); });
   connect(qApp, &QApplication::focusChanged, this, &MainWindow::followFocus);
   new QuietWheel(this);
   bindKeys();
@@ -149,7 +150,7 @@ void MainWindow::buildRailFooter() {
   look();
 }
 
-/// Words where all of them have room, else icons alone.
+/// Words, below each other where they have no room beside each other; icons alone where the rail has none.
 void MainWindow::fitRailFooter() {
   int needed = 0;
   for (QPushButton* button : footer_) {
@@ -163,7 +164,10 @@ void MainWindow::fitRailFooter() {
   QMargins margins = rail_->layout()->contentsMargins();
   int spaces = static_cast<int>(footer_.size()) - 1;
   int room = rail_->width() - margins.left() - margins.right() - spaces * rail_->footer()->spacing();
-  if (rail_->width() > narrowRail && needed <= room) return;
+  const bool isNarrow = rail_->width() <= narrowRail;
+  rail_->footer()->setDirection(isNarrow || needed > room ? QBoxLayout::TopToBottom
+                                                          : QBoxLayout::LeftToRight);
+  if (!isNarrow) return;
   for (QPushButton* button : footer_) button->setText({});
 }
 

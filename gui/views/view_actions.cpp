@@ -2,8 +2,11 @@
 #include "views/view_actions.h"
 
 #include <QCoreApplication>
+#include <QDir>
 #include <QFileDialog>
 #include <QMenu>
+#include <QRegularExpression>
+#include <QStandardPaths>
 #include <QToolButton>
 
 #include "relucent/base/error.h"
@@ -32,7 +35,8 @@ void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>
   auto add = [&](const QString& text, const QString& title, const QString& filter, const QString& ending) {
     QAction* action = button.menu()->addAction(text);
     QObject::connect(action, &QAction::triggered, &card, [=, &button] {
-      QString path = QFileDialog::getSaveFileName(button.window(), title, {}, filter);
+      QString path = QFileDialog::getSaveFileName(
+          button.window(), title, suggestedFile(shown().view.accessibleName(), ending), filter);
       if (path.isEmpty()) return;
       if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
       try {
@@ -53,6 +57,15 @@ void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>
 }
 
 }  // namespace
+
+QString suggestedFile(const QString& shown, const QString& ending) {
+  static const QRegularExpression refused(R"([/\\:*?"<>|\x00-\x1f])");
+  QString name = shown;
+  name.replace(refused, " ");
+  if (name.simplified().isEmpty()) name = QCoreApplication::applicationName();
+  return QDir(QStandardPaths::writableLocation(QStandardPaths::PicturesLocation))
+      .filePath(name.simplified() + ending);
+}
 
 void saveView(PlaneView& view, const ViewValues& values, const QString& path) {
   std::filesystem::path file(path.toStdString());

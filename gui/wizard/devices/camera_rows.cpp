@@ -47,13 +47,26 @@ void CameraRows::refresh() {
   }
   const devices::CameraList& devices = finder_.cameras();
   for (std::size_t i = 0; i < devices.cameras.size(); ++i) rows_->addWidget(rowOf(i));
-  if (devices.cameras.empty())
-    rows_->addWidget(labelOf(finder_.isLooking() ? tr("Looking for cameras")
-                                                 : tr("No camera answers. Check its cable and its power."),
-                             "secondary"));
+  if (devices.cameras.empty() && finder_.isLooking())
+    rows_->addWidget(labelOf(tr("Looking for cameras"), "secondary"));
+  else if (devices.cameras.empty())
+    addWaysOn();
   for (const devices::CameraSupport& kind : devices.support)
     if (!kind.available) rows_->addWidget(labelOf(fullSentence(kind.sentence), "note"));
   rows_->addStretch(1);
+}
+
+/// Where no camera is found: what could be one.
+void CameraRows::addWaysOn() {
+  rows_->addWidget(
+      labelOf(tr("No camera answers. Check its cable and its power, and close other programs that use it."),
+              "secondary"));
+  rows_->addWidget(labelOf(tr("These are found here: webcams and other video devices, industrial cameras by "
+                              "GigE Vision or USB3 Vision, and still cameras on USB."),
+                           "note"));
+  rows_->addWidget(labelOf(tr("Any other is driven by a program of yours: go Back and choose “New venue by "
+                              "script”. The guide (F1) tells how cameras are set up."),
+                           "note"));
 }
 
 QWidget* CameraRows::rowOf(std::size_t index) {

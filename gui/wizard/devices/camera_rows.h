@@ -29,6 +29,7 @@ class CameraRows : public Card {
   void refresh();
 
  private:
+  void addWaysOn();
   QWidget* rowOf(std::size_t index);
   static QString traitsText(const devices::CameraTraits& traits);
   QString meritText(std::size_t index) const;

@@ -157,7 +157,10 @@ void Nudge::takeSight() {
 void Nudge::jobEnded() {
   takeSight();
   lease_.release();
-  if (job_.state() == Job::State::failed) failure_ = job_.failure();
+  if (job_.state() == Job::State::failed) {
+    failure_ = job_.failure();
+    sight_.reset();  // an arrow that no longer follows would be followed
+  }
   Q_EMIT changed();
   Q_EMIT ended();
 }

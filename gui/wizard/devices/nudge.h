@@ -47,6 +47,7 @@ class Nudge : public QObject {
   QString stage() const { return job_.stage(); }
   /// The surface in full light, as it was measured; empty until it is read.
   const image::Image& expected() const { return expected_; }
+  /// What was seen last; none before the first look, and once a device has failed.
   const std::optional<NudgeSight>& sight() const { return sight_; }
   /// Why it ended by itself.
   const std::optional<Failure>& failure() const { return failure_; }

@@ -120,7 +120,10 @@ void NudgeDialog::refresh() {
 void NudgeDialog::showPictures() {
   if (!nudge_.sight()) {
     view_->setPicture({});
-    view_->setEmptyText(nudge_.stage().isEmpty() ? tr("Opening the devices") : nudge_.stage());
+    view_->setOverlay({});
+    view_->setEmptyText(nudge_.failure()           ? nudge_.failure()->what
+                        : nudge_.stage().isEmpty() ? tr("Opening the devices")
+                                                   : nudge_.stage());
     return;
   }
   const image::Image &then = nudge_.expected(), &now = nudge_.sight()->seen;

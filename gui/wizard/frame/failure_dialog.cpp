@@ -13,7 +13,7 @@ namespace {
 QString headingOf(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::device:
-      return FailureDialog::tr("A device stopped answering");
+      return FailureDialog::tr("A device did not do what was asked");
     case ErrorKind::disk:
       return FailureDialog::tr("The disk did not do what was asked");
     case ErrorKind::memory:

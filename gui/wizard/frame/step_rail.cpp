@@ -216,7 +216,10 @@ StepRail::StepRail(Wizard& wizard, Session& session, QWidget* parent)
   for (std::size_t i = 0; i < wizard_.count(); ++i) {
     auto* step = new StepButton(static_cast<int>(i) + 1);
     step->setObjectName(QString("step-%1").arg(i + 1));
-    connect(step, &StepButton::clicked, this, [this, i] { wizard_.go(i); });
+    connect(step, &StepButton::clicked, this, [this, i] {
+      if (i == wizard_.current()) return Q_EMIT currentPressed();
+      wizard_.go(i);
+    });
     steps_.push_back(step);
     rows->addWidget(step);
   }

@@ -47,6 +47,10 @@ class StepRail : public QWidget {
   /// Badges without words.
   void setNarrow(bool narrow);
 
+ Q_SIGNALS:
+  /// The step that is open anyhow.
+  void currentPressed();
+
  private:
   void refresh();
   Wizard& wizard_;

@@ -15,7 +15,7 @@ struct Names {
 QString methodName(compensation::Method method) {
   switch (method) {
     case compensation::Method::none:
-      return Names::tr("No correction");
+      return Names::tr("Uncorrected");
     case compensation::Method::scalar:
       return Names::tr("Each pixel's brightness");
     case compensation::Method::mix:
@@ -31,7 +31,7 @@ QString methodName(compensation::Method method) {
     case compensation::Method::optimum:
       break;
   }
-  return Names::tr("Best possible, still pictures");
+  return Names::tr("All bounces, solved fully, for stills");
 }
 
 }  // namespace relucent::gui

@@ -34,12 +34,13 @@ QWidget* scriptStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  column->addWidget(screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
-                                  pipeline::CommandRigSettings script = model.script();
-                                  script.projector = choice.size;
-                                  model.setScript(script);
-                                })),
-                    1);
+  Card* screens = screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
+                                pipeline::CommandRigSettings script = model.script();
+                                script.projector = choice.size;
+                                model.setScript(script);
+                              }));
+  screens->setSubtitle(VenuePage::tr("For its pixels alone: a program of yours shows the pictures on it."));
+  column->addWidget(screens, 1);
   auto* programs = new Card(VenuePage::tr("Programs"));
   programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));
   commandLine(model, programs->body(),

@@ -85,6 +85,14 @@ class TestWizardWindow : public QObject {
     QTest::keySequence(&wizard_->window(), keys);
   }
   std::size_t page() { return wizard_->wizard().current(); }
+  /// Of the rail's buttons.
+  void wordsHaveRoom() {
+    for (const char* name : {"open-settings", "open-help"}) {
+      const auto* button = find<QPushButton>(name);
+      QVERIFY2(!button->text().isEmpty(), name);
+      QVERIFY2(button->width() >= button->sizeHint().width(), name);
+    }
+  }
   void start() {
     settings_ = std::make_unique<QSettings>(folder_.filePath("settings.ini"), QSettings::IniFormat);
     wizard_ = std::make_unique<WizardWindow>(*settings_, folder_.filePath("cache").toStdString());
@@ -184,6 +192,15 @@ class TestWizardWindow : public QObject {
     QTRY_VERIFY(inSight());
     wizard_->window().resize(1366, 768);
     wizard_->page<VenuePage>().setMode(VenuePage::Mode::start);
+  }
+
+  void enterOnTheOpenStepLeadsIntoIt() {
+    auto* step = find<QAbstractButton>("step-1");
+    step->setFocus();
+    QTRY_VERIFY(step->hasFocus());
+    QTest::keyClick(step, Qt::Key_Return);
+    QCOMPARE(page(), std::size_t{0});
+    QTRY_COMPARE(wizard_->window().focusWidget(), find<QWidget>("rehearse"));
   }
 
   void laterStepsAreLockedAtFirst() {
@@ -740,15 +757,17 @@ class TestWizardWindow : public QObject {
     help = find<HelpWindow>("help");
     QVERIFY(help != nullptr && help->isVisible());
     QCOMPARE(find<QListWidget>("help-pages")->currentRow(), shown);
-    // Its words have room.
-    for (const char* name : {"open-settings", "open-help"})
-      QVERIFY2(!find<QPushButton>(name)->text().isEmpty(), name);
+    wordsHaveRoom();
     QString title = guidePages(":/help", "de")[shown].title;
     QVERIFY(!english.startsWith(title));
     QVERIFY2(find<QTextBrowser>("help-text")->toPlainText().trimmed().startsWith(title),
              qPrintable(title +
                         " is not at the top of: " + find<QTextBrowser>("help-text")->toPlainText().left(60)));
     help->close();
+    for (const char* language : {"fr", "ar"}) {
+      wizard_->preferences().setLanguage(language);
+      wordsHaveRoom();
+    }
     wizard_->preferences().setLanguage({});
     QTRY_VERIFY(QTest::qWaitForWindowExposed(&wizard_->window()));
   }

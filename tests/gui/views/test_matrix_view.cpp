@@ -180,6 +180,23 @@ class TestMatrixView : public QObject {
     QVERIFY_EXCEPTION_THROWN(saveView(view, {}, numbers), Error);
   }
 
+  void aFileIsSuggested_data() {
+    QTest::addColumn<QString>("shown");
+    QTest::addColumn<QString>("name");
+    QTest::newRow("plain") << "Error map" << "Error map.png";
+    QTest::newRow("what no file may be called") << " Light: T\\p / \"e\"?\n" << "Light T p e.png";
+    QTest::newRow("another script") << QString::fromUtf8("خريطة الخطأ")
+                                    << QString::fromUtf8("خريطة الخطأ.png");
+  }
+  void aFileIsSuggested() {
+    QFETCH(QString, shown);
+    QFETCH(QString, name);
+    const QFileInfo file(suggestedFile(shown, ".png"));
+    QCOMPARE(file.fileName(), name);
+    QVERIFY(file.isAbsolute());
+  }
+  void aFileHasANameWhateverIsShown() { QVERIFY(!QFileInfo(suggestedFile({}, ".png")).baseName().isEmpty()); }
+
   void anotherMatrixTakesItsPlace() {
     OpenedView view;
     open(view, diagonal(16));

@@ -4,6 +4,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include "relucent/image/picture_files.h"
 #include "relucent/pipeline/calibrate.h"
 #include "wizard/devices/nudge_dialog.h"
 
@@ -112,6 +113,32 @@ class TestNudge : public QObject {
     nudge.start();
     QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value(), patience);
     QVERIFY(!nudge.sight()->isAtItsPlace() && !nudge.sight()->offset.isRecognised);
+  }
+
+  /// An arrow that no longer follows would be followed.
+  void aCameraThatGoesTakesItsArrowWithIt() {
+    std::filesystem::create_directories(path("desk"));
+    writePng(path("desk") / "seen.png", flood_, 16);
+    CalibrateSettings settings;
+    CommandRigSettings commands;
+    commands.projectorCommand = "true {image}";
+    commands.cameraCommand = "sh -c 'cd \"$0\" && test ! -e gone && cp seen.png \"$1.png\"' " +
+                             path("desk").string() + " {output} {exposure}";
+    commands.projector = {64, 48};
+    commands.camera = Size{80, 60};
+    settings.rig = commands;
+    Session session(path("cache"));
+    session.begin(path("leaving"), settings);
+    Nudge nudge(session, before(flood_, 3, 0));
+    NudgeDialog dialog(nudge);
+    dialog.show();
+    nudge.start();
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value() || nudge.failure().has_value(), patience);
+    QVERIFY2(nudge.sight(), nudge.failure() ? qPrintable(nudge.failure()->what) : "");
+    QFile(QString::fromStdString((path("desk") / "gone").string())).open(QIODevice::WriteOnly);
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.failure().has_value(), patience);
+    QVERIFY(!nudge.sight());
+    dialog.reject();
   }
 
   void devicesThatFailAreSaid() {

@@ -9,6 +9,7 @@
 
 #include "gui/wizard/simulated_session.h"
 #include "relucent/pipeline/screen_devices.h"
+#include "wizard/devices/camera_rows.h"
 #include "wizard/venue/device_list_view.h"
 #include "wizard/venue/network_list_view.h"
 #include "wizard/venue/screen_list.h"
@@ -68,6 +69,24 @@ class TestDeviceLists : public QObject {
   void cleanup() {
     page_.reset();
     own_.reset();
+  }
+
+  /// Where there is no camera it is said what could be one, and how another is driven.
+  void withoutACameraThereIsAWayOn() {
+    page_->finder().setLister([] { return devices::CameraList(); });
+    CameraRows rows(
+        page_->finder(), {}, [](const devices::ListedCamera&, const QString&) { return CameraRows::Offer{}; },
+        [](const devices::ListedCamera&) {});
+    const auto words = [&rows] {
+      QString all;
+      for (const QLabel* label : rows.findChildren<QLabel*>())
+        if (!label->isHidden()) all += label->text() + '\n';
+      return all;
+    };
+    QVERIFY2(!words().contains("GigE Vision"), qPrintable(words()));
+    page_->finder().look();
+    QTRY_VERIFY2(words().contains("GigE Vision"), qPrintable(words()));
+    QVERIFY2(words().contains(VenuePage::tr("New venue by script")), qPrintable(words()));
   }
 
   /// Law: with one projector another screen takes the place of the one before.

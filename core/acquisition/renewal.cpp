@@ -31,8 +31,9 @@ constexpr double referenceShare = 0.2, lookShare = 0.15, adaptShare = 0.1, measu
 
 // A view that moved by less, pixels anywhere in it, is none that rows had better be interpolated for.
 constexpr double leastMovement = 0.05;
-// A change of the light is told from the noise of medians over the whole picture from this share on.
-constexpr double leastLightChange = 0.003;
+// A change of all light by less is seen by nobody, and where something was painted light that bounced off it
+// is missing everywhere: all rows would be others for it.
+constexpr double leastLightChange = 0.01;
 // A row's own change: beyond so many standard deviations and this share.
 constexpr double ownSigmas = 4.0;
 constexpr float leastOwnChange = 0.01f;

@@ -184,8 +184,8 @@
         <translation>دون تصحيح</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>كل الانعكاسات، حلّ كامل، للصور الثابتة</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>حلّ كامل، صور ثابتة</translation>
     </message>
 </context>
 <context>

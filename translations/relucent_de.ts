@@ -184,8 +184,8 @@
         <translation>Unkorrigiert</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>Alle Reflexe, ganz gelöst, für Standbilder</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>Alle Reflexe gelöst, Standbilder</translation>
     </message>
 </context>
 <context>

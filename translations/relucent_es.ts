@@ -184,8 +184,8 @@
         <translation>Sin corregir</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>Todos los rebotes, resueltos del todo, para imágenes fijas</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>Rebotes resueltos, imágenes fijas</translation>
     </message>
 </context>
 <context>

@@ -184,8 +184,8 @@
         <translation>Non corrigé</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>Tous les rebonds, résolus jusqu’au bout, images fixes</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>Rebonds résolus, images fixes</translation>
     </message>
 </context>
 <context>

@@ -184,8 +184,8 @@
         <translation>Senza correzione</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>Tutti i rimbalzi, risolti fino in fondo, immagini fisse</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>Rimbalzi risolti, immagini fisse</translation>
     </message>
 </context>
 <context>

@@ -184,8 +184,8 @@
         <translation>補正なし</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>相互反射すべて、最後まで計算、静止画用</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>相互反射を完全計算、静止画</translation>
     </message>
 </context>
 <context>

@@ -184,8 +184,8 @@
         <translation>未补偿</translation>
     </message>
     <message>
-        <source>All bounces, solved fully, for stills</source>
-        <translation>全部反射，完全求解，用于静态图片</translation>
+        <source>All bounces, solved, for stills</source>
+        <translation>完全求解，静态图片</translation>
     </message>
 </context>
 <context>

@@ -70,6 +70,7 @@ Nudge::Nudge(Session& session, const StepName& step, QObject* parent)
     : QObject(parent), session_(session), step_(step) {
   connect(&job_, &Job::progressed, this, &Nudge::changed);
   connect(&job_, &Job::ended, this, &Nudge::jobEnded);
+  connect(&session_, &Session::devicesChanged, this, &Nudge::heedDevices);
   connect(&session_, &Session::acquisitionChanged, this, [this] {
     if (session_.acquisitionFailure()) failure_ = session_.acquisitionFailure();
     look();
@@ -81,6 +82,7 @@ Nudge::Nudge(Session& session, image::Image expected, QObject* parent)
     : QObject(parent), session_(session), expected_(std::move(expected)) {
   connect(&job_, &Job::progressed, this, &Nudge::changed);
   connect(&job_, &Job::ended, this, &Nudge::jobEnded);
+  connect(&session_, &Session::devicesChanged, this, &Nudge::heedDevices);
 }
 
 Nudge::~Nudge() {
@@ -144,6 +146,12 @@ void Nudge::look() {
   Q_EMIT changed();
 }
 
+/// An arrow that no longer follows would be followed.
+void Nudge::heedDevices() {
+  if (session_.isDeviceLost()) sight_.reset();
+  Q_EMIT changed();
+}
+
 void Nudge::takeSight() {
   if (!shared_) return;
   {
@@ -159,7 +167,7 @@ void Nudge::jobEnded() {
   lease_.release();
   if (job_.state() == Job::State::failed) {
     failure_ = job_.failure();
-    sight_.reset();  // an arrow that no longer follows would be followed
+    sight_.reset();
   }
   Q_EMIT changed();
   Q_EMIT ended();

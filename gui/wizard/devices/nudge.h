@@ -8,6 +8,7 @@
 
 #include "jobs/job.h"
 #include "relucent/pipeline/aim.h"
+#include "wizard/frame/lost_device.h"
 #include "wizard/session/session.h"
 
 namespace relucent::gui {
@@ -47,8 +48,10 @@ class Nudge : public QObject {
   QString stage() const { return job_.stage(); }
   /// The surface in full light, as it was measured; empty until it is read.
   const image::Image& expected() const { return expected_; }
-  /// What was seen last; none before the first look, and once a device has failed.
+  /// What was seen last; none before the first look, while a device is lost, and once one has failed.
   const std::optional<NudgeSight>& sight() const { return sight_; }
+  /// The device that it waits for; none: it waits for none.
+  std::optional<Banner> waiting() const { return lostDeviceBanner(session_, nullptr); }
   /// Why it ended by itself.
   const std::optional<Failure>& failure() const { return failure_; }
 
@@ -59,6 +62,7 @@ class Nudge : public QObject {
  private:
   struct Shared;
   void look();
+  void heedDevices();
   void takeSight();
   void jobEnded();
 

@@ -121,7 +121,9 @@ void NudgeDialog::showPictures() {
   if (!nudge_.sight()) {
     view_->setPicture({});
     view_->setOverlay({});
+    const std::optional<Banner> waiting = nudge_.waiting();
     view_->setEmptyText(nudge_.failure()           ? nudge_.failure()->what
+                        : waiting                  ? waiting->sentence
                         : nudge_.stage().isEmpty() ? tr("Opening the devices")
                                                    : nudge_.stage());
     return;
@@ -145,6 +147,8 @@ void NudgeDialog::showVerdict() {
   turned_->setValue(isKnown ? tr("%1°").arg(decimalText(moved.degrees, 2)) : nothing);
   if (nudge_.failure())
     verdict_->show(Remark::Kind::failed, nudge_.failure()->what, nudge_.failure()->advice);
+  else if (const std::optional<Banner> waiting = nudge_.waiting())
+    verdict_->show(Remark::Kind::warning, waiting->sentence, waiting->more);
   else if (!sight)
     verdict_->show(Remark::Kind::watch, tr("Looking through the camera"), {});
   else if (sight->isAtItsPlace())

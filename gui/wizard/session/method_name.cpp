@@ -31,7 +31,7 @@ QString methodName(compensation::Method method) {
     case compensation::Method::optimum:
       break;
   }
-  return Names::tr("All bounces, solved fully, for stills");
+  return Names::tr("All bounces, solved, for stills");
 }
 
 }  // namespace relucent::gui

@@ -329,8 +329,14 @@ int main(int argc, char** argv) {
   photographs.take("01-rehearse");
   wizard.page<VenuePage>().setMode(VenuePage::Mode::script);
   photographs.take("01-script");
-  wizard.page<VenuePage>().finder().setLister(someCameras);
+  CameraFinder& finder = wizard.page<VenuePage>().finder();
+  finder.setLister([] { return CameraList(); });
   wizard.page<VenuePage>().setMode(VenuePage::Mode::devices);
+  until([&] { return !finder.isLooking(); });
+  photographs.take("01-no-camera");
+  finder.setLister(someCameras);
+  finder.look();
+  until([&] { return !finder.isLooking(); });
   photographs.take("01-devices");
   takeDevices(wizard, photographs);
 

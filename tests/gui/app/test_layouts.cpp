@@ -145,6 +145,8 @@ class TestLayouts : public QObject {
           {failure, AcquirePage::tr("Nothing was changed."), &resume, &keep, &goOn, false, &repair},
           wizard_->page<AcquirePage>().name());
       dialog.show();
+      // On a busy computer the screen's answer, its size among it, comes late.
+      if (!QTest::qWaitForWindowExposed(&dialog, patience)) faults << language + ": no failure is shown";
       faults << seen(dialog, language, "failure");
     }
     return faults;

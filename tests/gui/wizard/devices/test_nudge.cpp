@@ -135,9 +135,17 @@ class TestNudge : public QObject {
     nudge.start();
     QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value() || nudge.failure().has_value(), patience);
     QVERIFY2(nudge.sight(), nudge.failure() ? qPrintable(nudge.failure()->what) : "");
-    QFile(QString::fromStdString((path("desk") / "gone").string())).open(QIODevice::WriteOnly);
-    QTRY_VERIFY_WITH_TIMEOUT(nudge.failure().has_value(), patience);
+    const QString gone = QString::fromStdString((path("desk") / "gone").string());
+    QVERIFY(QFile(gone).open(QIODevice::WriteOnly));
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.waiting().has_value(), patience);
     QVERIFY(!nudge.sight());
+    QStringList said;
+    for (const QLabel* label : dialog.findChild<QWidget*>("nudge-verdict")->findChildren<QLabel*>())
+      said << label->text();
+    QVERIFY2(said.contains(nudge.waiting()->sentence), qPrintable(said.join('\n')));
+    QVERIFY(QFile::remove(gone));
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value(), patience);
+    QVERIFY(!nudge.waiting());
     dialog.reject();
   }
 

@@ -129,6 +129,7 @@ class TestNudge : public QObject {
     settings.rig = commands;
     Session session(path("cache"));
     session.begin(path("leaving"), settings);
+    const DeviceLease measurement = session.leaseDevices(step);  // waits for an answer, and for its camera
     Nudge nudge(session, before(flood_, 3, 0));
     NudgeDialog dialog(nudge);
     dialog.show();
@@ -144,8 +145,7 @@ class TestNudge : public QObject {
       said << label->text();
     QVERIFY2(said.contains(nudge.waiting()->sentence), qPrintable(said.join('\n')));
     QVERIFY(QFile::remove(gone));
-    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight().has_value(), patience);
-    QVERIFY(!nudge.waiting());
+    QTRY_VERIFY_WITH_TIMEOUT(nudge.sight() && !nudge.waiting(), patience);
     dialog.reject();
   }
 

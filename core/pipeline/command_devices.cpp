@@ -39,25 +39,55 @@ CommandRigSettings withCameras(CommandRigSettings rig,
   return rig;
 }
 
+namespace {
+
+/// Calls `visit` with every command of the rig, which it may change: of projectors, then of cameras.
+template <typename Visit>
+void visitCommands(RigSettings& rig, const Visit& visit) {
+  const auto visitAddress = [&visit](std::string& address) {
+    auto known = devices::cameraRegistry().addressFrom(address);
+    if (!known || known->kind != devices::CommandCamera::kind) return;
+    visit(known->place);
+    address = toString(*known);
+  };
+  if (auto* programs = std::get_if<CommandRigSettings>(&rig)) {
+    std::vector<CommandRigSettings::Projector> projectors = projectorsOf(*programs);
+    for (CommandRigSettings::Projector& projector : projectors) visit(projector.command);
+    std::vector<CommandRigSettings::Camera> cameras = camerasOf(*programs);
+    for (CommandRigSettings::Camera& camera : cameras) {
+      if (camera.address.empty())
+        visit(camera.command);
+      else
+        visitAddress(camera.address);
+    }
+    *programs = withCameras(withProjectors(*programs, projectors), cameras);
+  }
+  if (auto* screens = std::get_if<ScreenRigSettings>(&rig)) {
+    std::vector<ScreenRigSettings::Camera> cameras = camerasOf(*screens);
+    for (ScreenRigSettings::Camera& camera : cameras) visitAddress(camera.address);
+    *screens = withCameras(*screens, cameras);
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> commandsOf(const RigSettings& rig) {
   std::vector<std::string> commands;
-  const auto addAddressed = [&commands](const std::string& address) {
-    const auto known = devices::cameraRegistry().addressFrom(address);
-    if (known && known->kind == devices::CommandCamera::kind) commands.push_back(known->place);
-  };
-  if (const auto* programs = std::get_if<CommandRigSettings>(&rig)) {
-    for (const CommandRigSettings::Projector& projector : projectorsOf(*programs))
-      commands.push_back(projector.command);
-    for (const CommandRigSettings::Camera& camera : camerasOf(*programs)) {
-      if (camera.address.empty())
-        commands.push_back(camera.command);
-      else
-        addAddressed(camera.address);
-    }
-  }
-  if (const auto* screens = std::get_if<ScreenRigSettings>(&rig))
-    for (const ScreenRigSettings::Camera& camera : camerasOf(*screens)) addAddressed(camera.address);
+  RigSettings visited = rig;
+  visitCommands(visited, [&commands](const std::string& command) { commands.push_back(command); });
   return commands;
+}
+
+RigSettings withCommands(RigSettings rig, const std::vector<std::string>& commands) {
+  require(commands.size() == commandsOf(rig).size(), "{} commands", commands.size());
+  std::size_t next = 0;
+  visitCommands(rig, [&](std::string& command) { command = commands[next++]; });
+  return rig;
+}
+
+std::size_t projectorCommandsOf(const RigSettings& rig) {
+  const auto* programs = std::get_if<CommandRigSettings>(&rig);
+  return programs == nullptr ? 0 : projectorsOf(*programs).size();
 }
 
 std::vector<Message> problemsOfDevices(const CommandRigSettings& rig) {

@@ -24,6 +24,12 @@ CommandRigSettings withCameras(CommandRigSettings rig,
 /// Every command that opening the rig runs on this computer: of projectors, then of cameras.
 std::vector<std::string> commandsOf(const RigSettings& rig);
 
+/// The rig with others in their place.  Contract: as many as commandsOf(rig).
+/// Law: withCommands(rig, commandsOf(rig)) is rig.
+RigSettings withCommands(RigSettings rig, const std::vector<std::string>& commands);
+/// How many of commandsOf(rig) are projectors'.
+std::size_t projectorCommandsOf(const RigSettings& rig);
+
 /// Devices that are named twice: one command for two projectors lights one of them, one for two cameras
 /// photographs one view.
 std::vector<Message> problemsOfDevices(const CommandRigSettings& rig);

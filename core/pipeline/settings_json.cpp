@@ -383,6 +383,20 @@ void screenFromJson(const calibration::Json& json, ScreenRigSettings::Screen& sc
   }
 }
 
+calibration::Json commandsToJson(const std::vector<std::string>& commands) {
+  return calibration::Json(commands);
+}
+
+std::vector<std::string> commandsFromJson(const calibration::Json& json) {
+  std::vector<std::string> commands;
+  try {
+    for (const Sorted& command : Sorted(json)) commands.push_back(command.get<std::string>());
+  } catch (const Sorted::exception& cause) {
+    failForeign(cause);
+  }
+  return commands;
+}
+
 calibration::Json reductionsToJson(const std::vector<Reduction>& reductions) {
   Sorted all = Sorted::array();
   for (const Reduction& reduction : reductions) all.push_back(reductionToJson(reduction));

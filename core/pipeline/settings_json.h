@@ -18,6 +18,10 @@ calibration::Json screenToJson(const ScreenRigSettings::Screen& screen);
 /// Puts them in place of those that were measured. Throws: Error{format}.
 void screenFromJson(const calibration::Json& json, ScreenRigSettings::Screen& screen);
 
+/// Commands that reach the devices which others reached before. Throws: Error{format}.
+calibration::Json commandsToJson(const std::vector<std::string>& commands);
+std::vector<std::string> commandsFromJson(const calibration::Json& json);
+
 calibration::Json stagesToJson(const CalibrateSettings& settings);
 /// Fills in the stage settings; the rig is left alone. Throws: Error{format}.
 void stagesFromJson(const calibration::Json& json, CalibrateSettings& settings);

@@ -3,6 +3,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
+#include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr const char* movedScreen = "screen";
 /// The same of projectors beyond the first, by their numbers.
 constexpr const char* moreMovedScreens = "more_screens";
+/// There, too: the commands that reach the devices now, if not those that they were measured by.
+constexpr const char* changedCommands = "commands";
 /// There, how the cameras are reduced: for no person to read. calibration/stage.h names it too.
 constexpr const char* reductionSection = "reduction";
 constexpr const char* toBeChosen = "to be chosen";
@@ -29,6 +32,14 @@ void moveScreens(const calibration::Json& settings, ScreenRigSettings& rig) {
   rig = withScreens(std::move(rig), screens);
 }
 
+RigSettings withChangedCommands(const calibration::Json& settings, RigSettings rig) {
+  if (!settings.contains(changedCommands)) return rig;
+  const std::vector<std::string> commands = commandsFromJson(settings.at(changedCommands));
+  // Another version's, or somebody's by hand: those that it was begun with are as good as any.
+  if (commands.size() != commandsOf(rig).size()) return rig;
+  return withCommands(std::move(rig), commands);
+}
+
 }  // namespace
 
 calibration::CalibrationFolder createCalibration(const std::filesystem::path& path,
@@ -41,7 +52,7 @@ calibration::CalibrationFolder createCalibration(const std::filesystem::path& pa
 
 CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder) {
   CalibrateSettings settings;
-  settings.rig = measuredRigOf(folder);
+  settings.rig = withChangedCommands(folder.settings(), measuredRigOf(folder));
   if (auto* screen = std::get_if<ScreenRigSettings>(&settings.rig)) moveScreens(folder.settings(), *screen);
   stagesFromJson(folder.settings(), settings);
   settings.network = networkProjectorsOf(folder);
@@ -98,7 +109,9 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig) {
     throw Error(ErrorKind::input, found.front(),
                 RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry", "change that setting and try again"));
   calibration::Json asked = folder.settings();
-  if (asked.erase(movedScreen) + asked.erase(moreMovedScreens) + asked.erase(reductionSection) > 0)
+  if (asked.erase(movedScreen) + asked.erase(moreMovedScreens) + asked.erase(changedCommands) +
+          asked.erase(reductionSection) >
+      0)
     folder.setSettings(std::move(asked));
   folder.setRig(rigToJson(rig));
 }
@@ -131,6 +144,25 @@ void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSetting
     settings[movedScreen] = moved;
   else
     settings[moreMovedScreens][std::to_string(projector)] = moved;
+  folder.setSettings(std::move(settings));
+}
+
+void changeCommands(calibration::CalibrationFolder& folder, const std::vector<std::string>& commands) {
+  CalibrateSettings changed = settingsOf(folder);
+  if (commands.size() != commandsOf(changed.rig).size())
+    throw Error(ErrorKind::input,
+                RELUCENT_ENGLISH_MESSAGE("calibration.commands-of-other-devices",
+                                         "these commands are not as many as the calibration's devices need"),
+                RELUCENT_ENGLISH_MESSAGE("calibration.begin-venue-for-devices",
+                                         "begin a new venue for other devices"),
+                folder.path().string());
+  changed.rig = withCommands(changed.rig, commands);
+  if (std::vector<Message> found = problems(changed); !found.empty())
+    throw Error(ErrorKind::input, found.front(),
+                RELUCENT_ENGLISH_MESSAGE("settings.change-and-retry", "change that setting and try again"),
+                folder.path().string());
+  calibration::Json settings = folder.settings();
+  settings[changedCommands] = commandsToJson(commands);
   folder.setSettings(std::move(settings));
 }
 

@@ -16,7 +16,8 @@ namespace relucent::pipeline {
 calibration::CalibrationFolder createCalibration(const std::filesystem::path& path,
                                                  const CalibrateSettings& settings);
 
-/// What a calibration was asked for, with the screen that it uses now. Throws: Error{format}.
+/// What a calibration was asked for, with the screen and the commands that it uses now. Throws:
+/// Error{format}.
 CalibrateSettings settingsOf(const calibration::CalibrationFolder& folder);
 
 /// The devices as they were when the calibration was begun: the screen at its place of then.
@@ -49,5 +50,10 @@ void changeRig(calibration::CalibrationFolder& folder, const RigSettings& rig);
 /// one of other pixels; Error{disk}.
 void changeScreen(calibration::CalibrationFolder& folder, const ScreenRigSettings& screen,
                   std::size_t projector = 0);
+
+/// Reaches the devices of the calibration by other commands, in the order of commandsOf() of its rig. Nothing
+/// becomes stale: the same devices show and photograph, and whether they do is for a verification to say.
+/// Throws: Error{input} if they are not as many, or for settings with problems(); Error{disk}.
+void changeCommands(calibration::CalibrationFolder& folder, const std::vector<std::string>& commands);
 
 }  // namespace relucent::pipeline

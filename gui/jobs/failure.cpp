@@ -5,6 +5,7 @@
 #include <new>
 
 #include "relucent/devices/check/screen_proof.h"
+#include "relucent/devices/command/shell_command.h"
 #include "text/message_text.h"
 
 namespace relucent::gui {
@@ -27,6 +28,12 @@ Failure failureOf(std::exception_ptr thrown) {
   } catch (const devices::ScreenNotSeen& error) {
     Failure failure = failureOf(static_cast<const Error&>(error));
     failure.heading = Translated::tr("The camera does not see this projector");
+    return failure;
+  } catch (const devices::CommandFailed& error) {
+    Failure failure = failureOf(static_cast<const Error&>(error));
+    failure.heading = Translated::tr("A program of this venue failed");
+    failure.advice +=
+        ' ' + Translated::tr("Another command is typed at the step Venue, by “Change the programs”.");
     return failure;
   } catch (const Error& error) {
     return failureOf(error);

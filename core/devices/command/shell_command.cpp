@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "relucent/base/error.h"
 #include "relucent/platform/shell.h"
 
 namespace relucent::devices {
@@ -89,15 +88,16 @@ void runShellCommand(const std::string& command, milliseconds timeout, const std
                 device);
   const std::string lastLine = lastLineOf(result.outputTail);
   if (result.end == End::timedOut)
-    throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
-                RELUCENT_MESSAGE("device.allow-command-more-time",
-                                 "check the device, or allow the command more time: {}")
-                    .with(command),
-                device);
-  throw Error(ErrorKind::device, endOf(result, timeout, lastLine),
-              RELUCENT_MESSAGE("device.run-command-in-terminal", "run it in a terminal to find out why: {}")
-                  .with(command),
-              device);
+    throw CommandFailed(endOf(result, timeout, lastLine),
+                        RELUCENT_MESSAGE("device.allow-command-more-time",
+                                         "check the device, or allow the command more time: {}")
+                            .with(command),
+                        device);
+  throw CommandFailed(
+      endOf(result, timeout, lastLine),
+      RELUCENT_MESSAGE("device.run-command-in-terminal", "run it in a terminal to find out why: {}")
+          .with(command),
+      device);
 }
 
 }  // namespace relucent::devices

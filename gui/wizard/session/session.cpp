@@ -176,15 +176,24 @@ void Session::changeDevices(const std::function<void(calibration::CalibrationFol
   tellSteps();
 }
 
-void Session::changeRig(const pipeline::RigSettings& rig) {
-  // Whoever types a command agrees to it, and not to those that were there before.
+/// Whoever types a command agrees to it, and not to those that were there before.
+void Session::agreeToTyped(std::vector<std::string> commands) const {
   const std::vector<std::string> before = pipeline::commandsOf(settings_.rig);
-  std::vector<std::string> typed = pipeline::commandsOf(rig);
-  std::erase_if(typed, [&before](const std::string& command) {
+  std::erase_if(commands, [&before](const std::string& command) {
     return std::find(before.begin(), before.end(), command) != before.end();
   });
-  devices::giveConsent(typed);
+  devices::giveConsent(commands);
+}
+
+void Session::changeRig(const pipeline::RigSettings& rig) {
+  agreeToTyped(pipeline::commandsOf(rig));
   changeDevices([&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeRig(folder, rig); });
+}
+
+void Session::changeCommands(const std::vector<std::string>& commands) {
+  agreeToTyped(commands);
+  changeDevices(
+      [&](calibration::CalibrationFolder& folder) { relucent::pipeline::changeCommands(folder, commands); });
 }
 
 void Session::changeScreen(const pipeline::ScreenRigSettings& screen, std::size_t projector) {

@@ -226,6 +226,9 @@ class Session : public QObject {
   /// Of `screen` its first one is that projector's. Contract: screenRig(). Throws: as
   /// pipeline::changeScreen().
   void changeScreen(const pipeline::ScreenRigSettings& screen, std::size_t projector = 0);
+  /// The devices are reached by other commands from now on; nothing that was measured becomes stale. Whoever
+  /// types a command agrees to it. Throws: as pipeline::changeCommands().
+  void changeCommands(const std::vector<std::string>& commands);
   /// As which screen a projector was measured; see screenRig() for what it is now.
   pipeline::ScreenRigSettings::Display measuredDisplay(std::size_t projector = 0) const;
   /// Something was measured that belongs to these devices.
@@ -335,6 +338,7 @@ class Session : public QObject {
   /// Writes into the calibration and looks at it again.
   void change(const std::function<void(calibration::CalibrationFolder&)>& write);
   /// The same with the devices closed meanwhile and opened again.
+  void agreeToTyped(std::vector<std::string> commands) const;
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
   void adopt(calibration::CalibrationFolder given);
   void slowDown();

@@ -45,11 +45,14 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
       recent_(recent),
       keeping_(session, recent),
       openScreen_(session),
+      openPrograms_(session),
       endQuestion_(session) {
   checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
   useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
+  usePrograms_ = addCommand(Icon::settings, [this] { usePrograms(); });
+  changePrograms_ = addCommand(Icon::settings, [this] { setMode(Mode::programs); });
   remove_ = addCommand(Icon::remove, [this] { removeAsked(); });
   keepVenue_ = addCommand(Icon::folder, [] {});
   allowPrograms_ = addCommand(Icon::play, [this] { openAsked(true); });
@@ -65,6 +68,7 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
   connect(&session_, &Session::stepsChanged, this, &VenuePage::tellSettings);
   connect(&session_, &Session::devicesChanged, this, &VenuePage::tellSettings);
   connect(&openScreen_, &VenueScreen::changed, this, &VenuePage::tellSettings);
+  connect(&openPrograms_, &VenuePrograms::changed, this, &VenuePage::tellSettings);
   connect(&finder_, &CameraFinder::failed, this,
           [this](const Failure& failure) { Q_EMIT failed({failure, tr("Nothing was changed.")}); });
   connect(&network_, &VenueNetwork::changed, this, &VenuePage::tellSettings);
@@ -88,6 +92,8 @@ QString VenuePage::title() const {
       return tr("New venue");
     case Mode::screen:
       return tr("The projector's screen");
+    case Mode::programs:
+      return tr("Programs of this venue");
     case Mode::start:
       break;
   }
@@ -106,6 +112,8 @@ QString VenuePage::subtitle() const {
       return tr("Say which screens shine on the surface, which cameras watch, and where the work is kept.");
     case Mode::screen:
       return tr("Say which screen the projector is now. What was measured stays.");
+    case Mode::programs:
+      return tr("Say which commands drive these devices from now on. What was measured stays.");
     case Mode::start:
       break;
   }
@@ -116,7 +124,7 @@ QString VenuePage::subtitle() const {
 }
 
 StepStatus VenuePage::status() const {
-  const bool isAnother = mode_ != Mode::start && mode_ != Mode::screen;
+  const bool isAnother = mode_ != Mode::start && !isOfOpenVenue();
   if (!session_.isOpen()) return {StepState::open, isAnother ? tr("Setting up") : QString()};
   // The rest of the rail is of the one that is open.
   if (isAnother) return {StepState::done, tr("Setting up another")};
@@ -137,7 +145,7 @@ QString VenuePage::hint() const {
     return session_.isOpen() ? tr("%1 is open").arg(session_.name())
                              : tr("Enter opens the highlighted choice");
   if (QString wrong = problem(); !wrong.isEmpty()) return wrong;
-  if (mode_ == Mode::screen) return tr("Nothing is measured again.");
+  if (isOfOpenVenue()) return tr("Nothing is measured again.");
   WorkLeft work = expected();
   const auto patterns = static_cast<int>(work.shots);
   return groupedText(tr("About %n pattern(s), %1", nullptr, patterns), patterns)
@@ -147,9 +155,11 @@ QString VenuePage::hint() const {
 void VenuePage::updateCommands() {
   checkCamera_->show(tr("Check camera"));
   useScreen_->show(tr("Use this screen"), problem().isEmpty());
+  usePrograms_->show(tr("Use these commands"), problem().isEmpty());
   begin_->setGlyph(mode_ == Mode::rehearse ? Icon::play : Icon::next);
   begin_->show(mode_ == Mode::rehearse ? tr("Start rehearsal") : tr("Check camera"), problem().isEmpty());
   changeScreen_->show(tr("Change the screen"));
+  changePrograms_->show(tr("Change the programs"));
   remove_->show(tr("Move to the trash"));
   keepVenue_->show(tr("Keep it"));
   allowPrograms_->show(tr("Allow them"));
@@ -158,13 +168,17 @@ void VenuePage::updateCommands() {
 
 PageCommand* VenuePage::primary() const {
   if (mode_ == Mode::start) return session_.isOpen() ? checkCamera_ : nullptr;
+  if (mode_ == Mode::programs) return usePrograms_;
   return mode_ == Mode::screen ? useScreen_ : begin_;
 }
 
 std::vector<PageCommand*> VenuePage::secondary() const {
+  if (mode_ != Mode::start) return {};
+  std::vector<PageCommand*> commands;
   // Where it is missing, the banner has the same.
-  if (mode_ != Mode::start || !openScreen_.isChangeable() || openScreen_.isMissing()) return {};
-  return {changeScreen_};
+  if (openScreen_.isChangeable() && !openScreen_.isMissing()) commands.push_back(changeScreen_);
+  if (openPrograms_.isChangeable()) commands.push_back(changePrograms_);
+  return commands;
 }
 
 std::optional<Banner> VenuePage::banner() const {
@@ -191,6 +205,7 @@ void VenuePage::setMode(Mode mode) {
   mode_ = mode;
   roomClear_ = false;
   openScreen_.forget();
+  openPrograms_.forget();
   if (mode != Mode::start) suggestName();
   if (mode == Mode::devices) finder_.look();
   tellSettings();
@@ -353,7 +368,7 @@ void VenuePage::useScreen() {
 }
 
 void VenuePage::begin() {
-  if (mode_ == Mode::screen || !problem().isEmpty()) return;
+  if (isOfOpenVenue() || !problem().isEmpty()) return;
   whenNothingEnds([this] { beginNow(); });
 }
 
@@ -363,6 +378,16 @@ void VenuePage::beginNow() {
     bool clear = roomClear_;  // begun, the page starts over
     // Whoever types a command agrees to it.
     devices::giveConsent(pipeline::commandsOf(wanted().rig));
+void VenuePage::usePrograms() {
+  if (!problem().isEmpty()) return;
+  try {
+    openPrograms_.apply();
+    setMode(Mode::start);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+  }
+}
+
     session_.begin(target().toStdString(), wanted(), surprisesWanted());
     session_.setRoomClear(clear);
     network_.clear();

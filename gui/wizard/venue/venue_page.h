@@ -14,6 +14,7 @@
 #include "wizard/venue/recent_venues.h"
 #include "wizard/venue/venue_keeping.h"
 #include "wizard/venue/venue_network.h"
+#include "wizard/venue/venue_programs.h"
 #include "wizard/venue/venue_screen.h"
 
 class QDir;
@@ -46,7 +47,7 @@ class VenuePage : public PageModel {
   static constexpr StepName stepName{"venue", "relucent::gui::VenuePage",
                                      QT_TRANSLATE_NOOP("relucent::gui::VenuePage", "Venue")};
 
-  enum class Mode { start, rehearse, script, devices, screen };
+  enum class Mode { start, rehearse, script, devices, screen, programs };
   /// What has to be changed before the venue can begin.
   enum class Remedy { none, name, folder, screen, consent };
 
@@ -65,6 +66,8 @@ class VenuePage : public PageModel {
   bool usesInspector() const override { return mode_ != Mode::start; }
 
   Mode mode() const { return mode_; }
+  /// What is chosen is for the calibration that is open, not for a new one.
+  bool isOfOpenVenue() const { return mode_ == Mode::screen || mode_ == Mode::programs; }
   void setMode(Mode mode);
   QList<RecentVenue> recent() const { return recent_.list(); }
   bool isOpenNow(const RecentVenue& venue) const;
@@ -140,6 +143,9 @@ class VenuePage : public PageModel {
 
   /// Of the new calibration.
   QString venueName() const { return venueName_; }
+  /// The programs of the calibration that is open, in the mode `programs`.
+  VenuePrograms& openPrograms() { return openPrograms_; }
+  const VenuePrograms& openPrograms() const { return openPrograms_; }
   void setVenueName(const QString& name);
   QString folder() const { return parent_; }
   void setFolder(const QString& folder);
@@ -193,6 +199,7 @@ class VenuePage : public PageModel {
   void suggestName();
   QString target() const { return parent_ + '/' + venueName_; }
 
+  void usePrograms();
   Session& session_;
   RecentVenues recent_;
   VenueKeeping keeping_;
@@ -204,6 +211,7 @@ class VenuePage : public PageModel {
   Mode mode_ = Mode::start;
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
+  VenuePrograms openPrograms_;
   std::size_t venue_ = 0, size_ = 0;
   std::vector<venue::Surprise> surprises_;
   std::optional<std::uint64_t> surpriseSeed_;
@@ -217,7 +225,7 @@ class VenuePage : public PageModel {
   QString usualFolder_;
   bool roomClear_ = false;
   bool named_ = false;  // by the user
-  PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_;
+  PageCommand *checkCamera_, *begin_, *useScreen_, *changeScreen_, *usePrograms_, *changePrograms_;
   PageCommand *remove_, *keepVenue_, *allowPrograms_, *openWithout_;  // of a question
 };
 

@@ -131,6 +131,12 @@ VenuePage::Problem VenuePage::firstProblem() const {
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)
     return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), Remedy::folder};
+  if (mode_ == Mode::programs) {
+    if (!openPrograms_.isChangeable())
+      return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
+    if (!openPrograms_.isDifferent()) return {tr("Type another command.")};
+    return {openPrograms_.problem()};
+  }
   if (needsConsent() && !roomClear_) return {tr("Confirm that the room is clear."), Remedy::consent};
   return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <QString>
 #include <QWidget>
 
 namespace relucent::gui {
@@ -18,6 +19,12 @@ QWidget* devicesInspector(VenuePage& model);
 /// Another screen for the calibration that is open.
 QWidget* screenStage(VenuePage& model);
 QWidget* screenInspector(VenuePage& model);
+/// Other commands for the calibration that is open, where it has any.
+QWidget* programsStage(VenuePage& model);
+QWidget* programsInspector(VenuePage& model);
+/// What such a command has to do.
+QString showingProgram();
+QString photographingProgram();
 /// A list of screens is shown where one has to be chosen first.
 void pointOutScreens(VenuePage& model, QWidget* list);
 /// The warning of flashing light with its tick, for venues that are begun with real devices.

@@ -46,10 +46,8 @@ QWidget* scriptStage(VenuePage& model) {
   commandLine(model, programs->body(),
               VenuePage::tr("Shows the file {image} and ends as soon as the projector shines it"),
               "show-on-projector {image}", &pipeline::CommandRigSettings::projectorCommand);
-  commandLine(
-      model, programs->body(),
-      VenuePage::tr("Photographs {exposure} seconds into the file {output}: float EXR, 16-bit PNG or TIFF"),
-      "photograph --seconds {exposure} --to {output}", &pipeline::CommandRigSettings::cameraCommand);
+  commandLine(model, programs->body(), photographingProgram(),
+              "photograph --seconds {exposure} --to {output}", &pipeline::CommandRigSettings::cameraCommand);
   programs->body()->addStretch(1);
   column->addWidget(programs, 1);
   return stage;

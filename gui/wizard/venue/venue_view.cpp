@@ -94,12 +94,12 @@ PageView viewOf(VenuePage& model) {
   auto* stages = new QWidget;
   auto* column = new QVBoxLayout(stages);
   column->setContentsMargins(0, 0, 0, 0);
-  const QList<QWidget*> each{startStage(model), rehearseStage(model), scriptStage(model), devicesStage(model),
-                             screenStage(model)};
+  const QList<QWidget*> each{startStage(model),   rehearseStage(model), scriptStage(model),
+                             devicesStage(model), screenStage(model),   programsStage(model)};
   for (QWidget* stage : each) column->addWidget(stage);
   auto* inspectors = new QStackedWidget;
   for (QWidget* inspector : {new QWidget, rehearseInspector(model), scriptInspector(model),
-                             devicesInspector(model), screenInspector(model)})
+                             devicesInspector(model), screenInspector(model), programsInspector(model)})
     inspectors->addWidget(inspector);
   auto refresh = [&model, each, inspectors] {
     int mode = static_cast<int>(model.mode());

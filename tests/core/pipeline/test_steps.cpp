@@ -13,6 +13,7 @@
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/devices.h"
 #include "relucent/pipeline/measured_again.h"
 #include "relucent/pipeline/measured_venue.h"
@@ -169,6 +170,46 @@ class TestSteps : public QObject {
     screen.display.connector = "VGA-1";
     changeRig(folder, screen);
     QVERIFY(std::get<ScreenRigSettings>(settingsOf(folder).rig).display == screen.display);
+  }
+
+  /// Law: other commands reach the same devices. Nothing is stale, and what was measured stays on record.
+  void otherCommandsReachTheSameDevices() {
+    CalibrateSettings settings = tiny();
+    CommandRigSettings script;
+    script.projectorCommand = "show {image}";
+    script.cameraCommand = "shoot {exposure} {output}";
+    script.projector = {24, 18};
+    script.moreCameras.push_back({.command = {}, .address = "command:second {exposure} {output}"});
+    settings.rig = script;
+    CalibrationFolder folder = beginCalibration(path("commands"), settings);
+    folder.store(Stage::linearization, fingerprintOf(folder, Stage::linearization), Json::object());
+    folder.store(Stage::acquisition, fingerprintOf(folder, Stage::acquisition), Json::object());
+    decideEverything(folder);
+    const std::vector<std::string> before = commandsOf(settings.rig);
+    std::vector<std::string> typed = before;
+    typed[1] = "shoot --raw {exposure} {output}";
+    typed[2] = "third {exposure} {output}";
+    changeCommands(folder, typed);
+    QCOMPARE(commandsOf(settingsOf(folder).rig), typed);
+    QCOMPARE(commandsOf(measuredRigOf(folder)), before);
+    for (Stage step : allValues<Stage>())
+      QVERIFY2(progressOf(folder, step) == StageProgress::done, nameOf(step).data());
+    CalibrateSettings changed = settingsOf(folder);
+    changed.clustering.patchRadius = 5.0;
+    changeSettings(folder, changed);
+    QCOMPARE(commandsOf(settingsOf(folder).rig), typed);
+    QVERIFY(rigToJson(withCommands(settings.rig, before)) == rigToJson(settings.rig));
+
+    for (const std::vector<std::string>& wrong :
+         {std::vector<std::string>{"show {image}"}, {"show", typed[1], typed[2]}, {typed[0], "", typed[2]}})
+      QVERIFY_THROWS_EXCEPTION(Error, changeCommands(folder, wrong));
+    CalibrationFolder simulated = beginCalibration(path("no-commands"), tiny());
+    QVERIFY_THROWS_EXCEPTION(Error, changeCommands(simulated, typed));
+    // Somebody's by hand.
+    Json broken = folder.settings();
+    broken["commands"] = 7;
+    folder.setSettings(broken);
+    QVERIFY_THROWS_EXCEPTION(Error, settingsOf(folder));
   }
 
   void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {

@@ -10,6 +10,7 @@
 #include "jobs/live_rig.h"
 #include "relucent/base/error.h"
 #include "relucent/devices/check/screen_proof.h"
+#include "relucent/devices/command/shell_command.h"
 
 using namespace relucent;
 using namespace relucent::devices;
@@ -49,6 +50,22 @@ class TestJob : public QObject {
     QVERIFY(told(Error(ErrorKind::device, Message::plain("the camera does not answer"),
                        Message::plain("plug it in")))
                 .heading.isEmpty());
+  }
+
+  /// Law: which command ended how, and where another is typed.
+  void aCommandThatFailsIsNamed() {
+    std::exception_ptr thrown;
+    try {
+      devices::runShellCommand("echo no lamp; exit 3", std::chrono::seconds(30), "projector command");
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    const Failure failure = failureOf(thrown);
+    QVERIFY(failure.heading.contains("program"));
+    QVERIFY2(failure.what.contains("status 3") && failure.what.contains("no lamp"), qPrintable(failure.what));
+    QVERIFY2(
+        failure.advice.contains("echo no lamp; exit 3") && failure.advice.contains("Change the programs"),
+        qPrintable(failure.advice));
   }
 
   /// Law: what is under way is called so in the language that the user has, from the moment he chooses it.

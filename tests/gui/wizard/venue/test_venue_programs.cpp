@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A venue of a stranger names programs as its devices: none of them runs before somebody has agreed.
+#include <QLineEdit>
 #include <QSignalSpy>
 #include <QtTest>
 
@@ -8,6 +9,7 @@
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/measuring.h"
 #include "wizard/venue/venue_page.h"
+#include "wizard/venue/venue_view.h"
 
 using namespace relucent;
 using namespace relucent::gui;
@@ -83,6 +85,41 @@ class TestVenuePrograms : public QObject {
     QSignalSpy asked(page_.get(), &PageModel::failed);
     page_->open(own_->folder.filePath("Stranger's"));
     QCOMPARE(asked.size(), 0);
+  }
+
+  /// Law: another command takes the place of one that fails, whatever was measured; who types it agrees.
+  void commandsAreChangedLater() {
+    page_->open(own_->folder.filePath("Stranger's"));
+    devices::giveConsent(pipeline::commandsOf(script()));
+    page_->open(own_->folder.filePath("Stranger's"));
+    QVERIFY(own_->session.isOpen());
+    QVERIFY(page_->secondary().size() == 1 && page_->secondary().front()->isEnabled());
+    const PageView view = viewOf(*page_);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    page_->secondary().front()->trigger();
+    QVERIFY(page_->mode() == VenuePage::Mode::programs && page_->isOfOpenVenue());
+    QVERIFY(!page_->primary()->isEnabled());
+    auto* shows = stage->findChild<QLineEdit*>("program-1");
+    auto* photographs = stage->findChild<QLineEdit*>("program-2");
+    QVERIFY(shows != nullptr && photographs != nullptr);
+    QCOMPARE(photographs->text(), QString::fromStdString(script().cameraCommand));
+    photographs->clear();
+    QTest::keyClicks(photographs, "shoot {exposure}");
+    QVERIFY2(page_->problem().contains("{output}"), qPrintable(page_->problem()));
+    QTest::keyClicks(photographs, " {output}");
+    QCOMPARE(page_->problem(), QString());
+    page_->primary()->trigger();
+    QVERIFY(page_->mode() == VenuePage::Mode::start);
+    const std::vector<std::string> now{script().projectorCommand, "shoot {exposure} {output}"};
+    QCOMPARE(pipeline::commandsOf(own_->session.settings().rig), now);
+    QVERIFY(devices::withoutConsent(now).empty());
+    DeviceLease lease = own_->session.leaseDevices(VenuePage::stepName);
+    QVERIFY(page_->secondary().empty());
+  }
+
+  void aVenueWithoutProgramsOffersNone() {
+    own_->begin();
+    QVERIFY(page_->secondary().empty());
   }
 
   void commandsOfRigs() {

@@ -332,6 +332,17 @@ void VenuePage::setScript(const pipeline::CommandRigSettings& script) {
   tellSettings();
 }
 
+void VenuePage::chooseScriptScreen(const ScreenChoice& choice) {
+  scriptScreen_ = choice;
+  script_.projector = choice.size;
+  tellSettings();
+}
+
+bool VenuePage::isScriptOnScreen() const {
+  return mode_ == Mode::script && scriptScreen_ &&
+         QString::fromStdString(script_.projectorCommand).trimmed().isEmpty();
+}
+
 void VenuePage::setVenueName(const QString& name) {
   venueName_ = name;
   named_ = !name.isEmpty();
@@ -367,6 +378,16 @@ void VenuePage::useScreen() {
   }
 }
 
+void VenuePage::usePrograms() {
+  if (!problem().isEmpty()) return;
+  try {
+    openPrograms_.apply();
+    setMode(Mode::start);
+  } catch (...) {
+    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
+  }
+}
+
 void VenuePage::begin() {
   if (isOfOpenVenue() || !problem().isEmpty()) return;
   whenNothingEnds([this] { beginNow(); });
@@ -378,16 +399,6 @@ void VenuePage::beginNow() {
     bool clear = roomClear_;  // begun, the page starts over
     // Whoever types a command agrees to it.
     devices::giveConsent(pipeline::commandsOf(wanted().rig));
-void VenuePage::usePrograms() {
-  if (!problem().isEmpty()) return;
-  try {
-    openPrograms_.apply();
-    setMode(Mode::start);
-  } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
-  }
-}
-
     session_.begin(target().toStdString(), wanted(), surprisesWanted());
     session_.setRoomClear(clear);
     network_.clear();

@@ -106,6 +106,10 @@ class VenuePage : public PageModel {
 
   const pipeline::CommandRigSettings& script() const { return script_; }
   void setScript(const pipeline::CommandRigSettings& script);
+  /// A screen that shines there. Its pixels are the projector's.
+  void chooseScriptScreen(const ScreenChoice& choice);
+  /// Relucent shows the pictures on the chosen screen itself: no command is named for that.
+  bool isScriptOnScreen() const;
 
   /// Screens of the desktop as projectors, and cameras, in the mode `devices`.
   const pipeline::ScreenRigSettings& screen() const { return screen_; }
@@ -139,13 +143,13 @@ class VenuePage : public PageModel {
   /// The screen of the calibration that is open, in the mode `screen`.
   VenueScreen& openScreen() { return openScreen_; }
   const VenueScreen& openScreen() const { return openScreen_; }
+  /// The programs of the calibration that is open, in the mode `programs`.
+  VenuePrograms& openPrograms() { return openPrograms_; }
+  const VenuePrograms& openPrograms() const { return openPrograms_; }
   const Session& session() const { return session_; }
 
   /// Of the new calibration.
   QString venueName() const { return venueName_; }
-  /// The programs of the calibration that is open, in the mode `programs`.
-  VenuePrograms& openPrograms() { return openPrograms_; }
-  const VenuePrograms& openPrograms() const { return openPrograms_; }
   void setVenueName(const QString& name);
   QString folder() const { return parent_; }
   void setFolder(const QString& folder);
@@ -195,11 +199,11 @@ class VenuePage : public PageModel {
   /// At once, or once somebody has agreed to the end of what is under way.
   void whenNothingEnds(std::function<void()> work);
   void useScreen();
+  void usePrograms();
   void reportNoVenue(const QDir& folder);
   void suggestName();
   QString target() const { return parent_ + '/' + venueName_; }
 
-  void usePrograms();
   Session& session_;
   RecentVenues recent_;
   VenueKeeping keeping_;
@@ -207,15 +211,16 @@ class VenuePage : public PageModel {
   QString toOpen_;        // likewise, and these are its programs
   std::vector<std::string> programs_;
   VenueScreen openScreen_;
+  VenuePrograms openPrograms_;
   EndQuestion endQuestion_;
   Mode mode_ = Mode::start;
   std::vector<RehearsalVenue> venues_;
   std::vector<RehearsalSize> sizes_;
-  VenuePrograms openPrograms_;
   std::size_t venue_ = 0, size_ = 0;
   std::vector<venue::Surprise> surprises_;
   std::optional<std::uint64_t> surpriseSeed_;
   pipeline::CommandRigSettings script_;
+  std::optional<ScreenChoice> scriptScreen_;
   pipeline::ScreenRigSettings screen_;
   std::size_t projector_ = 0;
   CameraFinder finder_;

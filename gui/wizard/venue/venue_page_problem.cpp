@@ -9,6 +9,8 @@
 #include "jobs/free_space.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/message.h"
+#include "relucent/devices/camera_address.h"
+#include "relucent/devices/command/command_camera.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
 #include "wizard/venue/venue_page.h"
@@ -22,6 +24,17 @@ constexpr double meanExposure = 0.1;  // seconds
 
 bool hasOneScreen() {
   return QGuiApplication::screens().size() == 1;
+}
+
+/// A screen that Relucent shows on, and a camera by command.
+pipeline::ScreenRigSettings screenOfScript(const pipeline::CommandRigSettings& script,
+                                           const ScreenChoice& screen) {
+  pipeline::ScreenRigSettings rig = withScreen({}, screen);
+  rig.cameraAddress = devices::toString({devices::CommandCamera::kind, script.cameraCommand});
+  rig.camera = script.camera;
+  rig.shortestExposure = script.shortestExposure;
+  rig.longestExposure = script.longestExposure;
+  return rig;
 }
 
 /// What photographs take that a page knows of by size alone: the forecast then asks for no more.
@@ -43,7 +56,9 @@ std::uint64_t VenuePage::freeBytes() const {
 pipeline::CalibrateSettings VenuePage::wanted() const {
   pipeline::CalibrateSettings settings;
   if (isReal()) {
-    if (mode_ == Mode::script)
+    if (isScriptOnScreen())
+      settings.rig = screenOfScript(script_, *scriptScreen_);
+    else if (mode_ == Mode::script)
       settings.rig = script_;
     else
       settings.rig = screen_;
@@ -116,6 +131,12 @@ VenuePage::Problem VenuePage::firstProblem() const {
       return {tr("That screen is projector %1. Choose another screen.").arg(*other + 1), Remedy::screen};
     return {};
   }
+  if (mode_ == Mode::programs) {
+    if (!openPrograms_.isChangeable())
+      return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
+    if (!openPrograms_.isDifferent()) return {tr("Type another command.")};
+    return {openPrograms_.problem()};
+  }
   if (venueName_.trimmed().isEmpty()) return {tr("Give the venue a name."), Remedy::name};
   if (venueName_.contains('/')) return {tr("A name cannot hold a slash."), Remedy::name};
   if (QFileInfo::exists(target()))
@@ -127,16 +148,20 @@ VenuePage::Problem VenuePage::firstProblem() const {
             Remedy::screen};
   if (const QString wrong = network_.problem(projectors().size()); mode_ == Mode::devices && !wrong.isEmpty())
     return {wrong};
+  if (mode_ == Mode::script && script_.projectorCommand.empty() && !scriptScreen_)
+    return {tr("Choose the projector's screen, or type the command that shows."), Remedy::screen};
+  if (isScriptOnScreen()) {
+    // What is said of a venue that is all by script, but for the program that is not needed.
+    pipeline::CalibrateSettings seen;
+    pipeline::CommandRigSettings script = script_;
+    script.projectorCommand = "{image}";
+    seen.rig = script;
+    if (std::vector<Message> found = problems(seen); !found.empty()) return {fullSentence(found.front())};
+  }
   if (std::vector<Message> found = problems(wanted()); !found.empty()) return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)
     return {tr("Free %1 or choose another folder.").arg(bytesText(needed - free)), Remedy::folder};
-  if (mode_ == Mode::programs) {
-    if (!openPrograms_.isChangeable())
-      return {tr("The devices are in use at %1.").arg(session_.devicesUserName())};
-    if (!openPrograms_.isDifferent()) return {tr("Type another command.")};
-    return {openPrograms_.problem()};
-  }
   if (needsConsent() && !roomClear_) return {tr("Confirm that the room is clear."), Remedy::consent};
   return {};
 }

@@ -34,17 +34,14 @@ QWidget* scriptStage(VenuePage& model) {
   auto* column = new QVBoxLayout(stage);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(space::gap);
-  Card* screens = screensCard(stage, new ScreenList([&model](const ScreenChoice& choice) {
-                                pipeline::CommandRigSettings script = model.script();
-                                script.projector = choice.size;
-                                model.setScript(script);
-                              }));
-  screens->setSubtitle(VenuePage::tr("For its pixels alone: a program of yours shows the pictures on it."));
+  auto* list = new ScreenList([&model](const ScreenChoice& choice) { model.chooseScriptScreen(choice); });
+  Card* screens = screensCard(stage, list);
+  pointOutScreens(model, list);
+  screens->setSubtitle(VenuePage::tr("Relucent shows the pictures on it, unless a program of yours does."));
   column->addWidget(screens, 1);
   auto* programs = new Card(VenuePage::tr("Programs"));
   programs->setSubtitle(VenuePage::tr("Any projector and any camera that a command can drive"));
-  commandLine(model, programs->body(),
-              VenuePage::tr("Shows the file {image} and ends as soon as the projector shines it"),
+  commandLine(model, programs->body(), VenuePage::tr("Not needed with a screen. %1").arg(showingProgram()),
               "show-on-projector {image}", &pipeline::CommandRigSettings::projectorCommand);
   commandLine(model, programs->body(), photographingProgram(),
               "photograph --seconds {exposure} --to {output}", &pipeline::CommandRigSettings::cameraCommand);
@@ -73,6 +70,7 @@ QWidget* scriptInspector(VenuePage& model) {
     });
     QObject::connect(&model, &VenuePage::settingsChanged, box, [&model, box, side] {
       QSignalBlocker quiet(box);
+      box->setEnabled(!model.isScriptOnScreen());
       box->setValue(model.script().projector.*side);
     });
     row->addWidget(box);

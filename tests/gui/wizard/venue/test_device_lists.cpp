@@ -89,6 +89,34 @@ class TestDeviceLists : public QObject {
     QVERIFY2(words().contains(VenuePage::tr("New venue by script")), qPrintable(words()));
   }
 
+  /// Law: a screen needs no program to show on it, and then no more is asked of the projector.
+  void aScreenGoesWithACameraByCommand() {
+    page_->setMode(VenuePage::Mode::script);
+    page_->setRoomClear(true);
+    QVERIFY2(page_->problem().contains("screen"), qPrintable(page_->problem()));
+    QVERIFY(page_->remedy() == VenuePage::Remedy::screen);
+    page_->chooseScriptScreen(choiceOf(*page_, "HDMI-1"));
+    QVERIFY(page_->isScriptOnScreen());
+    QVERIFY2(page_->problem().contains("camera"), qPrintable(page_->problem()));
+    CommandRigSettings script = page_->script();
+    script.cameraCommand = "shoot {exposure} {output}";
+    page_->setScript(script);
+    QCOMPARE(page_->problem(), QString());
+    script.projectorCommand = "show {image}";
+    page_->setScript(script);
+    QVERIFY(!page_->isScriptOnScreen());
+    script.projectorCommand = " ";
+    page_->setScript(script);
+    page_->primary()->trigger();
+    const ScreenRigSettings* rig = own_->session.screenRig();
+    QVERIFY(rig != nullptr);
+    QCOMPARE(rig->display.connector, std::string("HDMI-1"));
+    QCOMPARE(rig->cameraAddress, std::string("command:shoot {exposure} {output}"));
+    // Its command can be changed, and its screen.
+    QCOMPARE(page_->openPrograms().typed(), std::vector<std::string>{"shoot {exposure} {output}"});
+    QCOMPARE(page_->openPrograms().projectors(), std::size_t{0});
+  }
+
   /// Law: with one projector another screen takes the place of the one before.
   void oneProjectorHasTheScreenThatIsChosen() {
     QVERIFY(page_->projectors().empty() && !page_->mayAddProjector());

@@ -209,8 +209,11 @@ std::optional<sentinels::Interruption> Measurement::refine(Progress& part) {
     before = error;
   }
   isStopped_ = !isFine && part.stopAndKeep();
-  if (auto interrupted = settle(rows_.judge(), part)) return interrupted;
+  Progress working =
+      part.part(1.0, RELUCENT_MESSAGE("stage.working-out-finest-blocks", "working out the finest blocks"));
+  if (auto interrupted = settle(rows_.judge(), working)) return interrupted;
   tellDraft(error);
+  working.report(0.5);
   rows_.divide();
   return std::nullopt;
 }

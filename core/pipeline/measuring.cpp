@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/measuring.h"
 
+#include <algorithm>
+#include <array>
+
 #include "relucent/acquisition/acquisition.h"
 #include "relucent/acquisition/forecast.h"
 #include "relucent/base/error.h"
@@ -134,8 +137,11 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   const acquisition::AcquisitionSettings settings = settingsOf(folder).acquisition;
   RecordingObserver recording(observer, recorded);
   OutlookObserver looking(recording, outlook);
+  Progress photographing = progress.part(photographedShare, progress.stage());
   transport::Acquisition acquisition = acquisition::acquire(
-      {shots, linearization, settings, patientHandler(handler, stage), &looking}, progress);
+      {shots, linearization, settings, patientHandler(handler, stage), &looking}, photographing);
+  Progress concluding = progress.part(
+      1.0, RELUCENT_MESSAGE("stage.concluding-measurement", "what may be expected of the result"));
   if (std::optional<Outlook> last = lastOf(looking)) {
     acquisition.expected = {last->now, last->now};
     // The test patterns are photographed anew when it goes on.
@@ -152,6 +158,9 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   if (std::optional<Message> poor = poorQuality(acquisition.expected))
     acquisition.findings.insert(acquisition.findings.begin(), *std::move(poor));
   stage.waitForResult(bytesOf(acquisition));
+  concluding.report(0.5);
+  Progress storing =
+      concluding.part(0.5, RELUCENT_MESSAGE("stage.storing-light-transport", "storing the light transport"));
   const calibration::StageResult stored =
       calibration::storeAcquisition(folder, inputs, acquisition, costOf(stage.seconds(), shots));
   saveAcquisitionRecord(recording.record(), stored.folder);
@@ -236,6 +245,13 @@ transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig
               : acquired(folder, rig, linearization, handler, observer, outlook, room, progress);
   removePhotographs(folder);
   return acquisition;
+}
+
+bool isWorkingOut(std::string_view stage) {
+  constexpr std::array<std::string_view, 4> stages{"stage.working-out-finest-blocks", "stage.sharing-leaves",
+                                                   "stage.concluding-measurement",
+                                                   "stage.storing-light-transport"};
+  return std::ranges::find(stages, stage) != stages.end();
 }
 
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string_view>
+
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/room_on_disk.h"
 #include "relucent/linearization/linearization.h"
@@ -52,6 +54,11 @@ transport::Acquisition goOnMeasuring(calibration::CalibrationFolder& folder, rig
                                      sentinels::AcquisitionObserver& observer,
                                      const OutlookObserver::Tell& outlook, calibration::RoomWaiter* room,
                                      Progress& progress);
+/// Of the progress of measureAcquisition() and goOnMeasuring(): the share after which no photograph is taken
+/// any more, and the result is worked out and stored.
+constexpr double photographedShare = 0.95;
+/// The parts of that progress in which no photograph is taken, by the ids of their names.
+bool isWorkingOut(std::string_view stage);
 /// Chooses the windows' ridge and keeps it, unless that is done. Throws: as invert(); Error{disk}.
 void measureInverse(calibration::CalibrationFolder& folder, const compensation::MeasuredVenue& venue,
                     Progress& progress);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "jobs/failure.h"
 #include "relucent/base/progress.h"
@@ -41,6 +42,8 @@ class Job : public QObject {
   double fraction() const { return fraction_; }
   /// In the language that the user has now.
   QString stage() const;
+  /// Which one it is, in no language.
+  std::string stageId() const { return std::string(stage_.id()); }
   /// Of the last work that failed.
   const Failure& failure() const { return failure_; }
 

@@ -114,6 +114,7 @@ StepStatus AcquirePage::status() const {
   if (isReading()) return {StepState::busy, tr("Reading, %1").arg(share), hasResult};
   if (isCountingDown())
     return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
+  if (isWorkingOut()) return {StepState::busy, tr("Working out, %1").arg(share), hasResult};
   if (isMeasuring()) return {StepState::busy, tr("Measuring, %1").arg(share), hasResult};
   switch (session_.progress(calibration::Stage::acquisition)) {
     case calibration::StageProgress::done:

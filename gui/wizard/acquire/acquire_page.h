@@ -80,6 +80,8 @@ class AcquirePage : public DevicePage {
   bool isAsking() const { return asking_ != nullptr; }
   /// Photographs that are kept are read, and computed with again, before the first new one is taken.
   bool isReading() const;
+  /// Photographs are not taken at the moment, but what they say is worked out.
+  bool isWorkingOut() const;
   /// Of those.
   PatternCount reading() const;
   bool isStopping() const { return isMeasuring() && job_.isStopping(); }

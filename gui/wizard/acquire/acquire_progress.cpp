@@ -24,7 +24,15 @@ LiveRig::Taken takenOf(const Session& session) {
 std::optional<double> AcquirePage::progress() const {
   if (!isMeasuring()) return std::nullopt;
   const PatternCount count = patterns();
-  return std::min(mostBeforeTheEnd, static_cast<double>(count.taken) / std::max(1, count.expected));
+  const double photographed =
+      pipeline::photographedShare * static_cast<double>(count.taken) / std::max(1, count.expected);
+  // After the last photograph, how far its result is; before it, photographs tell better.
+  const bool isConcluding = isWorkingOut() && job_.fraction() > pipeline::photographedShare;
+  return std::min(mostBeforeTheEnd, isConcluding ? job_.fraction() : photographed);
+}
+
+bool AcquirePage::isWorkingOut() const {
+  return isMeasuring() && pipeline::isWorkingOut(job_.stageId());
 }
 
 int AcquirePage::photographs() const {
@@ -77,7 +85,8 @@ void AcquirePage::expect(const WorkLeft& left) {
 
 std::optional<double> AcquirePage::secondsLeft() const {
   if (isReading()) return readingTime_.seconds(std::chrono::steady_clock::now());
-  if (!isMeasuring() || photographs() < photographsBeforeTime) return std::nullopt;
+  // What is expected is of photographs.
+  if (!isMeasuring() || isWorkingOut() || photographs() < photographsBeforeTime) return std::nullopt;
   const PatternCount count = patterns();
   if (count.taken >= count.expected || !(secondsAPattern_ > 0.0)) return std::nullopt;
   return secondsAPattern_ * (count.expected - count.taken);

@@ -130,9 +130,10 @@ QWidget* stageOf(AcquirePage& model) {
 QString timeText(const AcquirePage& model) {
   const std::optional<double> seconds = model.secondsLeft();
   if (!seconds)
-    return model.isHeldUp()    ? AcquirePage::tr("Paused")
-           : model.isReading() ? AcquirePage::tr("Reading")
-                               : AcquirePage::tr("Measuring");
+    return model.isHeldUp()       ? AcquirePage::tr("Paused")
+           : model.isReading()    ? AcquirePage::tr("Reading")
+           : model.isWorkingOut() ? AcquirePage::tr("Working out the result")
+                                  : AcquirePage::tr("Measuring");
   const bool isShort = isUnderAMinute(*seconds);
   const QString left = text(expectedDuration(*seconds));
   if (model.isReading())

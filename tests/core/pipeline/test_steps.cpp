@@ -212,6 +212,31 @@ class TestSteps : public QObject {
     QVERIFY_THROWS_EXCEPTION(Error, settingsOf(folder));
   }
 
+  /// Law: what is made of the photographs is part of the one progress, under names of its own.
+  void theResultIsWorkedOutWithinTheProgress() {
+    struct Sink : ProgressSink {
+      std::vector<std::pair<std::string, double>> reports;
+      void progressed(double fraction, const Message& stage) override {
+        reports.emplace_back(stage.id(), fraction);
+      }
+    } sink;
+    Progress quiet;
+    CalibrationFolder folder = beginCalibration(path("worked out"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    const Linearization linearization = measureLinearization(folder, devices.rig, quiet);
+    StopRequest nobody;
+    Progress progress(sink, nobody);
+    measureAcquisition(folder, devices.rig, linearization, {}, progress);
+    std::set<std::string> after, before;
+    for (const auto& [stage, fraction] : sink.reports)
+      (fraction >= photographedShare && isWorkingOut(stage) ? after : before).insert(stage);
+    QVERIFY(after.contains("stage.concluding-measurement") &&
+            after.contains("stage.storing-light-transport"));
+    QVERIFY(before.contains("stage.working-out-finest-blocks") && before.contains("stage.test-patterns"));
+    QVERIFY(!isWorkingOut("stage.test-patterns") && !isWorkingOut("stage.dense-patterns"));
+    QCOMPARE(sink.reports.back().first, std::string("stage.storing-light-transport"));
+  }
+
   void aChangedSettingMakesWhatFollowsStaleAndSettingItBackMakesItCurrent() {
     CalibrationFolder folder = beginCalibration(path("stale"), tiny());
     decideEverything(folder);

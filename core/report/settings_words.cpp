@@ -102,7 +102,7 @@ std::string methodWords(compensation::Method method) {
   using compensation::Method;
   switch (method) {
     case Method::none:
-      return "none";
+      return "uncorrected";
     case Method::scalar:
       return "each pixel's brightness";
     case Method::mix:
@@ -118,7 +118,7 @@ std::string methodWords(compensation::Method method) {
     case Method::optimum:
       break;
   }
-  return "the best possible for still pictures";
+  return "all bounces, solved, for stills";
 }
 
 const char* brightnessWords(compensation::Brightness brightness) {

@@ -45,6 +45,11 @@ MainWindow::MainWindow(Session& session, Wizard& wizard, Preferences& preference
       views_(std::move(views)),
       endQuestion_(session) {
   setWindowTitle("Relucent");
+  const auto tellVenue = [this, &session] {
+    setWindowFilePath(QString::fromStdString(session.path().string()));
+  };
+  connect(&session, &Session::opened, this, tellVenue);
+  tellVenue();
   setAcceptDrops(true);
   auto* whole = new QWidget;
   setRole(whole, "window");

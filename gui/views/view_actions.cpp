@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
 #include <QRegularExpression>
 #include <QStandardPaths>
@@ -36,7 +37,8 @@ void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>
     QAction* action = button.menu()->addAction(text);
     QObject::connect(action, &QAction::triggered, &card, [=, &button] {
       QString path = QFileDialog::getSaveFileName(
-          button.window(), title, suggestedFile(shown().view.accessibleName(), ending), filter);
+          button.window(), title,
+          suggestedFile(button.window()->windowFilePath(), shown().view.accessibleName(), ending), filter);
       if (path.isEmpty()) return;
       if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
       try {
@@ -58,9 +60,11 @@ void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>
 
 }  // namespace
 
-QString suggestedFile(const QString& shown, const QString& ending) {
+QString suggestedFile(const QString& venue, const QString& shown, const QString& ending) {
   static const QRegularExpression refused(R"([/\\:*?"<>|\x00-\x1f])");
-  QString name = shown;
+  QStringList parts{QFileInfo(venue).fileName(), shown.simplified()};
+  parts.removeAll(QString());
+  QString name = parts.join(", ");
   name.replace(refused, " ");
   if (name.simplified().isEmpty()) name = QCoreApplication::applicationName();
   return QDir(QStandardPaths::writableLocation(QStandardPaths::PicturesLocation))

@@ -32,9 +32,10 @@ struct ShownView {
 void addViewMenu(Card& card, const std::function<ShownView()>& shown,
                  const std::function<void(const Failure&)>& failed);
 
-/// Where a view is saved unless somebody says otherwise: the pictures' folder, a name after what it shows
-/// that every file system takes. `ending`: with its dot.
-QString suggestedFile(const QString& shown, const QString& ending);
+/// Where a view is saved unless somebody says otherwise: the pictures' folder, a name after the venue and
+/// what the view shows, that every file system takes. `venue`: its folder, which a window tells as
+/// windowFilePath(); empty: none is open. `ending`: with its dot.
+QString suggestedFile(const QString& venue, const QString& shown, const QString& ending);
 
 /// What the view shows, or its numbers, by the name's ending: .png or .exr.
 /// Throws: Error{input} for another ending or without numbers, Error{disk}.

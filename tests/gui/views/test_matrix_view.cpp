@@ -191,11 +191,14 @@ class TestMatrixView : public QObject {
   void aFileIsSuggested() {
     QFETCH(QString, shown);
     QFETCH(QString, name);
-    const QFileInfo file(suggestedFile(shown, ".png"));
+    const QFileInfo file(suggestedFile({}, shown, ".png"));
     QCOMPARE(file.fileName(), name);
     QVERIFY(file.isAbsolute());
+    QCOMPARE(QFileInfo(suggestedFile("/venues/Chapel", shown, ".png")).fileName(), "Chapel, " + name);
   }
-  void aFileHasANameWhateverIsShown() { QVERIFY(!QFileInfo(suggestedFile({}, ".png")).baseName().isEmpty()); }
+  void aFileHasANameWhateverIsShown() {
+    QVERIFY(!QFileInfo(suggestedFile({}, {}, ".png")).baseName().isEmpty());
+  }
 
   void anotherMatrixTakesItsPlace() {
     OpenedView view;

@@ -10,6 +10,7 @@ struct PieceSize {
   double height = 0.0;
   double gap = 0.0;        // above it, unless it is the first on its page
   bool keepsNext = false;  // a heading: what follows stands on the same page
+  bool likesNext = false;  // the same, unless that leaves half of a page empty
 };
 
 /// Where it stands.
@@ -20,7 +21,8 @@ struct PiecePlace {
 };
 
 /// Fills pages from top to bottom, in order. Pieces that keep their next ones move to the next page together,
-/// unless that page has no room for them either.
+/// unless that page has no room for them either. Where the last page would hold next to nothing, gaps are
+/// smaller if that spares it.
 QList<PiecePlace> placesOf(const QList<PieceSize>& pieces, double pageHeight);
 
 }  // namespace relucent::gui

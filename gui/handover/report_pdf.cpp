@@ -45,8 +45,8 @@ class Pages {
     QList<PieceSize> sizes;
     for (qsizetype i = 0; i < report_.pieces.size(); ++i) {
       const ReportPiece& piece = report_.pieces[i];
-      sizes.append(
-          {documents_[static_cast<std::size_t>(i)]->size().height(), dots(piece.gap), piece.keepsNext});
+      sizes.append({documents_[static_cast<std::size_t>(i)]->size().height(), dots(piece.gap),
+                    piece.keepsNext, piece.likesNext});
     }
     places_ = placesOf(sizes, height_);
   }

@@ -91,8 +91,8 @@ class Parser {
     Open& grid = open_.last();
     if (grid.cells == 0) {
       out_ = "<table width=\"100%\" cellpadding=\"4\"><tr>";
-      // Its rows are one figure: none stands alone on the next page, away from the heading.
-      if (grid.hasRow) found_.pieces.last().keepsNext = true;
+      // Its rows are one figure: at best none stands on the next page, away from the heading.
+      if (grid.hasRow) found_.pieces.last().likesNext = true;
     }
     ++grid.cells;
     out_ += QString("<td width=\"%1%\" valign=\"top\">").arg(100 / grid.columns);

@@ -13,6 +13,7 @@ struct ReportPiece {
   double gap = 0.0;        // above it, points
   bool keepsNext = false;  // a heading and the words below it stand with what they are about
   bool hasRule = false;    // a line above it parts it from what was before
+  bool likesNext = false;  // of one figure with the next
 };
 
 struct ReportPieces {

@@ -118,6 +118,31 @@ class TestReportPdf : public QObject {
     }
   }
 
+  /// Law: no figure that likes to stay together leaves more than half of a page empty.
+  void figuresFillPages() {
+    // A heading, and six rows of pictures below less than half a page of text.
+    QList<PieceSize> pieces{{40, 0, false}, {5, 5, true}};
+    for (int row = 0; row < 6; ++row) pieces.append({14, 1, false, row < 5});
+    const QList<PiecePlace> places = placesOf(pieces, 100.0);
+    QCOMPARE(places[1].page, 0);
+    QCOMPARE(places[2].page, 0);
+    QCOMPARE(places.last().page, 1);
+    // Below more than that they stay together.
+    pieces.front().height = 60;
+    const QList<PiecePlace> together = placesOf(pieces, 100.0);
+    QCOMPARE(together[1].page, 1);
+    QCOMPARE(together.last().page, 1);
+  }
+
+  /// Law: no page holds a line alone that gaps would have room for.
+  void gapsSpareAPage() {
+    QList<PieceSize> pieces;
+    for (int line = 0; line < 6; ++line) pieces.append({15, 4, false});  // 90 and five gaps of 4
+    QCOMPARE(placesOf(pieces, 100.0).last().page, 0);
+    pieces.append({15, 4, false});
+    QCOMPARE(placesOf(pieces, 100.0).last().page, 1);
+  }
+
   void everythingOfTheReportIsAPiece() {
     const ReportPieces found = reportPieces(html(), 640.0);
     QVERIFY(found.title.startsWith("Chapel & altar"));
@@ -144,7 +169,10 @@ class TestReportPdf : public QObject {
         "</div></section>";
     const ReportPieces found = reportPieces("<html><body>" + section + section + "</body></html>", 640.0);
     QCOMPARE(found.pieces.size(), 8);
-    for (qsizetype i = 0; i < found.pieces.size(); ++i) QCOMPARE(found.pieces[i].keepsNext, i % 4 != 3);
+    for (qsizetype i = 0; i < found.pieces.size(); ++i) {
+      QCOMPARE(found.pieces[i].keepsNext, i % 4 < 2);
+      QCOMPARE(found.pieces[i].likesNext, i % 4 == 2);
+    }
   }
 
   void anotherThreadWritesItToo() {

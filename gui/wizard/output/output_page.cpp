@@ -77,7 +77,10 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   connect(&proof_, &OutputProof::failed, this, &OutputPage::tell);
   connect(&proof_, &OutputProof::reported, this, [this](const QString& file) {
     reportFile_ = file;
-    QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+    if (!QDesktopServices::openUrl(QUrl::fromLocalFile(file)))
+      tell({ErrorKind::device, tr("The report is written, but no program here opens it."),
+            tr("Open it by hand, or take it to another computer: %1").arg(file), file,
+            tr("The report cannot be shown")});
     tellResult();
   });
   connect(&perfecting_, &Perfecting::changed, this, &OutputPage::tellResult);

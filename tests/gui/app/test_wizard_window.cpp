@@ -632,6 +632,14 @@ class TestWizardWindow : public QObject {
   void theVenueIsHandedOver() {
     OutputPage& output = wizard_->page<OutputPage>();
     output.setConfigFolder(folder_.filePath("config"));
+    // Where no program opens it, it is said where it lies.
+    QDesktopServices::setUrlHandler("file", this, "nobody");
+    click("report");
+    const auto unopened = [this] { return wizard_->window().findChild<FailureDialog*>(); };
+    QTRY_VERIFY_WITH_TIMEOUT(unopened() != nullptr, patience);
+    QVERIFY(unopened()->windowTitle().contains("report"));
+    QTest::keyClick(unopened(), Qt::Key_Escape);
+    QTRY_VERIFY(unopened() == nullptr);
     QDesktopServices::setUrlHandler("file", this, "show");
     click("report");
     QTRY_VERIFY_WITH_TIMEOUT(shown_.isValid(), patience);

@@ -298,4 +298,10 @@ bool ClusterPage::keepClusters() {
   }
 }
 
+bool isUsualError(const clustering::ClusteringStatistics& statistics) {
+  constexpr double most = 0.85;
+  return statistics.errorMedian <= most &&
+         statistics.cutByPatches >= statistics.cutByCap + statistics.farLight;
+}
+
 }  // namespace relucent::gui

@@ -96,4 +96,8 @@ class ClusterPage : public DevicePage {
   bool isLookedAt_ = false;
 };
 
+/// Whether a grouping's error is what it drops on purpose: the blur of the lens, of which little is sharp and
+/// much is blurred. Beyond that, or where its limits drop more, something else is off.
+bool isUsualError(const clustering::ClusteringStatistics& statistics);
+
 }  // namespace relucent::gui

@@ -163,9 +163,6 @@ class ClusterStage : public QWidget {
   std::shared_ptr<const ClusterResult> shown_;
 };
 
-/// Median errors that a grouping has which only drops what it is meant to drop.
-constexpr std::pair usualError{0.6, 0.85};
-
 /// A slider with its name, value, and what its ends mean.
 class SliderPart : public QWidget {
  public:
@@ -232,11 +229,6 @@ QWidget* inspectorOf(ClusterPage& model) {
                       "which places light each other, and can be compared at Preview."),
       "note"));
   auto* normal = new Note(Note::Kind::information);
-  normal->setText(
-      ClusterPage::tr("An error of 70 to 80 % is normal here."),
-      ClusterPage::tr(
-          "Grouping drops the blur of the lens on purpose. Look for patches that stand out from their "
-          "surroundings."));
   normal->setObjectName("normal-error");
   column->addWidget(normal);
   auto* percolated = new Note(Note::Kind::amber);
@@ -274,8 +266,11 @@ QWidget* inspectorOf(ClusterPage& model) {
     // Of nothing there are no shares.
     const bool isNone = result->sizes.empty();
     const auto shown = [isNone](const QString& value) { return isNone ? QString::fromUtf8("–") : value; };
-    normal->setVisible(result->exact && s.errorMedian >= usualError.first &&
-                       s.errorMedian <= usualError.second);
+    normal->setVisible(result->exact && !isNone && isUsualError(s));
+    normal->setText(ClusterPage::tr("An error of %1 is normal here.").arg(percentText(s.errorMedian)),
+                    ClusterPage::tr("Grouping drops the blur of the lens on purpose: little where it is "
+                                    "sharp, 70 to 80 % where it is "
+                                    "blurred. Look for patches that stand out from their surroundings."));
     clusters->setValue(countText(result->sizes.size()));
     cut->setValue(shown(ClusterPage::tr("%1 of light").arg(percentText(s.cutByCap))));
     kept->setValue(shown(percentText(s.keptLight)));

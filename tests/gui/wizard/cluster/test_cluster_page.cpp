@@ -75,6 +75,28 @@ class TestClusterPage : public QObject {
     session_.reset();
   }
 
+  void errorsThatAreMeantAreUsual_data() {
+    QTest::addColumn<double>("median");
+    QTest::addColumn<double>("cutByPatches");
+    QTest::addColumn<double>("cutByLimits");
+    QTest::addColumn<bool>("isUsual");
+    QTest::newRow("sharp") << 0.29 << 0.2 << 0.05 << true;
+    QTest::newRow("blurred") << 0.75 << 0.6 << 0.1 << true;
+    QTest::newRow("nothing is dropped") << 0.0 << 0.0 << 0.0 << true;
+    QTest::newRow("next to nothing is kept") << 0.95 << 0.8 << 0.1 << false;
+    QTest::newRow("a limit drops more") << 0.29 << 0.05 << 0.2 << false;
+  }
+  void errorsThatAreMeantAreUsual() {
+    QFETCH(double, median);
+    QFETCH(double, cutByPatches);
+    QFETCH(double, cutByLimits);
+    ClusteringStatistics statistics;
+    statistics.errorMedian = median;
+    statistics.cutByPatches = cutByPatches;
+    statistics.cutByCap = statistics.farLight = 0.5 * cutByLimits;
+    QTEST(isUsualError(statistics), "isUsual");
+  }
+
   void theMapComesBeforeItsErrors() {
     QCOMPARE(shown_.size(), std::size_t{2});
     QVERIFY(!shown_[0]->exact && shown_[1]->exact);

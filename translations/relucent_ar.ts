@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>الكاميرا لا ترى جهاز العرض هذا</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>أخفق أحد برامج هذا الموقع</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>يُكتب أمر آخر في خطوة «الموقع»، عبر «غيّر البرامج».</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3831,6 +3839,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>يُترك ما صُوّر منذ الفحص السابق، ويبقى كل ما قبله.</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>جارٍ الحساب، %1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>جارٍ حساب النتيجة</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4585,14 +4601,6 @@
         <translation>وسيط الخطأ</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>الخطأ من 70 إلى 80 % طبيعي هنا.</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>يُسقط التجميع تمويه العدسة عمدًا. ابحث عن بقع تختلف عمّا حولها.</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 بكسل</translation>
     </message>
@@ -4726,6 +4734,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>يحتاج المجسّم إلى OpenGL، وهو غير موجود.</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>الخطأ البالغ ⁨%1⁩ طبيعي هنا.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>يُسقط التجميع تمويه العدسة عمدًا: قليلًا حيث الصورة حادّة، ومن 70 إلى 80 % حيث هي مموّهة. ابحث عن بقع تختلف عمّا حولها.</translation>
     </message>
 </context>
 <context>
@@ -6481,6 +6497,18 @@ projector %2</source>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>لا يوجد سطح مكتب يمكن عرض شاشاته.</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>كُتب التقرير، لكن لا يوجد هنا برنامج يفتحه.</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>افتحه يدويًا، أو انقله إلى حاسوب آخر: ⁨%1⁩</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>يتعذّر عرض التقرير</translation>
     </message>
 </context>
 <context>
@@ -9103,8 +9131,44 @@ projector %2</source>
         <translation>الخطوات نفسها، مع محاكاة جهاز العرض والكاميرا. لا يُعرض شيء ما لم تختر شاشة.</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>لعدد بكسلاتها فقط: برنامج لديك يعرض الصور عليها.</translation>
+        <source>Programs of this venue</source>
+        <translation>برامج هذا الموقع</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>حدّد الأوامر التي تشغّل هذه الأجهزة من الآن. ما قيس يبقى.</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>استخدم هذه الأوامر</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>غيّر البرامج</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>اكتب أمرًا آخر.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>الكاميرا</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>البرنامج الذي يخفق ينتهي بحالة غير 0، وتُعرض معها آخر رسالة له. جرّبه في الطرفية، بملف مكان {image} أو {output} وثوانٍ مكان {exposure}.</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>يعرض Relucent الصور عليها، ما لم يعرضها برنامج لك.</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>غير لازم مع شاشة. %1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>اختر شاشة جهاز العرض، أو اكتب الأمر الذي يعرض.</translation>
     </message>
 </context>
 <context>
@@ -9580,6 +9644,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>ما يُتوقّع من النتيجة</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9981,6 +10052,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>حفظ نقل الضوء</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -10020,6 +10098,13 @@ projector %2</source>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>النوافذ</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>حساب أدقّ الكتل</translation>
     </message>
 </context>
 <context>

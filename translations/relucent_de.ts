@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>Die Kamera sieht diesen Projektor nicht</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>Ein Programm dieses Spielorts ist gescheitert</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>Ein anderer Befehl wird im Schritt „Spielort“ mit „Programme ändern“ eingegeben.</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3743,6 +3751,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>Was seit der letzten Kontrolle davor fotografiert wurde, ist weggelassen; alles davor bleibt.</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>Auswertung, %1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>Ergebnis wird berechnet</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4489,14 +4505,6 @@
         <translation>Fehler (Median)</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>Ein Fehler von 70 bis 80 % ist hier normal.</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>Die Gruppierung lässt die Unschärfe des Objektivs absichtlich weg. Achten Sie auf Stellen, die sich von ihrer Umgebung abheben.</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -4610,6 +4618,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>Reliefs brauchen OpenGL, das fehlt.</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>Ein Fehler von %1 ist hier normal.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>Die Gruppierung lässt die Unschärfe des Objektivs absichtlich weg: wenig, wo es scharf ist, 70 bis 80 %, wo es unscharf ist. Achten Sie auf Stellen, die sich von ihrer Umgebung abheben.</translation>
     </message>
 </context>
 <context>
@@ -6337,6 +6353,18 @@ Projektor %2</translation>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>Es gibt keinen Desktop, dessen Bildschirme gezeigt werden könnten.</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>Der Bericht ist geschrieben, aber kein Programm hier öffnet ihn.</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>Öffnen Sie ihn von Hand, oder nehmen Sie ihn auf einen anderen Computer mit: %1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>Der Bericht kann nicht gezeigt werden</translation>
     </message>
 </context>
 <context>
@@ -8903,8 +8931,44 @@ Projektor %2</translation>
         <translation>Dieselben Schritte, mit simuliertem Projektor und simulierter Kamera. Projiziert wird nichts, außer Sie wählen einen Bildschirm.</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>Nur wegen seiner Pixel: die Bilder zeigt dort ein Programm von Ihnen.</translation>
+        <source>Programs of this venue</source>
+        <translation>Programme dieses Spielorts</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>Geben Sie an, welche Befehle diese Geräte von jetzt an steuern. Das Gemessene bleibt.</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>Diese Befehle verwenden</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>Programme ändern</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>Geben Sie einen anderen Befehl ein.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>Ein Programm, das scheitert, endet mit einem anderen Status als 0. Was es zuletzt sagt, wird dazu gemeldet. Probieren Sie es in einem Terminal aus, mit einer Datei anstelle von {image} oder {output} und Sekunden anstelle von {exposure}.</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>Relucent zeigt die Bilder darauf, falls es nicht ein Programm von Ihnen tut.</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>Mit einem Bildschirm nicht nötig. %1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>Wählen Sie den Bildschirm des Projektors, oder geben Sie den Befehl ein, der zeigt.</translation>
     </message>
 </context>
 <context>
@@ -9380,6 +9444,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>was vom Ergebnis zu erwarten ist</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9773,6 +9844,13 @@ Projektor %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>Speichern des Lichttransports</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9812,6 +9890,13 @@ Projektor %2</translation>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>Fenster</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>Berechnung der feinsten Blöcke</translation>
     </message>
 </context>
 <context>

@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>La cámara no ve este proyector</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>Falló un programa de este lugar</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>Otra orden se escribe en el paso «Lugar», con «Cambiar los programas».</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3743,6 +3751,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>Se omite lo fotografiado desde la comprobación anterior; todo lo de antes se conserva.</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>Calculando, %1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>Calculando el resultado</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4489,14 +4505,6 @@
         <translation>Error mediano</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>Un error del 70 al 80&#xa0;% es normal aquí.</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>La agrupación descarta a propósito el desenfoque del objetivo. Busque manchas que destaquen de su entorno.</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -4610,6 +4618,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>Los relieves necesitan OpenGL, que no está.</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>Un error de %1 es normal aquí.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>La agrupación descarta a propósito el desenfoque del objetivo: poco donde es nítido, del 70 al 80 % donde está desenfocado. Busque manchas que destaquen de su entorno.</translation>
     </message>
 </context>
 <context>
@@ -6337,6 +6353,18 @@ proyector %2</translation>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>No hay ningún escritorio cuyas pantallas se puedan mostrar.</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>El informe está escrito, pero ningún programa de aquí lo abre.</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>Ábralo a mano o llévelo a otro ordenador: %1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>No se puede mostrar el informe</translation>
     </message>
 </context>
 <context>
@@ -8903,8 +8931,44 @@ proyector %2</translation>
         <translation>Los mismos pasos, con proyector y cámara simulados. No se proyecta nada, salvo que elija una pantalla.</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>Solo por sus píxeles: las imágenes las muestra en ella un programa propio.</translation>
+        <source>Programs of this venue</source>
+        <translation>Programas de este lugar</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>Indique qué órdenes manejan estos aparatos a partir de ahora. Lo medido se conserva.</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>Usar estas órdenes</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>Cambiar los programas</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>Escriba otra orden.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Cámara</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>Un programa que falla termina con un estado distinto de 0, y se muestra también lo último que dice. Pruébelo en un terminal, con un archivo en lugar de {image} u {output} y segundos en lugar de {exposure}.</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>Relucent muestra en ella las imágenes, salvo que lo haga un programa suyo.</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>No hace falta con una pantalla. %1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>Elija la pantalla del proyector o escriba la orden que muestra.</translation>
     </message>
 </context>
 <context>
@@ -9380,6 +9444,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>lo que cabe esperar del resultado</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9773,6 +9844,13 @@ proyector %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>guardado del transporte de luz</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9812,6 +9890,13 @@ proyector %2</translation>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>Ventanas</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>cálculo de los bloques más finos</translation>
     </message>
 </context>
 <context>

@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>La caméra ne voit pas ce projecteur</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>Un programme de ce lieu a échoué</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>Une autre commande se saisit à l’étape « Lieu », par « Changer les programmes ».</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3743,6 +3751,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>Ce qui a été photographié depuis la vérification précédente est laissé de côté, tout ce qui précède est conservé.</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>Calcul, %1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>Calcul du résultat</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4489,14 +4505,6 @@
         <translation>Erreur médiane</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>Une erreur de 70 à 80&#x202f;% est normale ici.</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>Le regroupement écarte exprès le flou de l’objectif. Cherchez les zones qui se détachent de leur entourage.</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1&#x202f;px</translation>
     </message>
@@ -4610,6 +4618,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>Les reliefs demandent OpenGL, qui est absent.</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>Une erreur de %1 est normale ici.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>Le regroupement écarte exprès le flou de l’objectif : peu là où l’image est nette, 70 à 80 % là où elle est floue. Cherchez les zones qui se détachent de leur entourage.</translation>
     </message>
 </context>
 <context>
@@ -6337,6 +6353,18 @@ projecteur %2</translation>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>Il n’y a pas de bureau dont les écrans pourraient être montrés.</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>Le rapport est écrit, mais aucun programme d’ici ne l’ouvre.</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>Ouvrez-le à la main, ou emportez-le sur un autre ordinateur : %1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>Le rapport ne peut pas être affiché</translation>
     </message>
 </context>
 <context>
@@ -8903,8 +8931,44 @@ projecteur %2</translation>
         <translation>Les mêmes étapes, avec un projecteur et une caméra simulés. Rien n’est projeté, sauf si vous choisissez un écran.</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>Pour ses pixels seulement : un programme à vous y affiche les images.</translation>
+        <source>Programs of this venue</source>
+        <translation>Programmes de ce lieu</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>Indiquez quelles commandes pilotent désormais ces appareils. Les mesures restent.</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>Utiliser ces commandes</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>Changer les programmes</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>Saisissez une autre commande.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>Un programme qui échoue se termine avec un état autre que 0, et son dernier message est indiqué. Essayez-le dans un terminal, avec un fichier à la place de {image} ou {output} et des secondes à la place de {exposure}.</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>Relucent y affiche les images, sauf si un de vos programmes le fait.</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>Inutile avec un écran. %1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>Choisissez l’écran du projecteur, ou saisissez la commande qui affiche.</translation>
     </message>
 </context>
 <context>
@@ -9380,6 +9444,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>ce qu’on peut attendre du résultat</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9773,6 +9844,13 @@ projecteur %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>enregistrement du transport lumineux</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9812,6 +9890,13 @@ projecteur %2</translation>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>Fenêtres</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>calcul des blocs les plus fins</translation>
     </message>
 </context>
 <context>

@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>La fotocamera non vede questo proiettore</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>Un programma di questo luogo è fallito</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>Un altro comando si scrive al passo «Luogo», con «Cambia i programmi».</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3743,6 +3751,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>Ciò che è stato fotografato dopo il controllo precedente è tralasciato, tutto il resto è conservato.</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>Calcolo, %1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>Calcolo del risultato</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4489,14 +4505,6 @@
         <translation>Errore mediano</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>Un errore dal 70 all’80 % è normale qui.</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>Il raggruppamento scarta di proposito la sfocatura dell’obiettivo. Cercare le zone che spiccano sul resto.</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -4610,6 +4618,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>I rilievi richiedono OpenGL, che manca.</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>Un errore di %1 è normale qui.</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>Il raggruppamento scarta di proposito la sfocatura dell’obiettivo: poco dove è nitido, dal 70 all’80 % dove è sfocato. Cercare le zone che spiccano sul resto.</translation>
     </message>
 </context>
 <context>
@@ -6337,6 +6353,18 @@ proiettore %2</translation>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>Non c’è alcun desktop i cui schermi si possano mostrare.</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>Il rapporto è scritto, ma nessun programma qui lo apre.</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>Aprirlo a mano, o portarlo su un altro computer: %1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>Impossibile mostrare il rapporto</translation>
     </message>
 </context>
 <context>
@@ -8903,8 +8931,44 @@ proiettore %2</translation>
         <translation>Gli stessi passi, con proiettore e fotocamera simulati. Nulla viene proiettato, a meno che non si scelga uno schermo.</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>Solo per i suoi pixel: le immagini le mostra un programma proprio.</translation>
+        <source>Programs of this venue</source>
+        <translation>Programmi di questo luogo</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>Indicare quali comandi pilotano d’ora in poi questi dispositivi. Le misure restano.</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>Usa questi comandi</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>Cambia i programmi</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>Scrivere un altro comando.</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Fotocamera</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>Un programma che fallisce termina con uno stato diverso da 0, e si riporta l’ultima cosa che dice. Provarlo in un terminale, con un file al posto di {image} o {output} e i secondi al posto di {exposure}.</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>Relucent vi mostra le immagini, se non lo fa un proprio programma.</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>Non serve con uno schermo. %1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>Scegliere lo schermo del proiettore, o scrivere il comando che mostra.</translation>
     </message>
 </context>
 <context>
@@ -9380,6 +9444,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>che cosa ci si può attendere dal risultato</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9773,6 +9844,13 @@ proiettore %2</translation>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>salvataggio del trasporto della luce</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9812,6 +9890,13 @@ proiettore %2</translation>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>Finestre</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>calcolo dei blocchi più fini</translation>
     </message>
 </context>
 <context>

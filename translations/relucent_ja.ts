@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>カメラにこのプロジェクターが見えません</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>この会場のプログラムが失敗しました</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>別のコマンドは、手順「会場」の「プログラムを変更」で入力します。</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3721,6 +3729,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>前回の確認より後の写真は使わず、それより前はすべて残します。</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>計算中、%1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>結果を計算中</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4465,14 +4481,6 @@
         <translation>誤差の中央値</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>ここでは 70～80 % の誤差は正常です。</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>クラスター分けでは、レンズのボケを意図的に除きます。周囲から目立つ部分がないか確認してください。</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -4581,6 +4589,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>立体表示には OpenGL が必要です。</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>ここでは %1 の誤差は正常です。</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>クラスター分けでは、レンズのボケを意図的に除きます。鮮明なところではわずか、ボケたところでは 70～80 % です。周囲から目立つ部分がないか確認してください。</translation>
     </message>
 </context>
 <context>
@@ -6301,6 +6317,18 @@ projector %2</source>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>画面を表示できるデスクトップがありません。</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>レポートは書き込まれましたが、開けるプログラムがここにありません。</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>手動で開くか、別のコンピューターに移してください：%1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>レポートを表示できません</translation>
     </message>
 </context>
 <context>
@@ -8853,8 +8881,44 @@ projector %2</source>
         <translation>同じ手順を、模擬のプロジェクターとカメラで行います。画面を選ばない限り、何も投影しません。</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>ピクセル数のためだけに選びます。画像はお手持ちのプログラムが表示します。</translation>
+        <source>Programs of this venue</source>
+        <translation>この会場のプログラム</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>今後これらの機器を動かすコマンドを指定してください。測定結果は残ります。</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>これらのコマンドを使う</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>プログラムを変更</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>別のコマンドを入力してください。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>カメラ</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>失敗したプログラムは 0 以外の状態で終わり、最後の言葉も示されます。{image} や {output} の代わりにファイル、{exposure} の代わりに秒数を入れて、ターミナルで試してください。</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>お手持ちのプログラムが表示しない限り、Relucent がそこに画像を表示します。</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>画面を使う場合は不要。%1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>プロジェクターの画面を選ぶか、表示するコマンドを入力してください。</translation>
     </message>
 </context>
 <context>
@@ -9330,6 +9394,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>結果から期待できること</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9721,6 +9792,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>光輸送の保存</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9760,6 +9838,13 @@ projector %2</source>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>局所窓</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>最も細かいブロックの計算</translation>
     </message>
 </context>
 <context>

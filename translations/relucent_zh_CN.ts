@@ -104,6 +104,14 @@
         <source>The camera does not see this projector</source>
         <translation>相机看不到这台投影机</translation>
     </message>
+    <message>
+        <source>A program of this venue failed</source>
+        <translation>此场地的某个程序失败了</translation>
+    </message>
+    <message>
+        <source>Another command is typed at the step Venue, by “Change the programs”.</source>
+        <translation>可在“场地”步骤通过“更换程序”输入另一条命令。</translation>
+    </message>
 </context>
 <context>
     <name>FullDisk</name>
@@ -3721,6 +3729,14 @@
         <source>What was photographed since the look before is left out, all before it is kept.</source>
         <translation>上一次检查之后拍摄的内容不使用，之前的全部保留。</translation>
     </message>
+    <message>
+        <source>Working out, %1</source>
+        <translation>正在计算，%1</translation>
+    </message>
+    <message>
+        <source>Working out the result</source>
+        <translation>正在计算结果</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4465,14 +4481,6 @@
         <translation>误差中位数</translation>
     </message>
     <message>
-        <source>An error of 70 to 80 % is normal here.</source>
-        <translation>此处误差 70 至 80 % 属正常。</translation>
-    </message>
-    <message>
-        <source>Grouping drops the blur of the lens on purpose. Look for patches that stand out from their surroundings.</source>
-        <translation>聚类会有意舍弃镜头的模糊。请查看与周围明显不同的斑块。</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -4581,6 +4589,14 @@
     <message>
         <source>Reliefs need OpenGL, which is not there.</source>
         <translation>立体显示需要 OpenGL，但此处没有。</translation>
+    </message>
+    <message>
+        <source>An error of %1 is normal here.</source>
+        <translation>此处误差 %1 属正常。</translation>
+    </message>
+    <message>
+        <source>Grouping drops the blur of the lens on purpose: little where it is sharp, 70 to 80 % where it is blurred. Look for patches that stand out from their surroundings.</source>
+        <translation>聚类会有意舍弃镜头的模糊：清晰处很少，模糊处为 70 至 80 %。请查看与周围明显不同的斑块。</translation>
     </message>
 </context>
 <context>
@@ -6301,6 +6317,18 @@ projector %2</source>
     <message>
         <source>There is no desktop whose screens could be shown.</source>
         <translation>没有可以显示其屏幕的桌面。</translation>
+    </message>
+    <message>
+        <source>The report is written, but no program here opens it.</source>
+        <translation>报告已写入，但此处没有可打开它的程序。</translation>
+    </message>
+    <message>
+        <source>Open it by hand, or take it to another computer: %1</source>
+        <translation>请手动打开，或将其带到另一台计算机：%1</translation>
+    </message>
+    <message>
+        <source>The report cannot be shown</source>
+        <translation>无法显示报告</translation>
     </message>
 </context>
 <context>
@@ -8853,8 +8881,44 @@ projector %2</source>
         <translation>步骤相同，使用模拟的投影机和相机。除非您选择屏幕，否则不会投影。</translation>
     </message>
     <message>
-        <source>For its pixels alone: a program of yours shows the pictures on it.</source>
-        <translation>仅取其像素数：画面由您自己的程序显示。</translation>
+        <source>Programs of this venue</source>
+        <translation>此场地的程序</translation>
+    </message>
+    <message>
+        <source>Say which commands drive these devices from now on. What was measured stays.</source>
+        <translation>请说明今后由哪些命令驱动这些设备。测量结果保留。</translation>
+    </message>
+    <message>
+        <source>Use these commands</source>
+        <translation>使用这些命令</translation>
+    </message>
+    <message>
+        <source>Change the programs</source>
+        <translation>更换程序</translation>
+    </message>
+    <message>
+        <source>Type another command.</source>
+        <translation>请输入另一条命令。</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>相机</translation>
+    </message>
+    <message>
+        <source>A program that fails ends with another status than 0. What it says last is told with it. Try it in a terminal, with a file in place of {image} or {output} and seconds in place of {exposure}.</source>
+        <translation>失败的程序以非 0 的状态结束，其最后的输出会一并显示。请在终端中试运行，用文件代替 {image} 或 {output}，用秒数代替 {exposure}。</translation>
+    </message>
+    <message>
+        <source>Relucent shows the pictures on it, unless a program of yours does.</source>
+        <translation>除非由您的程序显示，否则 Relucent 会在其上显示图片。</translation>
+    </message>
+    <message>
+        <source>Not needed with a screen. %1</source>
+        <translation>使用屏幕时不需要。%1</translation>
+    </message>
+    <message>
+        <source>Choose the projector&apos;s screen, or type the command that shows.</source>
+        <translation>请选择投影机的屏幕，或输入用于显示的命令。</translation>
     </message>
 </context>
 <context>
@@ -9330,6 +9394,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.concluding-measurement</name>
+    <message>
+        <source>what may be expected of the result</source>
+        <translation>结果的预期质量</translation>
+    </message>
+</context>
+<context>
     <name>stage.decoding</name>
     <message>
         <source>Decoding</source>
@@ -9721,6 +9792,13 @@ projector %2</source>
     </message>
 </context>
 <context>
+    <name>stage.storing-light-transport</name>
+    <message>
+        <source>storing the light transport</source>
+        <translation>保存光传输</translation>
+    </message>
+</context>
+<context>
     <name>stage.switching-projectors-on</name>
     <message>
         <source>Switching the projectors on</source>
@@ -9760,6 +9838,13 @@ projector %2</source>
     <message>
         <source>Computing the windows of the inverse</source>
         <translation>窗口</translation>
+    </message>
+</context>
+<context>
+    <name>stage.working-out-finest-blocks</name>
+    <message>
+        <source>working out the finest blocks</source>
+        <translation>计算最精细的块</translation>
     </message>
 </context>
 <context>

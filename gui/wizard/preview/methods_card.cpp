@@ -32,6 +32,11 @@ class MethodsTable : public QTableWidget {
       if (column >= psnr) setColumnHidden(column, needed > viewport()->width());
     }
   }
+  /// Where reading goes from right to left, selectRow() selects nothing.
+  void chooseRow(int row) {
+    selectionModel()->setCurrentIndex(model()->index(row, method),
+                                      QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  }
 
  protected:
   void resizeEvent(QResizeEvent* event) override {
@@ -161,7 +166,7 @@ void MethodsCard::refresh() {
       if (cells[cell].isEmpty()) item->setData(Qt::AccessibleTextRole, PreviewPage::tr("no note"));
       table_->setItem(row, cell, item);
     }
-    if (chosen) table_->selectRow(row);
+    if (chosen) table_->chooseRow(row);
   }
   table_->fit();
   arrange();

@@ -106,6 +106,22 @@ class TestMethodsTable : public QObject {
     QCOMPARE(chosenRow().deltaE, page_->preview()->deltaEMean);
   }
 
+  void theMethodInUseIsSelected_data() {
+    QTest::addColumn<Qt::LayoutDirection>("direction");
+    QTest::newRow("from the left") << Qt::LeftToRight;
+    QTest::newRow("from the right") << Qt::RightToLeft;
+  }
+  void theMethodInUseIsSelected() {
+    QFETCH(Qt::LayoutDirection, direction);
+    QGuiApplication::setLayoutDirection(direction);
+    MethodsCard card(*page_);
+    const auto* table = card.findChild<QTableWidget*>("methods");
+    const QModelIndexList rows = table->selectionModel()->selectedRows();
+    QGuiApplication::setLayoutDirection(Qt::LeftToRight);
+    QCOMPARE(rows.size(), 1);
+    QCOMPARE(page_->table()[static_cast<std::size_t>(rows.front().row())].method, page_->settings().method);
+  }
+
   /// Law: where there is little height the picture has it, without scrolling; the comparison is one click
   /// away, and folded it says which method is used and how well.
   void thePictureHasTheRoom_data() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/surprises_file.h"
 
+#include <optional>
+
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"
 #include "relucent/base/parsed_json.h"
@@ -10,6 +12,18 @@ namespace relucent::pipeline {
 
 using calibration::Json;
 using venue::Surprise;
+
+namespace {
+
+constexpr int mostPhotographs = 10'000'000;  // a year of them, three seconds each
+
+/// A count of photographs that a rehearsal can come to; none: anything else.
+std::optional<int> countOf(const Json& json) {
+  if (!json.is_number_integer() || json < 0 || json > mostPhotographs) return std::nullopt;
+  return json.get<int>();
+}
+
+}  // namespace
 
 void saveSurprises(const venue::Surprises& surprises, const std::filesystem::path& folder) {
   const venue::SurpriseSettings& settings = surprises.settings();
@@ -30,16 +44,18 @@ std::shared_ptr<venue::Surprises> loadSurprises(const std::filesystem::path& fol
     venue::SurpriseSettings settings;
     settings.kinds = json.at("kinds").get<std::vector<Surprise>>();
     settings.seed = json.at("seed").get<std::uint64_t>();
-    settings.patterns = json.at("patterns").get<int>();
+    const std::optional<int> patterns = countOf(json.at("patterns")), failures = countOf(json.at("failures")),
+                             failed = countOf(json.at("failures_so_far")),
+                             looks = countOf(json.at("looks_so_far"));
+    if (!patterns || !failures || !failed || !looks) return nullptr;
+    settings.patterns = *patterns;
+    settings.failures = *failures;
     settings.shift = json.at("shift").get<double>();
     settings.degrees = json.at("degrees").get<double>();
     settings.roomLight = json.at("room_light").get<double>();
-    settings.failures = json.at("failures").get<int>();
     return std::make_shared<venue::Surprises>(
-        settings,
-        venue::SurprisesSoFar{json.at("lasting").get<std::vector<Surprise>>(),
-                              json.at("over").get<std::vector<Surprise>>(),
-                              json.at("failures_so_far").get<int>(), json.at("looks_so_far").get<int>()});
+        settings, venue::SurprisesSoFar{json.at("lasting").get<std::vector<Surprise>>(),
+                                        json.at("over").get<std::vector<Surprise>>(), *failed, *looks});
   } catch (const Json::exception&) {
     return nullptr;
   } catch (const Error&) {

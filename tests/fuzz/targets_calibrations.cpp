@@ -262,6 +262,7 @@ void fuzzSurprises(Bytes input) {
   const auto surprises = pipeline::loadSurprises(scratch());
   if (!surprises) return;
   for (int pattern = 0; pattern < 100; ++pattern) surprises->during({"acquisition", pattern});
+  for (int look = 0; look < 10; ++look) surprises->during({"nudge", look});
   surprises->putRight();
 }
 

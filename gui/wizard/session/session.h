@@ -337,8 +337,8 @@ class Session : public QObject {
   void tellSteps();
   /// Writes into the calibration and looks at it again.
   void change(const std::function<void(calibration::CalibrationFolder&)>& write);
-  /// The same with the devices closed meanwhile and opened again.
   void agreeToTyped(std::vector<std::string> commands) const;
+  /// As change(), with the devices closed meanwhile and opened again.
   void changeDevices(const std::function<void(calibration::CalibrationFolder&)>& write);
   void adopt(calibration::CalibrationFolder given);
   void slowDown();

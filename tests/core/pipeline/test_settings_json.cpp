@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/settings_json.h"
 
+#include <limits>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -280,6 +281,13 @@ class TestSettingsJson : public QObject {
     QVERIFY(loaded->settings() == settings);
     writeFileAtomically(path / surprisesName, R"({"kinds":["earthquake"]})");
     QVERIFY(loadSurprises(path) == nullptr);
+    // As many photographs as no rehearsal takes, or fewer than none.
+    for (const int wrong : {-1, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+      saveSurprises(Surprises(settings, {{}, {Surprise::bump}, 3, wrong}), path);
+      QVERIFY(loadSurprises(path) == nullptr);
+      saveSurprises(Surprises(settings, {{}, {Surprise::bump}, wrong, 3}), path);
+      QVERIFY(loadSurprises(path) == nullptr);
+    }
   }
 
   /// A manifest of the first version: keys that came later keep their defaults, those that went are ignored.

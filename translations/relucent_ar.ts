@@ -3448,17 +3448,6 @@
         <translation>ينقص الضوء الأدق. تابع في أي وقت ما لم يتحرّك شيء.</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>لا لقطات</numerusform>
-            <numerusform>لقطة واحدة</numerusform>
-            <numerusform>لقطتان</numerusform>
-            <numerusform>%n لقطات</numerusform>
-            <numerusform>%n لقطة</numerusform>
-            <numerusform>%n لقطة</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>المتوقع ⁨%1 dB⁩، ونحو ⁨%2 dB⁩ بلا لقطات أخرى، %3. تابع في أي وقت ما لم يتحرّك شيء.</numerusform>
@@ -3846,6 +3835,17 @@
     <message>
         <source>Working out the result</source>
         <translation>جارٍ حساب النتيجة</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>لا أنماط</numerusform>
+            <numerusform>نمط واحد</numerusform>
+            <numerusform>نمطان</numerusform>
+            <numerusform>%n أنماط</numerusform>
+            <numerusform>%n نمطًا</numerusform>
+            <numerusform>%n نمط</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4472,6 +4472,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>أي كاميرا أخرى يقودها برنامج لديك: اضغط «رجوع» واختر «موقع جديد بنص برمجي». يشرح الدليل (F1) كيفية إعداد الكاميرات.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>أي كاميرا أخرى يقودها برنامج لديك. يشرح الدليل (F1) كيفية إعداد الكاميرات.</translation>
     </message>
 </context>
 <context>

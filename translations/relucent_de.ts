@@ -3392,13 +3392,6 @@
         <translation>Feineres Licht fehlt. Machen Sie jederzeit weiter, wenn sich nichts bewegt hat.</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n Foto</numerusform>
-            <numerusform>%n Fotos</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>%1 dB zu erwarten, etwa %2 dB mit %n weiteren Foto, %3. Messen Sie jederzeit weiter, wenn sich nichts bewegt hat.</numerusform>
@@ -3758,6 +3751,13 @@
     <message>
         <source>Working out the result</source>
         <translation>Ergebnis wird berechnet</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n Muster</numerusform>
+            <numerusform>%n Muster</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4376,6 +4376,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>Jede andere wird von einem eigenen Programm gesteuert: gehen Sie „Zurück“ und wählen Sie „Neuer Spielort per Skript“. Die Anleitung (F1) sagt, wie Kameras eingerichtet werden.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>Jede andere wird von einem eigenen Programm gesteuert. Die Anleitung (F1) sagt, wie Kameras eingerichtet werden.</translation>
     </message>
 </context>
 <context>

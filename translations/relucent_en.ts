@@ -124,13 +124,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n photograph</numerusform>
-            <numerusform>%n photographs</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>%1 dB expected, about %2 dB with %n more photograph, %3. Go on any time, if nothing has moved.</numerusform>
@@ -177,6 +170,13 @@
         <translation>
             <numerusform>Reading the %n photograph that is kept: %1.</numerusform>
             <numerusform>Reading the %n photographs that are kept: %1.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n pattern</numerusform>
+            <numerusform>%n patterns</numerusform>
         </translation>
     </message>
 </context>

@@ -3392,13 +3392,6 @@
         <translation>Falta la luz más fina. Siga en cualquier momento, si nada se ha movido.</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n fotografía</numerusform>
-            <numerusform>%n fotografías</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>Se esperan %1 dB, unos %2 dB con %n foto más, %3. Continúe en cualquier momento si nada se ha movido.</numerusform>
@@ -3758,6 +3751,13 @@
     <message>
         <source>Working out the result</source>
         <translation>Calculando el resultado</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n patrón</numerusform>
+            <numerusform>%n patrones</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4376,6 +4376,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>Cualquier otra se maneja con un programa propio: pulse «Atrás» y elija «Nuevo lugar por script». La guía (F1) explica cómo se preparan las cámaras.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>Cualquier otra se maneja con un programa propio. La guía (F1) explica cómo se preparan las cámaras.</translation>
     </message>
 </context>
 <context>

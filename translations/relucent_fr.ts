@@ -3392,13 +3392,6 @@
         <translation>La lumière plus fine manque. Continuez à tout moment, si rien n’a bougé.</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n photo</numerusform>
-            <numerusform>%n photos</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>%1 dB attendus, environ %2 dB avec %n photo de plus, %3. Continuez à tout moment, si rien n’a bougé.</numerusform>
@@ -3758,6 +3751,13 @@
     <message>
         <source>Working out the result</source>
         <translation>Calcul du résultat</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n motif</numerusform>
+            <numerusform>%n motifs</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4376,6 +4376,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>Toute autre est pilotée par un programme à vous : « Retour », puis « Nouveau lieu par script ». Le guide (F1) explique comment préparer les caméras.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>Toute autre est pilotée par un programme à vous. Le guide (F1) explique comment préparer les caméras.</translation>
     </message>
 </context>
 <context>

@@ -3392,13 +3392,6 @@
         <translation>Manca la luce più fine. Proseguire in qualsiasi momento, se nulla si è mosso.</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n foto</numerusform>
-            <numerusform>%n foto</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>%1 dB attesi, circa %2 dB con %n altra foto, %3. Continui in qualsiasi momento, se nulla si è mosso.</numerusform>
@@ -3758,6 +3751,13 @@
     <message>
         <source>Working out the result</source>
         <translation>Calcolo del risultato</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n pattern</numerusform>
+            <numerusform>%n pattern</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4376,6 +4376,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>Qualsiasi altra è pilotata da un programma proprio: «Indietro», poi «Nuovo luogo da script». La guida (F1) spiega come si preparano le fotocamere.</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>Qualsiasi altra è pilotata da un programma proprio. La guida (F1) spiega come si preparano le fotocamere.</translation>
     </message>
 </context>
 <context>

@@ -3378,12 +3378,6 @@
         <translation>細かい光がまだ測定されていません。何も動いていなければ、いつでも続けられます。</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>写真 %n 枚</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>見込みは %1 dB、あと %n 枚の写真で約 %2 dB、%3。何も動いていなければ、いつでも続けられます。</numerusform>
@@ -3736,6 +3730,12 @@
     <message>
         <source>Working out the result</source>
         <translation>結果を計算中</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n パターン</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4352,6 +4352,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>そのほかのカメラは、お手持ちのプログラムで動かします。「戻る」を押し、「スクリプトで新しい会場」を選んでください。カメラの準備はガイド（F1）にあります。</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>そのほかのカメラは、お手持ちのプログラムで動かします。カメラの準備はガイド（F1）にあります。</translation>
     </message>
 </context>
 <context>

@@ -3378,12 +3378,6 @@
         <translation>缺少更精细的光。只要没有东西移动，可随时继续。</translation>
     </message>
     <message numerus="yes">
-        <source>%n photograph(s)</source>
-        <translation>
-            <numerusform>%n 张照片</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%1 dB expected, about %2 dB with %n more photograph(s), %3. Go on any time, if nothing has moved.</source>
         <translation>
             <numerusform>预期 %1 dB，再拍 %n 张照片约为 %2 dB，%3。只要没有东西移动，随时可以继续。</numerusform>
@@ -3736,6 +3730,12 @@
     <message>
         <source>Working out the result</source>
         <translation>正在计算结果</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s)</source>
+        <translation>
+            <numerusform>%n 个图案</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -4352,6 +4352,10 @@
     <message>
         <source>Any other is driven by a program of yours: go Back and choose “New venue by script”. The guide (F1) tells how cameras are set up.</source>
         <translation>其他相机可由您自己的程序驱动：请“返回”并选择“用脚本新建场地”。指南 (F1) 说明如何设置相机。</translation>
+    </message>
+    <message>
+        <source>Any other is driven by a program of yours. The guide (F1) tells how cameras are set up.</source>
+        <translation>其他相机可由您自己的程序驱动。指南 (F1) 说明如何设置相机。</translation>
     </message>
 </context>
 <context>

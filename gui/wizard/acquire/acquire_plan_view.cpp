@@ -290,7 +290,8 @@ QWidget* planOf(AcquirePage& model) {
           AcquirePage::tr("%1; light right within about %2")
               .arg(sentences[static_cast<int>(fineness)], percentText(model.expectedDeviation(fineness))));
       choices[at]->setRemark(
-          work ? groupedText(AcquirePage::tr("%n photograph(s)", nullptr, work->exposures), work->exposures) +
+          work ? groupedText(AcquirePage::tr("%n pattern(s)", nullptr, static_cast<int>(work->shots)),
+                             work->shots) +
                      "\n" + text(expectedDuration(work->seconds))
                : QString());
       setPossible(choices[at], why);

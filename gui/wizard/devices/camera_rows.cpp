@@ -56,6 +56,12 @@ void CameraRows::refresh() {
   rows_->addStretch(1);
 }
 
+void CameraRows::offerAnother(const QString& way, std::function<void()> another) {
+  way_ = way;
+  another_ = std::move(another);
+  refresh();
+}
+
 /// Where no camera is found: what could be one.
 void CameraRows::addWaysOn() {
   rows_->addWidget(
@@ -64,9 +70,18 @@ void CameraRows::addWaysOn() {
   rows_->addWidget(labelOf(tr("These are found here: webcams and other video devices, industrial cameras by "
                               "GigE Vision or USB3 Vision, and still cameras on USB."),
                            "note"));
-  rows_->addWidget(labelOf(tr("Any other is driven by a program of yours: go Back and choose “New venue by "
-                              "script”. The guide (F1) tells how cameras are set up."),
-                           "note"));
+  if (!another_) {
+    rows_->addWidget(labelOf(tr("Any other is driven by a program of yours: go Back and choose “New venue by "
+                                "script”. The guide (F1) tells how cameras are set up."),
+                             "note"));
+    return;
+  }
+  rows_->addWidget(labelOf(
+      tr("Any other is driven by a program of yours. The guide (F1) tells how cameras are set up."), "note"));
+  QPushButton* another = buttonOf(way_);
+  another->setObjectName("another-camera");
+  connect(another, &QPushButton::clicked, this, [this] { another_(); });
+  rows_->addWidget(another, 0, Qt::AlignLeading);
 }
 
 QWidget* CameraRows::rowOf(std::size_t index) {

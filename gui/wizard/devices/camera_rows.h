@@ -25,6 +25,8 @@ class CameraRows : public Card {
   using Chosen = std::function<void(const devices::ListedCamera& camera)>;
   CameraRows(CameraFinder& finder, const QString& subtitle, Offering offering, Chosen chosen,
              QWidget* parent = nullptr);
+  /// Where none is found, a button of the name `way` leads to `another`.
+  void offerAnother(const QString& way, std::function<void()> another);
   /// Offers anew.
   void refresh();
 
@@ -37,6 +39,8 @@ class CameraRows : public Card {
   CameraFinder& finder_;
   Offering offering_;
   Chosen chosen_;
+  QString way_;
+  std::function<void()> another_;
   QVBoxLayout* rows_;
   QPushButton* again_;
 };

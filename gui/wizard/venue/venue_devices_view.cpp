@@ -49,6 +49,8 @@ QWidget* devicesStage(VenuePage& model) {
           model.addCamera(camera.address);
       });
   cameras->setObjectName("venue-cameras");
+  cameras->offerAnother(VenuePage::tr("New venue by script"),
+                        [&model] { model.setMode(VenuePage::Mode::script); });
   constexpr int leastHeight = 220;  // a camera and a half: where there is less room, the stage scrolls
   cameras->setMinimumHeight(leastHeight);
   column->addWidget(cameras, 1);

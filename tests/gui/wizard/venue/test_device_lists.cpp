@@ -14,6 +14,7 @@
 #include "wizard/venue/network_list_view.h"
 #include "wizard/venue/screen_list.h"
 #include "wizard/venue/venue_page.h"
+#include "wizard/venue/venue_parts.h"
 #include "wizard/venue/venue_view.h"
 
 using namespace relucent;
@@ -87,6 +88,12 @@ class TestDeviceLists : public QObject {
     page_->finder().look();
     QTRY_VERIFY2(words().contains("GigE Vision"), qPrintable(words()));
     QVERIFY2(words().contains(VenuePage::tr("New venue by script")), qPrintable(words()));
+
+    const std::unique_ptr<QWidget> stage(devicesStage(*page_));
+    auto* another = stage->findChild<QPushButton*>("another-camera");
+    QVERIFY(another != nullptr);
+    another->click();
+    QCOMPARE(page_->mode(), VenuePage::Mode::script);
   }
 
   /// Law: a screen needs no program to show on it, and then no more is asked of the projector.

@@ -156,7 +156,11 @@ void takeReasons(WizardWindow& wizard, Photographs& photographs) {
     const StageResult stored = folder.latest(Stage::acquisition).value();
     transport::Acquisition measured = loadAcquisition(stored);
     measured.changed = transport::FoundChange{
-        Message::plain("a camera or projector has moved: the view of camera 1 is shifted by 2.0, 1.5 pixels"),
+        RELUCENT_MESSAGE("alarm.moved",
+                         "a camera or projector has moved: the view of camera {} is shifted by {}, {} "
+                         "pixels and turned by {} degrees")
+            .with(as::label(1), as::pixels(2.0, as::decimals(1)), as::pixels(1.5, as::decimals(1)),
+                  as::degrees(0.2, as::decimals(1))),
         true};
     storeAcquisition(folder, stored.inputs, measured,
                      resultFrom<Stage::acquisition>(stored).cost.value_or(StageCost()));
@@ -199,6 +203,22 @@ void takeDevices(WizardWindow& wizard, Photographs& photographs) {
   for (const char* camera : {"genicam:40012345", "v4l2:/dev/video0"}) venue.addCamera(camera);
   venue.nameCamera(0, "Door");
   photographs.take("01-devices-several");
+}
+
+/// A venue whose devices are driven by programs, and how these are changed.
+void takePrograms(WizardWindow& wizard, Photographs& photographs, const QTemporaryDir& own) {
+  CalibrateSettings settings;
+  CommandRigSettings rig;
+  rig.projector = {1024, 768};
+  rig.projectorCommand = "show-on-projector {image}";
+  rig.cameraCommand = "photograph --seconds {exposure} --to {output}";
+  settings.rig = rig;
+  wizard.session().begin(own.filePath("Cloister").toStdString(), settings);
+  wizard.wizard().go(0);
+  photographs.take("00-programs");
+  wizard.page<VenuePage>().setMode(VenuePage::Mode::programs);
+  photographs.take("01-programs");
+  wizard.page<VenuePage>().setMode(VenuePage::Mode::start);
 }
 
 /// The choice of cameras for a screen of the desktop.
@@ -340,6 +360,7 @@ int main(int argc, char** argv) {
   photographs.take("01-devices");
   takeDevices(wizard, photographs);
 
+  takePrograms(wizard, photographs, own);
   takeCameras(wizard, photographs, own);
   if (argc < 6) {
     takeMeasuring(wizard, photographs, own);

@@ -86,6 +86,13 @@ int main(int argc, char** argv) {
   addSize(app, "--camera", settings.camera, "WxH");
   addSize(app, "--content", settings.content, "WxH");
   app.add_option("--patch", settings.patchSide, "Side of T's patches in camera pixels");
+  app.add_option_function<std::string>(
+         "--clipping",
+         [&settings](const std::string& name) {
+           settings.clipping = parsedName<Clipping>(name, ErrorKind::usage);
+         },
+         "Colours of which a place cannot show one channel")
+      ->check(CLI::IsMember(allNames<Clipping>()));
   app.add_option("--transport", settings.transport,
                  "A calibration's transport.npz instead of the synthetic one");
   app.add_flag("--one-thread", settings.oneThread,

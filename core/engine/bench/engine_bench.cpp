@@ -353,6 +353,7 @@ EngineBenchResult benchEngine(const EngineBenchSettings& settings, Progress& pro
       inverse::computeWindows(venue.transport, venue.usable, {}, computing);
   EngineSettings plan;
   plan.packing.patchSide = settings.patchSide;
+  plan.target.clipping = settings.clipping;
   const std::vector<linearization::ProjectorResponse> responses(venue.transport.projectors().devices());
   const EngineVenue engine = prepareVenue(venue, inverse, responses, plan);
   EngineContent content = prepareContent(engine, settings.content);

@@ -22,6 +22,7 @@ struct EngineBenchSettings {
   int patchSide = PackingSettings().patchSide;
   bool references = true;  // also time the products of the pipeline, Eigen and SciPy
   bool oneThread = false;  // of the processor: CPU seconds of one core, for shared machines
+  compensation::Clipping clipping = compensation::Clipping::channels;
 };
 std::vector<Message> problems(const EngineBenchSettings& settings);
 

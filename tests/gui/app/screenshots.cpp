@@ -214,6 +214,9 @@ void takePrograms(WizardWindow& wizard, Photographs& photographs, const QTempora
   rig.cameraCommand = "photograph --seconds {exposure} --to {output}";
   settings.rig = rig;
   wizard.session().begin(own.filePath("Cloister").toStdString(), settings);
+  // There is no such program.
+  until([&] { return wizard.window().findChild<QDialog*>("failure") != nullptr; });
+  photographs.takeDialog("12-program-failed", "failure");
   wizard.wizard().go(0);
   photographs.take("00-programs");
   wizard.page<VenuePage>().setMode(VenuePage::Mode::programs);

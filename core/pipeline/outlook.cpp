@@ -15,14 +15,8 @@
 namespace relucent::pipeline {
 namespace {
 
-/// Drawn once: it takes a second.
-const std::vector<NamedImage>& pictures() {
-  static const std::vector<NamedImage> drawn = standardImages();
-  return drawn;
-}
-
 bool holdsPicture(const compensation::MeasuredVenue& venue) {
-  Size content = pictures().front().linear.size();
+  Size content = standardImages().front().linear.size();
   return compensation::largestUpright(placeable(venue), venue.transport.cameras().size(0),
                                       static_cast<double>(content.width) / content.height)
       .has_value();
@@ -79,7 +73,7 @@ Shown shownIn(const compensation::MeasuredVenue& venue, double error, const Unre
   const inverse::WindowInverse windows = inverse::computeWindows(venue.transport, venue.usable, {}, progress);
   const compensation::Compensator compensator(venue, windows);
   Shown shown;
-  for (const NamedImage& picture : pictures()) {
+  for (const NamedImage& picture : standardImages()) {
     const compensation::Target target =
         fitTarget(picture.linear, venue, compensation::TargetSettings::ofLight());
     const compensation::Compensation compensation =
@@ -90,7 +84,7 @@ Shown shownIn(const compensation::MeasuredVenue& venue, double error, const Unre
         picture.linear.size().width / std::max(1.0, target.corners[1][0] - target.corners[0][0]);
     off += std::max(0.0, hiddenIn(picture.linear, unresolved.blocks * perPixel) -
                              hiddenIn(picture.linear, unresolved.pixel * perPixel));
-    shown.psnr -= 10.0 * std::log10(off) / static_cast<double>(pictures().size());
+    shown.psnr -= 10.0 * std::log10(off) / static_cast<double>(standardImages().size());
     if (shown.first.empty())
       shown.first =
           image::viewed(image::imageFromStack(seen.camera, venue.transport.cameras(), 0), target.white);

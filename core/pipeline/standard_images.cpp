@@ -16,6 +16,8 @@ namespace {
 
 using namespace image::drawing;
 
+constexpr Size usualSize{480, 360};
+
 image::Image lettering(Size size) {
   cv::Mat picture = canvas(size, {0.92, 0.92, 0.9});
   int half = picture.rows / 2;
@@ -189,6 +191,16 @@ std::vector<NamedImage> judgedImages(Size size) {
   images.push_back({"film", filmStill(size)});
   images.push_back({"dark", nightScene(size)});
   return images;
+}
+
+const std::vector<NamedImage>& judgedImages() {
+  static const std::vector<NamedImage> drawn = judgedImages(usualSize);
+  return drawn;
+}
+
+const std::vector<NamedImage>& standardImages() {
+  static const std::vector<NamedImage> drawn = standardImages(usualSize);
+  return drawn;
 }
 
 }  // namespace relucent::pipeline

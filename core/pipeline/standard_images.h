@@ -23,9 +23,12 @@ struct NamedImage {
 ///   film      a wide frame between black bars: dim surroundings, soft gradients, one bright face
 ///   dark      night: nearly everything below a hundredth of white, and a few lamps
 /// Source: Lee, Mumford & Huang, "Occlusion models for natural images", IJCV 2001.
-std::vector<NamedImage> judgedImages(Size size = {480, 360});
-
+std::vector<NamedImage> judgedImages(Size size);
 /// The first three of them: what light transport and its inverse are compared by, where each picture costs.
-std::vector<NamedImage> standardImages(Size size = {480, 360});
+std::vector<NamedImage> standardImages(Size size);
+
+/// The same of 480 x 360 pixels. Drawn once, which takes a second. Safe to call from any thread.
+const std::vector<NamedImage>& judgedImages();
+const std::vector<NamedImage>& standardImages();
 
 }  // namespace relucent::pipeline

@@ -52,10 +52,7 @@ std::unique_ptr<MainWindow> WizardWindow::makeWindow() {
 
 /// Pages know no widgets and go on with what they do; the window round them is made again in its place.
 void WizardWindow::rebuildForLanguage() {
-  const Qt::LayoutDirection reading = QGuiApplication::layoutDirection();
   language_.choose(languageCode_);
-  // The style sheet knows where one begins to read; it takes its time, in which nothing else is done.
-  if (QGuiApplication::layoutDirection() != reading) Theme::instance().apply(Theme::instance().look());
   for (const std::unique_ptr<PageModel>& page : pages_) page->refresh();
   std::unique_ptr<MainWindow> before = std::exchange(window_, makeWindow());
   window_->setGeometry(before->geometry());

@@ -85,11 +85,11 @@ QRadioButton::indicator:checked { border: 5px solid {accent}; width: 6px; height
 QRadioButton:focus { text-decoration: underline; }
 QRadioButton::indicator:focus { border-color: {text}; }
 QSlider::groove:horizontal { height: 4px; background: {border}; border-radius: 2px; }
-QSlider::{filled}:horizontal { background: {accent}; border-radius: 2px; }
+{filled} { background: {accent}; border-radius: 2px; }
 QSlider::handle:horizontal { background: {accent}; border: 2px solid {card}; width: 14px; height: 14px; margin: -7px 0;
   border-radius: 9px; }
 QSlider::handle:horizontal:focus { border: 2px solid {text}; }
-QSlider::handle:horizontal:disabled, QSlider::{filled}:horizontal:disabled { background: {disabled}; }
+QSlider::handle:horizontal:disabled, {filledDisabled} { background: {disabled}; }
 QProgressBar { background: {line}; border: none; max-height: 3px; min-height: 3px; }
 QProgressBar::chunk { background: {accent}; }
 QListWidget { background: {input}; border: 1px solid {line}; border-radius: 6px; }
@@ -121,7 +121,11 @@ QString styleSheetOf(const Colours& colours) {
     sheet.replace("{" + QString::fromLatin1(name) + "}", colour.name());
   };
   // Of a slider, the part from where its values begin; style sheets mirror the handle alone.
-  sheet.replace("{filled}", QGuiApplication::isRightToLeft() ? "add-page" : "sub-page");
+  const QString filled =
+      R"(QSlider[layoutDirection="LeftToRight"]::sub-page:horizontal%1, )"
+      R"(QSlider[layoutDirection="RightToLeft"]::add-page:horizontal%1)";
+  sheet.replace("{filled}", filled.arg(QString()));
+  sheet.replace("{filledDisabled}", filled.arg(":disabled"));
   sheet.replace("{arrow}", iconFile(Icon::down, colours.secondary, 16));
   sheet.replace("{tick}", iconFile(Icon::tick, colours.onAccent, 16));
   fill("window", colours.window);

@@ -63,8 +63,10 @@ class TestReadingDirection : public QObject {
   void aSliderIsFilledFromWhereItsValuesBegin_data() { directions(); }
   void aSliderIsFilledFromWhereItsValuesBegin() {
     QFETCH(Qt::LayoutDirection, direction);
-    QGuiApplication::setLayoutDirection(direction);
+    QGuiApplication::setLayoutDirection(Qt::LeftToRight);
     Theme::instance().apply(Look::dark);
+    // The style sheet is not made anew for another language.
+    QGuiApplication::setLayoutDirection(direction);
     QSlider slider(Qt::Horizontal);
     slider.setRange(0, 100);
     slider.setValue(70);

@@ -121,9 +121,8 @@ QString styleSheetOf(const Colours& colours) {
     sheet.replace("{" + QString::fromLatin1(name) + "}", colour.name());
   };
   // Of a slider, the part from where its values begin; style sheets mirror the handle alone.
-  const QString filled =
-      R"(QSlider[layoutDirection="LeftToRight"]::sub-page:horizontal%1, )"
-      R"(QSlider[layoutDirection="RightToLeft"]::add-page:horizontal%1)";
+  const QString filled = R"(QSlider[layoutDirection="LeftToRight"]::sub-page:horizontal%1, )"
+                         R"(QSlider[layoutDirection="RightToLeft"]::add-page:horizontal%1)";
   sheet.replace("{filled}", filled.arg(QString()));
   sheet.replace("{filledDisabled}", filled.arg(":disabled"));
   sheet.replace("{arrow}", iconFile(Icon::down, colours.secondary, 16));

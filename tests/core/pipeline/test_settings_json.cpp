@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "relucent/pipeline/settings_json.h"
 
-#include <limits>
 #include <QTemporaryDir>
 #include <QTest>
+#include <limits>
 
 #include "relucent/base/error.h"
 #include "relucent/base/file.h"

@@ -497,6 +497,9 @@ class TestLayouts : public QObject {
     const CheckVerdict late{.finding = Finding::pictureOut, .count = 2, .seconds = 0.083, .frame = 1.0 / 60};
     wizard_->session().decide(CameraCheckResult{
         {1.0, 0.1}, late.seconds, {messageOf(sees), messageOf(late), messageOf({Finding::lightEven})}});
+    steps().go(1);
+    // Until it is known that the camera does not answer, it is looked for.
+    QTRY_VERIFY_WITH_TIMEOUT(wizard_->page<CameraPage>().isKept(), patience);
     inEveryLanguage([this](const QString& language) {
       steps().go(1);
       QStringList faults = seen(language, "checked before") + verdictsNotInSight(language, 2);

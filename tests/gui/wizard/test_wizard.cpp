@@ -145,9 +145,12 @@ class TestWizard : public QObject {
     script.projector = {64, 48};  // its photographs fit on any disk
     script.camera = {48, 36};
     page.setScript(script);
-    QCOMPARE(page.problem(), QString("The projector's command is empty."));
-    script.projectorCommand = "show {image}";
+    QCOMPARE(page.problem(), VenuePage::tr("Choose the projector's screen, or type the command that shows."));
+    script.projectorCommand = "show";
     script.cameraCommand = "photograph {exposure} {output}";
+    page.setScript(script);
+    QVERIFY2(page.problem().contains("{image}"), qPrintable(page.problem()));
+    script.projectorCommand = "show {image}";
     page.setScript(script);
     // Real devices may flash: somebody must say that the room is clear.
     QCOMPARE(page.problem(), VenuePage::tr("Confirm that the room is clear."));

@@ -49,9 +49,9 @@ VenuePage::VenuePage(Session& session, RecentVenues recent, QObject* parent)
       endQuestion_(session) {
   checkCamera_ = addCommand(Icon::next, [this] { Q_EMIT nextWanted(); });
   begin_ = addCommand(Icon::next, [this] { begin(); });
-  useScreen_ = addCommand(Icon::projector, [this] { useScreen(); });
+  useScreen_ = addCommand(Icon::projector, [this] { use([this] { openScreen_.apply(); }); });
   changeScreen_ = addCommand(Icon::projector, [this] { setMode(Mode::screen); });
-  usePrograms_ = addCommand(Icon::settings, [this] { usePrograms(); });
+  usePrograms_ = addCommand(Icon::settings, [this] { use([this] { openPrograms_.apply(); }); });
   changePrograms_ = addCommand(Icon::settings, [this] { setMode(Mode::programs); });
   remove_ = addCommand(Icon::remove, [this] { removeAsked(); });
   keepVenue_ = addCommand(Icon::folder, [] {});
@@ -368,20 +368,10 @@ void VenuePage::suggestName() {
     venueName_ = QString("%1 %2").arg(base).arg(number);
 }
 
-void VenuePage::useScreen() {
+void VenuePage::use(const std::function<void()>& apply) {
   if (!problem().isEmpty()) return;
   try {
-    openScreen_.apply();
-    setMode(Mode::start);
-  } catch (...) {
-    Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
-  }
-}
-
-void VenuePage::usePrograms() {
-  if (!problem().isEmpty()) return;
-  try {
-    openPrograms_.apply();
+    apply();
     setMode(Mode::start);
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});

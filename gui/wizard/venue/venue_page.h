@@ -198,8 +198,8 @@ class VenuePage : public PageModel {
   void beginNow();
   /// At once, or once somebody has agreed to the end of what is under way.
   void whenNothingEnds(std::function<void()> work);
-  void useScreen();
-  void usePrograms();
+  /// What was chosen for the venue that is open.
+  void use(const std::function<void()>& apply);
   void reportNoVenue(const QDir& folder);
   void suggestName();
   QString target() const { return parent_ + '/' + venueName_; }

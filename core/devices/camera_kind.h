@@ -36,6 +36,9 @@ struct CameraKind {
   /// Of several places, which device each is: equal texts, for people to read, where one can be given in
   /// more than one way. Of a camera that does not answer its place. Empty: each place is a device.
   std::function<std::vector<std::string>(const std::vector<std::string>& places)> devices = {};
+  /// What keeps a text, which may be empty, from being a place, told without asking a device. Empty: any text
+  /// but an empty one may be a place.
+  std::function<std::vector<Message>(const std::string& place)> problems = {};
 };
 
 }  // namespace relucent::devices

@@ -39,6 +39,22 @@ std::optional<CameraAddress> CameraRegistry::addressFrom(std::string_view text) 
   return CameraAddress{kind->prefix, std::string(text.substr(colon + 1))};
 }
 
+CameraAddress CameraRegistry::requiredAddress(const std::string& text) const {
+  if (const std::optional<CameraAddress> address = addressFrom(text)) return *address;
+  throw Error(ErrorKind::usage,
+              RELUCENT_ENGLISH_MESSAGE("device.not-a-camera", "'{}' is not a camera").with(text),
+              RELUCENT_ENGLISH_MESSAGE("device.write-camera-address", "write {}").with(addressForms()));
+}
+
+std::vector<Message> CameraRegistry::problems(const std::string& text) const {
+  const std::size_t colon = text.find(':');
+  const CameraKind* kind = colon == std::string::npos ? nullptr : find(text.substr(0, colon));
+  if (kind != nullptr && kind->problems) return kind->problems(text.substr(colon + 1));
+  if (addressFrom(text)) return {};
+  return {RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
+              .with(text, addressForms())};
+}
+
 std::string CameraRegistry::addressForms() const {
   std::string forms;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {

@@ -37,6 +37,10 @@ class CameraRegistry {
 
   /// None unless the text begins with a kind and a colon, and names a place.
   std::optional<CameraAddress> addressFrom(std::string_view text) const;
+  /// The same for whoever needs one. Throws: Error{usage} if there is none.
+  CameraAddress requiredAddress(const std::string& text) const;
+  /// Why there is no such address, or can be no camera at it; see CameraKind::problems.
+  std::vector<Message> problems(const std::string& text) const;
   /// "genicam:SERIAL, gphoto2:MODEL, ... or command:CMD", for sentences.
   std::string addressForms() const;
   /// A line a kind with its form and its help, for help texts.

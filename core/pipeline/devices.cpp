@@ -19,19 +19,9 @@
 namespace relucent::pipeline {
 namespace {
 
-devices::CameraAddress addressFrom(const std::string& text) {
-  const std::optional<devices::CameraAddress> address = devices::cameraRegistry().addressFrom(text);
-  if (!address)
-    throw Error(ErrorKind::usage,
-                RELUCENT_ENGLISH_MESSAGE("device.not-a-camera", "'{}' is not a camera").with(text),
-                RELUCENT_ENGLISH_MESSAGE("device.write-camera-address", "write {}")
-                    .with(devices::cameraRegistry().addressForms()));
-  return *address;
-}
-
 devices::CameraAddress addressOf(const CommandRigSettings::Camera& camera) {
   if (camera.address.empty()) return {devices::CommandCamera::kind, camera.command};
-  return addressFrom(camera.address);
+  return devices::cameraRegistry().requiredAddress(camera.address);
 }
 
 /// Else the second one would be said to be another program's.
@@ -95,12 +85,13 @@ struct Opener {
     OpenedRig result;
     std::vector<devices::CameraAddress> addresses;
     for (const ScreenRigSettings::Camera& camera : camerasOf(settings))
-      addresses.push_back(addressFrom(camera.address));
+      addresses.push_back(devices::cameraRegistry().requiredAddress(camera.address));
     requireOwnCameras(addresses);
     std::vector<std::unique_ptr<rig::Camera>> cameras;
     for (const ScreenRigSettings::Camera& camera : camerasOf(settings))
       cameras.push_back(devices::cameraRegistry().open(
-          addressFrom(camera.address), {camera.size, {settings.shortestExposure, settings.longestExposure}}));
+          devices::cameraRegistry().requiredAddress(camera.address),
+          {camera.size, {settings.shortestExposure, settings.longestExposure}}));
     std::vector<std::unique_ptr<devices::ScreenProjector>> projectors;
     double slowest = settings.frameRate;
     for (std::size_t i = 0; i < screensOf(settings).size(); ++i) {

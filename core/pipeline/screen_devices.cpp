@@ -54,13 +54,6 @@ ScreenRigSettings withScreenAlone(ScreenRigSettings rig, std::size_t screen) {
   return withScreens(std::move(rig), {screens[screen]});
 }
 
-void checkAddress(std::vector<Message>& problems, const std::string& address) {
-  if (!devices::cameraRegistry().addressFrom(address))
-    problems.push_back(
-        RELUCENT_ENGLISH_MESSAGE("device.camera-address-invalid", "'{}' is not a camera: write {}")
-            .with(address, devices::cameraRegistry().addressForms()));
-}
-
 std::vector<Message> problemsOfDevices(const ScreenRigSettings& rig) {
   std::vector<Message> found;
   const std::vector<ScreenRigSettings::Screen> screens = screensOf(rig);
@@ -72,7 +65,8 @@ std::vector<Message> problemsOfDevices(const ScreenRigSettings& rig) {
                             .with(screens[i].display.connector, before + 1, i + 1));
   const std::vector<ScreenRigSettings::Camera> cameras = camerasOf(rig);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    checkAddress(found, cameras[i].address);
+    const std::vector<Message> wrong = devices::cameraRegistry().problems(cameras[i].address);
+    found.insert(found.end(), wrong.begin(), wrong.end());
     for (std::size_t before = 0; before < i; ++before)
       if (cameras[before].address == cameras[i].address)
         found.push_back(

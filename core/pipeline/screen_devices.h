@@ -20,8 +20,6 @@ ScreenRigSettings withCameras(ScreenRigSettings rig, const std::vector<ScreenRig
 /// The rig as if that screen were its only one.  Contract: there is such a screen.
 ScreenRigSettings withScreenAlone(ScreenRigSettings rig, std::size_t screen);
 
-/// Adds a sentence where an address is that of no kind of camera.
-void checkAddress(std::vector<Message>& problems, const std::string& address);
 /// Screens and cameras that are named twice, and cameras that are none.
 std::vector<Message> problemsOfDevices(const ScreenRigSettings& rig);
 

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include "relucent/base/message.h"
+#include "relucent/devices/camera_registry.h"
+#include "relucent/devices/command/command_camera.h"
+#include "relucent/devices/command/command_projector.h"
 #include "relucent/pipeline/calibrate_settings.h"
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/compensate.h"
@@ -47,24 +50,6 @@ Problems problemsOf(const venue::VenueSettings& settings) {
   return found;
 }
 
-void checkCommand(Problems& problems, DeviceKind device, const std::string& command,
-                  std::initializer_list<const char*> placeholders) {
-  if (command.empty())
-    problems.push_back(
-        device == DeviceKind::projector
-            ? RELUCENT_MESSAGE("device.projector-command-empty", "the projector's command is empty")
-            : RELUCENT_MESSAGE("device.camera-command-empty", "the camera's command is empty"));
-  for (const char* placeholder : placeholders)
-    if (!command.empty() && command.find(placeholder) == std::string::npos)
-      problems.push_back(
-          device == DeviceKind::projector
-              ? RELUCENT_MESSAGE("device.projector-command-lacks",
-                                 "the projector's command does not contain {}")
-                    .with(placeholder)
-              : RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not contain {}")
-                    .with(placeholder));
-}
-
 /// Which of several it is.
 Problems numbered(const Problems& problems, DeviceKind device, std::size_t index, std::size_t count) {
   if (count == 1) return problems;
@@ -98,17 +83,15 @@ Problems problemsOf(const CommandRigSettings& settings) {
   for (std::size_t i = 0; i < projectors.size(); ++i) {
     Problems of;
     checkSize(of, DeviceKind::projector, projectors[i].size);
-    checkCommand(of, DeviceKind::projector, projectors[i].command, {"{image}"});
+    append(of, devices::problemsOfProjectorCommand(projectors[i].command));
     append(found, numbered(of, DeviceKind::projector, i, projectors.size()));
   }
   const auto cameras = camerasOf(settings);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     Problems of;
     if (cameras[i].size) checkSize(of, DeviceKind::camera, *cameras[i].size);
-    if (cameras[i].address.empty())
-      checkCommand(of, DeviceKind::camera, cameras[i].command, {"{exposure}", "{output}"});
-    else
-      checkAddress(of, cameras[i].address);
+    append(of, cameras[i].address.empty() ? devices::problemsOfCameraCommand(cameras[i].command)
+                                          : devices::cameraRegistry().problems(cameras[i].address));
     append(found, numbered(of, DeviceKind::camera, i, cameras.size()));
   }
   if (found.empty()) append(found, problemsOfDevices(settings));

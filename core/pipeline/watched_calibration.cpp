@@ -128,15 +128,10 @@ void openCamera(const std::filesystem::path& path, const WatchSettings& settings
   const CalibrationFolder folder = CalibrationFolder::open(path, CalibrationFolder::Access::read);
   CameraPlace place = std::visit(PlaceOf{settings}, settingsOf(folder).rig);
   if (!settings.address.empty()) place.address = settings.address;
-  const std::optional<devices::CameraAddress> address = devices::cameraRegistry().addressFrom(place.address);
-  if (!address)
-    throw Error(ErrorKind::usage,
-                RELUCENT_ENGLISH_MESSAGE("device.not-a-camera", "'{}' is not a camera").with(place.address),
-                RELUCENT_ENGLISH_MESSAGE("device.write-camera-address", "write {}")
-                    .with(devices::cameraRegistry().addressForms()));
+  const devices::CameraAddress address = devices::cameraRegistry().requiredAddress(place.address);
   auto devices = std::make_unique<rig::Rig>();
   std::unique_ptr<rig::Camera> camera =
-      devices::cameraRegistry().open(*address, {place.size, place.exposures});
+      devices::cameraRegistry().open(address, {place.size, place.exposures});
   if (place.frame > 0.0) camera = devices::inWholeFrames(std::move(camera), place.frame);
   devices->cameras.push_back(std::move(camera));
   const std::vector<reduction::Reduction> reductions = reductionsOf(folder);

@@ -79,16 +79,20 @@ Message missed(const std::vector<fs::path>& files, const std::string& wanted) {
 
 }  // namespace
 
-std::vector<Message> problems(const CommandCameraSettings& settings) {
+std::vector<Message> problemsOfCameraCommand(const std::string& command) {
+  if (command.empty())
+    return {RELUCENT_MESSAGE("device.camera-command-empty", "the camera's command is empty")};
   std::vector<Message> found;
-  if (settings.command.find("{exposure}") == std::string::npos)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "device.camera-command-lacks-exposure",
-        "the camera's command does not contain {exposure}, the exposure time in seconds"));
-  if (settings.command.find("{output}") == std::string::npos)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "device.camera-command-lacks-output",
-        "the camera's command does not contain {output}, the file that it is to write"));
+  for (const char* placeholder : {"{exposure}", "{output}"})
+    if (command.find(placeholder) == std::string::npos)
+      found.push_back(
+          RELUCENT_MESSAGE("device.camera-command-lacks", "the camera's command does not contain {}")
+              .with(placeholder));
+  return found;
+}
+
+std::vector<Message> problems(const CommandCameraSettings& settings) {
+  std::vector<Message> found = problemsOfCameraCommand(settings.command);
   if (settings.size && settings.size->empty())
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("device.camera-size-empty", "a camera of {} pixels is impossible")

@@ -25,6 +25,8 @@ struct CommandCameraSettings {
   std::string name = "camera command";
 };
 std::vector<Message> problems(const CommandCameraSettings& settings);
+/// Of the command alone: it is empty, or one of {exposure} and {output} is not in it.
+std::vector<Message> problemsOfCameraCommand(const std::string& command);
 
 /// A camera behind an external program. It writes float OpenEXR or TIFF (linear, full scale 1), 16-bit PNG or
 /// TIFF, or 8-bit pictures; RawFrame::bits says which. Every photograph has a clean folder, so an old file is

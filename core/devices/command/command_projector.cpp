@@ -8,12 +8,17 @@
 
 namespace relucent::devices {
 
+std::vector<Message> problemsOfProjectorCommand(const std::string& command) {
+  if (command.empty())
+    return {RELUCENT_MESSAGE("device.projector-command-empty", "the projector's command is empty")};
+  if (command.find("{image}") == std::string::npos)
+    return {RELUCENT_MESSAGE("device.projector-command-lacks", "the projector's command does not contain {}")
+                .with("{image}")};
+  return {};
+}
+
 std::vector<Message> problems(const CommandProjectorSettings& settings) {
-  std::vector<Message> found;
-  if (settings.command.find("{image}") == std::string::npos)
-    found.push_back(RELUCENT_ENGLISH_MESSAGE(
-        "device.projector-command-lacks-image",
-        "the projector's command does not contain {image}, the file that it is to show"));
+  std::vector<Message> found = problemsOfProjectorCommand(settings.command);
   if (settings.size.empty())
     found.push_back(
         RELUCENT_ENGLISH_MESSAGE("device.projector-size-empty", "a projector of {} pixels is impossible")

@@ -22,6 +22,8 @@ struct CommandProjectorSettings {
   std::string name = "projector command";
 };
 std::vector<Message> problems(const CommandProjectorSettings& settings);
+/// Of the command alone: it is empty, or {image} is not in it.
+std::vector<Message> problemsOfProjectorCommand(const std::string& command);
 
 /// A projector behind an external program.
 class CommandProjector : public rig::Projector {

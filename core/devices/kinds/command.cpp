@@ -30,7 +30,8 @@ CameraKind commandKind() {
       .place = "CMD",
       .help = "a program that photographs {exposure} seconds into {output}",
       .support = RELUCENT_ENGLISH_MESSAGE("device.commands", "anything that a program of yours can drive"),
-      .open = openCommand};
+      .open = openCommand,
+      .problems = problemsOfCameraCommand};
 }
 
 }  // namespace relucent::devices

@@ -150,14 +150,6 @@ VenuePage::Problem VenuePage::firstProblem() const {
     return {wrong};
   if (mode_ == Mode::script && script_.projectorCommand.empty() && !scriptScreen_)
     return {tr("Choose the projector's screen, or type the command that shows."), Remedy::screen};
-  if (isScriptOnScreen()) {
-    // What is said of a venue that is all by script, but for the program that is not needed.
-    pipeline::CalibrateSettings seen;
-    pipeline::CommandRigSettings script = script_;
-    script.projectorCommand = "{image}";
-    seen.rig = script;
-    if (std::vector<Message> found = problems(seen); !found.empty()) return {fullSentence(found.front())};
-  }
   if (std::vector<Message> found = problems(wanted()); !found.empty()) return {fullSentence(found.front())};
   std::uint64_t needed = expected().diskBytes, free = freeBytes();
   if (free < needed)

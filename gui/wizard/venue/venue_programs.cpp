@@ -29,22 +29,9 @@ void VenuePrograms::forget() {
   typed_ = used();
 }
 
-/// By the sentences of a venue that is all by script, whichever of its devices are.
 QString VenuePrograms::problem() const {
-  pipeline::CommandRigSettings script;
-  script.projectorCommand = "{image}";
-  std::vector<pipeline::CommandRigSettings::Projector> shown;
-  std::vector<pipeline::CommandRigSettings::Camera> seen;
-  for (std::size_t i = 0; i < typed_.size(); ++i) {
-    if (i < projectors())
-      shown.push_back({typed_[i], session_.projectorSize(i)});
-    else
-      seen.push_back({.command = typed_[i]});
-  }
-  if (shown.empty()) shown.push_back({"{image}", session_.projectorSize()});
-  if (seen.empty()) seen.push_back({.command = "{exposure} {output}"});
-  pipeline::CalibrateSettings settings;
-  settings.rig = pipeline::withCameras(pipeline::withProjectors(script, shown), seen);
+  pipeline::CalibrateSettings settings = session_.settings();
+  settings.rig = pipeline::withCommands(settings.rig, typed_);
   const std::vector<Message> found = problems(settings);
   return found.empty() ? QString() : fullSentence(found.front());
 }

@@ -110,7 +110,27 @@ class TestCameraRegistry : public QObject {
   void everythingElseIsNone() {
     for (const char* text :
          {"", ":", "genicam", "genicam:", "160x120", "usb:7", " genicam:7", "GENICAM:7", "/dev/video0"})
-      QVERIFY2(!cameraRegistry().addressFrom(text), text);
+      QVERIFY2(!cameraRegistry().addressFrom(text) && !cameraRegistry().problems(text).empty(), text);
+  }
+
+  void whatACommandLacksIsToldWithoutRunningIt_data() {
+    QTest::addColumn<QString>("address");
+    QTest::addColumn<QString>("sentences");
+    QTest::newRow("nothing") << "command:shoot {exposure} {output}" << "";
+    QTest::newRow("a command") << "command:" << "the camera's command is empty";
+    QTest::newRow("its file") << "command:shoot {exposure}"
+                              << "the camera's command does not contain {output}";
+    QTest::newRow("both") << "command:shoot"
+                          << "the camera's command does not contain {exposure}; "
+                             "the camera's command does not contain {output}";
+  }
+  void whatACommandLacksIsToldWithoutRunningIt() {
+    QFETCH(QString, address);
+    QFETCH(QString, sentences);
+    QStringList told;
+    for (const Message& problem : cameraRegistry().problems(address.toStdString()))
+      told << QString::fromStdString(english(problem));
+    QCOMPARE(told.join("; "), sentences);
   }
 
   void theFormsOfAllKindsAreOneSentence() {

@@ -135,6 +135,23 @@ class TestSettingsJson : public QObject {
     QCOMPARE(rigToJson(withCameras(rig, camerasOf(rig))).dump(), rigToJson(several.rig).dump());
   }
 
+  /// A camera by command is held against the same rules on a screen's venue.
+  void aScreensProgramIsNamedToo() {
+    ScreenRigSettings rig;
+    rig.display.connector = "DP-1";
+    rig.projector = {64, 48};
+    rig.frameRate = 60.0;
+    rig.cameraAddress = "command:shoot {exposure} {output}";
+    CalibrateSettings settings;
+    settings.rig = rig;
+    QVERIFY(problems(settings).empty());
+    rig.cameraAddress = "command:shoot {exposure}";
+    settings.rig = rig;
+    const std::vector<Message> found = problems(settings);
+    QCOMPARE(found.size(), std::size_t{1});
+    QCOMPARE(english(found.front()), std::string("the camera's command does not contain {output}"));
+  }
+
   void wrongProgramsAreNamed_data() {
     QTest::addColumn<QString>("projector");
     QTest::addColumn<Size>("size");

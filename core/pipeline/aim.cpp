@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "relucent/base/require.h"
+#include "relucent/image/resample.h"
 #include "relucent/sentinels/observer.h"
 
 namespace relucent::pipeline {
 namespace {
 
-constexpr int rounds = 3;  // of finding the gain: what saturates shares in the mean
+constexpr double longestSide = 640.0;  // pixels, of which a hundredth is found
+constexpr int rounds = 3;              // of finding the gain: what saturates shares in the mean
 
 double sumOf(const image::Image& picture) {
   double sum = 0.0;
@@ -36,6 +38,21 @@ double relativeDifference(const image::Image& a, const image::Image& b) {
   return whole > 0.0 ? std::sqrt(apart / whole) : 0.0;
 }
 
+/// Of large views by pictures of fewer pixels: a camera is pushed back by hand, and who looks does not wait.
+sentinels::Movement movementBetween(const image::Image& then, const image::Image& now) {
+  const Size whole = then.size();
+  const double larger = std::max(1.0, std::max(whole.width, whole.height) / longestSide);
+  const auto side = [larger](int pixels) {
+    return std::max(1, static_cast<int>(std::lround(pixels / larger)));
+  };
+  const Size few{side(whole.width), side(whole.height)};
+  sentinels::Movement moved =
+      sentinels::movementBetween({{image::resized(then, few), image::resized(now, few), {}}});
+  moved.x *= static_cast<double>(whole.width) / few.width;
+  moved.y *= static_cast<double>(whole.height) / few.height;
+  return moved;
+}
+
 }  // namespace
 
 AimOffset aimOffset(const image::Image& expected, const image::Image& seen, float saturation) {
@@ -51,7 +68,8 @@ AimOffset aimOffset(const image::Image& expected, const image::Image& seen, floa
     gain *= static_cast<float>(sumOf(now) / sumOf(then));
     then = brightness(expected, gain, saturation);
   }
-  offset.movement = sentinels::movementBetween(then, now);
+  offset.movement = movementBetween(then, now);
+  offset.gain = static_cast<double>(gain);
   offset.apart = relativeDifference(then, now);
   offset.isRecognised = offset.movement.explains || offset.apart < sentinels::reading_limit::view;
   return offset;

@@ -15,9 +15,11 @@ struct AimOffset {
   /// The movement is all that differs, or hardly anything does. Otherwise it says nothing: something else
   /// is in the view, or another light.
   bool isRecognised = false;
+  double gain = 0.0;  // how many times as bright as expected it is; 0: one of them shows nothing
 };
 
 /// `expected` and `seen`: three channels, the same size, in any units: their mean brightness is made equal.
+/// Views of more than 640 pixels are compared at that size, which finds 0.1 pixel of a 4K camera.
 /// `saturation`: of `seen`, where it ends. Throws: require() of the sizes.
 AimOffset aimOffset(const image::Image& expected, const image::Image& seen,
                     float saturation = std::numeric_limits<float>::infinity());

@@ -95,6 +95,7 @@ std::optional<Alarm> inspectAmbient(const Check& now, const Baseline& baseline) 
 /// One camera's view of one picture, before and now, the lamp's power taken out.
 struct Views {
   image::Image before, after;
+  std::vector<std::uint8_t> compared;
   double apart = 0.0, whole = 0.0, noise = 0.0;  // squared
   std::size_t changed = 0;                       // pixels off by a share of their own light
 };
@@ -116,10 +117,11 @@ Views viewsOf(const Rasters& cameras, std::size_t camera, const Pictures& pictur
               const Colours& colours = {}) {
   const auto& [first, now, compared, typical] = pictures;
   Size size = cameras.size(camera);
-  Views views{image::Image(size, 1), image::Image(size, 1)};
+  Views views{image::Image(size, 1), image::Image(size, 1), std::vector<std::uint8_t>(size.count())};
   for (std::size_t i = 0; i < size.count(); ++i) {
     std::size_t row = cameras.offset(camera) + i;
     if (!compared[row]) continue;
+    views.compared[i] = 1;
     double was = 0.0, is = 0.0, variance = 0.0;
     for (std::size_t c = colours.begin; c < colours.end; ++c) {
       was += static_cast<double>(first.radiance[3 * row + c]);
@@ -141,6 +143,10 @@ Views viewsOf(std::size_t camera, const Check& now, const Baseline& baseline, do
   const photography::References& references = baseline.references;
   return viewsOf(references.cameras, camera,
                  {baseline.first.light, now.light, references.usable, references.typical}, power);
+}
+
+Movement movementOf(const Views& views) {
+  return movementBetween({{views.before, views.after, views.compared}});
 }
 
 bool isLocal(const Views& views) {
@@ -176,7 +182,7 @@ std::optional<Alarm> inspectView(const Check& now, const Baseline& baseline, dou
                      views.apart > clearly * views.noise;
     if (!different && !isLocal(views)) continue;
 
-    Movement movement = movementBetween(views.before, views.after);
+    const Movement movement = movementOf(views);
     if (movement.explains)
       return movedAlarm(
           camera, movement,
@@ -221,7 +227,7 @@ std::optional<Alarm> inspectFullLight(const Rasters& cameras, std::size_t camera
     const double power = colourPower(cameras, camera, c, pictures);
     const Views views = viewsOf(cameras, camera, pictures, power, {c, c + 1});
     if (views.apart <= clearly * views.noise) continue;
-    const Movement movement = movementBetween(views.before, views.after);
+    const Movement movement = movementOf(views);
     const bool isFar = reachOf(movement, size) > movementLimit || isLocal(views);
     if (movement.explains && isFar && reachOf(movement, size) > reachOf(farthest, size)) farthest = movement;
     if (isLocal(views) && !changed) changed = changedAlarm(camera, views);

@@ -22,6 +22,15 @@ cv::Mat matOf(const image::Image& image) {
   return cv::Mat(image.height(), image.width(), CV_32F, const_cast<float*>(image.data().data())).clone();
 }
 
+/// Empty: all of it is compared.
+cv::Mat maskOf(const ViewPair& view) {
+  cv::Mat mask;
+  if (view.compared.empty()) return mask;
+  cv::Mat(view.first.height(), view.first.width(), CV_8U, const_cast<std::uint8_t*>(view.compared.data()))
+      .convertTo(mask, CV_32F);
+  return cv::min(mask, 1.0);
+}
+
 cv::Point2d shiftBetween(const cv::Mat& first, const cv::Mat& now) {
   cv::Mat window;
   cv::createHanningWindow(window, first.size(), CV_32F);
@@ -60,6 +69,7 @@ class Registration {
     for (const ViewPair& view : views) {
       first_.push_back(matOf(view.first));
       now_.push_back(matOf(view.now));
+      compared_.push_back(maskOf(view));
     }
     const cv::Size size = first_.front().size();
     const int margin = std::max(2, std::min(size.width, size.height) / 16);
@@ -99,9 +109,29 @@ class Registration {
   }
 
  private:
+  cv::Mat movedBy(const cv::Mat& picture, const Eigen::Vector3d& by) const {
+    return moved(picture, {by.x(), by.y()}, by.z() * angle_);
+  }
+
+  /// 1 where a pixel is compared and the light that has come there is, 0 elsewhere; empty: everywhere. What
+  /// is left out stands still, and would hold the movement back.
+  cv::Mat comparedAt(std::size_t i, const Eigen::Vector3d& by) const {
+    constexpr double whole = 0.999;  // interpolated of nothing that is left out
+    if (compared_[i].empty()) return {};
+    cv::Mat all;
+    cv::threshold(movedBy(compared_[i], by), all, whole, 1.0, cv::THRESH_BINARY);
+    return all.mul(compared_[i])(inside_);
+  }
+
   Eigen::VectorXd residual(std::size_t i, const Eigen::Vector3d& by) const {
-    const cv::Mat there = moved(first_[i], {by.x(), by.y()}, by.z() * angle_)(inside_),
-                  here = now_[i](inside_);
+    return residual(i, by, comparedAt(i, by));
+  }
+  Eigen::VectorXd residual(std::size_t i, const Eigen::Vector3d& by, const cv::Mat& compared) const {
+    cv::Mat there = movedBy(first_[i], by)(inside_), here = now_[i](inside_);
+    if (!compared.empty()) {
+      there = there.mul(compared);
+      here = here.mul(compared);
+    }
     const double whole = cv::norm(here), square = there.dot(there);
     if (!(whole > 0.0)) return Eigen::VectorXd::Zero(1);
     const double gain = square > 0.0 ? there.dot(here) / square : 0.0;
@@ -116,11 +146,12 @@ class Registration {
     std::vector<Eigen::Matrix3d> squares(first_.size());
     std::vector<Eigen::Vector3d> slopes(first_.size());
     parallelFor(0, first_.size(), 1, [&](std::size_t i) {
-      const Eigen::VectorXd here = residual(i, at);
+      const cv::Mat compared = comparedAt(i, at);
+      const Eigen::VectorXd here = residual(i, at, compared);
       Eigen::MatrixXd jacobian(here.size(), 3);
       for (int k = 0; k < 3; ++k)
-        jacobian.col(k) = (residual(i, at + h * Eigen::Vector3d::Unit(k)) -
-                           residual(i, at - h * Eigen::Vector3d::Unit(k))) /
+        jacobian.col(k) = (residual(i, at + h * Eigen::Vector3d::Unit(k), compared) -
+                           residual(i, at - h * Eigen::Vector3d::Unit(k), compared)) /
                           (2.0 * h);
       squares[i] = jacobian.transpose() * jacobian;
       slopes[i] = jacobian.transpose() * here;
@@ -134,7 +165,7 @@ class Registration {
     return -square.completeOrthogonalDecomposition().solve(slope);
   }
 
-  std::vector<cv::Mat> first_, now_;
+  std::vector<cv::Mat> first_, now_, compared_;
   cv::Rect inside_;
   double angle_ = 1.0;
 };
@@ -144,7 +175,9 @@ class Registration {
 Movement movementBetween(const std::vector<ViewPair>& views) {
   require(!views.empty(), "no views to compare");
   for (const ViewPair& view : views)
-    require(view.first.size() == views.front().first.size(), "views of several sizes");
+    require(view.first.size() == views.front().first.size() &&
+                (view.compared.empty() || view.compared.size() == view.first.size().count()),
+            "views of several sizes");
   std::vector<Movement> found(1 + views.size());
   parallelFor(0, views.size(), 1,
               [&](std::size_t i) { found[1 + i] = movementBetween(views[i].first, views[i].now); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "relucent/image/image.h"
@@ -22,11 +23,13 @@ Movement movementBetween(const image::Image& first, const image::Image& now);
 /// Two pictures of one view, one channel each.
 struct ViewPair {
   image::Image first, now;
+  std::vector<std::uint8_t> compared = {};  // pixels that hold light in both, 0 elsewhere; empty: all do
 };
 /// The one rigid movement that takes all first pictures to those of now, each as bright as it may be: from
 /// what is found of each pair, the least sum of
 ///   min over g |now - g moved(first)|^2 / |now|^2
-/// by Gauss and Newton's steps, the pictures' borders left out.  Shapes: all pairs' the same, not empty.
+/// by Gauss and Newton's steps, over pixels that are compared and come from such pixels, the pictures'
+/// borders left out.  Shapes: all pairs' the same, not empty.
 Movement movementBetween(const std::vector<ViewPair>& views);
 
 }  // namespace relucent::sentinels

@@ -102,6 +102,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
         if (!(strength > 0.0f)) continue;
         std::size_t bin = binOf(strength);
         ++sum.kept.histogram.leaves[bin];
+        sum.kept.histogram.connections[bin] += static_cast<std::uint64_t>(pixels);
         sum.kept.histogram.energy[bin] += energy;
       }
       if (isCut) fate.look(leaves, keep, transport.projectors().devices());
@@ -117,6 +118,7 @@ TransportStatistics statisticsOf(const TransportMatrix& transport, const Thresho
     all += part.all;
     for (std::size_t bin = 0; bin < StrengthHistogram::bins; ++bin) {
       result.histogram.leaves[bin] += part.kept.histogram.leaves[bin];
+      result.histogram.connections[bin] += part.kept.histogram.connections[bin];
       result.histogram.energy[bin] += part.kept.histogram.energy[bin];
     }
   }

@@ -17,13 +17,15 @@ struct NodeTable {
   std::vector<std::uint32_t> parent;
 };
 
-/// Histogram of the strength of leaves: their number and their light, in logarithmic bins.
+/// Histogram of the strength of leaves: their number, the connections that they stand for (each pair of a
+/// camera pixel and a projector pixel, so that a leaf of 2x2 pixels counts four times) and their light, in
+/// logarithmic bins.
 struct StrengthHistogram {
   static constexpr int lowestDecade = -9;  // weaker leaves count in the first bin ...
   static constexpr int highestDecade = 3;  // ... stronger ones in the last
   static constexpr int binsPerDecade = 4;
   static constexpr std::size_t bins = (highestDecade - lowestDecade) * binsPerDecade;
-  std::array<std::uint64_t, bins> leaves{};
+  std::array<std::uint64_t, bins> leaves{}, connections{};
   std::array<double, bins> energy{};
 };
 

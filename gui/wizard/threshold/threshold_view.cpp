@@ -26,8 +26,8 @@ std::vector<CutHistogram::Bar> barsOf(const ThresholdPage& model) {
   std::vector<CutHistogram::Bar> bars;
   for (std::size_t bin = 0; bin < transport::StrengthHistogram::bins; ++bin) {
     bars.push_back({transport::strengthOfBin(bin), transport::strengthOfBin(bin + 1),
-                    static_cast<double>(model.whole()->histogram.leaves[bin])});
-    if (model.kept()) bars.back().kept = static_cast<double>(model.kept()->histogram.leaves[bin]);
+                    static_cast<double>(model.whole()->histogram.connections[bin])});
+    if (model.kept()) bars.back().kept = static_cast<double>(model.kept()->histogram.connections[bin]);
   }
   return bars;
 }
@@ -209,7 +209,9 @@ QWidget* inspectorOf(ThresholdPage& model) {
     // The hint says it too.
     const QString reading = model.whole() ? QString() : ThresholdPage::tr("What was measured is being read.");
     setPossible(typed, reading);
-    usePicked->setWhyNot(model.pickedLight() ? QString() : ThresholdPage::tr("Pick a pixel in a picture."));
+    usePicked->setWhyNot(model.pickedLight() ? QString()
+                         : model.pickedRow() ? ThresholdPage::tr("No light of the picked pixel was kept.")
+                                             : ThresholdPage::tr("Pick a pixel in a picture."));
     why->setText(reasonText(model));
     strongestStay->setVisible(model.isStrongestKept());
     const QString wrong = refused->property("typed").toString();

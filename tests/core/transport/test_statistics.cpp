@@ -6,6 +6,7 @@
 #include <QtTest>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "random_blocks.h"
 #include "relucent/base/error.h"
@@ -206,6 +207,20 @@ class TestStatistics : public QObject {
     QCOMPARE(estimatedAfterCut(whole, 0.0).energyKept, 1.0);
   }
 
+  /// Law: bars that are called connections add up to what is said of connections, whatever leaves they are
+  /// in, in all and after a cut.
+  void theHistogramCountsConnections() {
+    const TransportMatrix transport = randomTransport(Size{6, 5}, Size{8, 8}, 0.6, 3);
+    for (const float cut : {0.0f, 0.3f}) {
+      ThresholdSettings settings;
+      settings.absolute = cut;
+      const TransportStatistics kept = statisticsOf(transport, settings);
+      const auto& bars = kept.histogram.connections;
+      QCOMPARE(std::accumulate(bars.begin(), bars.end(), std::uint64_t{0}), kept.connections);
+      QVERIFY(kept.connections > kept.leaves);  // some leaves are larger than a pixel
+    }
+  }
+
   void ofAHigherCutLessIsEstimated() {
     const TransportStatistics whole = statisticsOf(randomTransport(Size{6, 5}, Size{8, 8}, 0.6, 4));
     double energy = 1.0;
@@ -213,6 +228,7 @@ class TestStatistics : public QObject {
       const TransportStatistics kept = estimatedAfterCut(whole, cut);
       QVERIFY(kept.energyKept <= energy && kept.energyKept >= 0.0);
       QVERIFY(kept.leaves <= whole.leaves && kept.bytes <= whole.bytes);
+      QVERIFY(kept.connections <= whole.connections);
       energy = kept.energyKept;
     }
   }

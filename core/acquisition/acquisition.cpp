@@ -56,7 +56,7 @@ std::vector<Message> findingsOf(double drift, double unusable, double flagged,
     findings.push_back(
         RELUCENT_MESSAGE("acquisition.overexposed",
                          "{} % of the camera pixels are overexposed even at the shortest exposure: close the "
-                         "camera's aperture or allow shorter exposures, then measure again")
+                         "camera's aperture a little, then measure again")
             .with(as::share(unusable, as::decimals(1))));
   if (flagged > flaggedLimit)
     findings.push_back(
@@ -225,24 +225,24 @@ class Measurement {
     Floods floods = floodsOf(references);
     double unresolved = unresolvedEnergy(verified.transport, floods.light);
     if (!better.light.empty()) floods = std::move(better);
-    double flagged = shareOf(verified.flagged);
-    return {
-        .transport = std::move(verified.transport),
-        .black = watch.black().radiance,
-        .blackVariance = watch.black().variance,
-        .flood = std::move(floods.light),
-        .floodVariance = std::move(floods.variance),
-        .flagged = std::move(verified.flagged),
-        .residual = std::move(verified.residual),
-        .leafVariance = std::move(verified.leafVariance),
-        .remeasured = verified.remeasured,
-        .unresolvedEnergy = unresolved,
-        .verificationError = verified.error,
-        .patterns = run_.shots.shots() - shotsBefore_,
-        .exposures = run_.shots.exposures() - exposuresBefore_,
-        .stoppedAt = stoppedAt,
-        .findings = findingsOf(watch.power() - 1.0, 1.0 - shareOf(references.usable), flagged, supervision_),
-        .changed = changeOf(supervision_.endedBy)};
+    const double flagged = shareOf(verified.flagged), overexposed = 1.0 - shareOf(references.usable);
+    return {.transport = std::move(verified.transport),
+            .black = watch.black().radiance,
+            .blackVariance = watch.black().variance,
+            .flood = std::move(floods.light),
+            .floodVariance = std::move(floods.variance),
+            .flagged = std::move(verified.flagged),
+            .residual = std::move(verified.residual),
+            .leafVariance = std::move(verified.leafVariance),
+            .remeasured = verified.remeasured,
+            .unresolvedEnergy = unresolved,
+            .verificationError = verified.error,
+            .patterns = run_.shots.shots() - shotsBefore_,
+            .exposures = run_.shots.exposures() - exposuresBefore_,
+            .stoppedAt = stoppedAt,
+            .findings = findingsOf(watch.power() - 1.0, overexposed, flagged, supervision_),
+            .changed = changeOf(supervision_.endedBy),
+            .overexposed = overexposed};
   }
 
   const AcquisitionRun& run_;

@@ -487,7 +487,8 @@ class Renewing {
             .exposures = run_.shots.exposures() - exposuresBefore_,
             .stoppedAt = former_.stoppedAt,
             .expected = former_.expected,
-            .findings = {}};
+            .findings = {},
+            .overexposed = former_.overexposed};
   }
 
   const AcquisitionRun& run_;

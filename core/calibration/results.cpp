@@ -216,6 +216,8 @@ StageResult storeAcquisition(CalibrationFolder& folder, const std::string& input
               {"exposures", acquisition.exposures},
               {"stopped_at", acquisition.stoppedAt},
               {"findings", acquisition.findings},
+              {"left_out", transport::leftOut(acquisition)},
+              {"overexposed", acquisition.overexposed},
               {"cost", toJson(cost)}};
   if (acquisition.expected) values["expected_quality"] = toJson(*acquisition.expected);
   if (repair) values["repair"] = toJson(*repair);
@@ -263,6 +265,7 @@ transport::Acquisition loadAcquisition(const StageResult& result) {
     acquisition.patterns = values.at("patterns");
     acquisition.exposures = values.at("exposures");
     acquisition.stoppedAt = values.value("stopped_at", 0);
+    acquisition.overexposed = values.value("overexposed", 0.0);
     acquisition.expected = expectedFrom(values);
     acquisition.findings = values.at("findings").get<std::vector<Message>>();
     acquisition.changed = changedFrom(values);

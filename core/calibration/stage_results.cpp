@@ -136,6 +136,7 @@ StageResult storeDecision(CalibrationFolder& folder, const CameraCheckResult& re
     values["latency_seconds"] = *result.latencySeconds;
     values["verdicts"] = result.verdicts;
   }
+  if (result.tooBright > 0.0) values["too_bright"] = result.tooBright;
   return storeCurrent(folder, Stage::camera, std::move(values));
 }
 
@@ -158,6 +159,7 @@ void read(const StageResult& stored, CameraCheckResult& result) {
     take(values, "exposures", result.exposures);
     take(values, "latency_seconds", result.latencySeconds);
     take(values, "verdicts", result.verdicts);
+    take(values, "too_bright", result.tooBright);
   });
 }
 
@@ -178,6 +180,8 @@ void read(const StageResult& stored, AcquisitionResult& result) {
     result.expected = expectedFrom(values);
     take(values, "findings", result.findings);
     result.changed = changedFrom(values);
+    take(values, "left_out", result.leftOut);
+    take(values, "overexposed", result.overexposed);
     take(values, result.cost);
     result.repair = repairFrom(values);
   });

@@ -37,6 +37,7 @@ struct CameraCheckResult {
   std::vector<double> exposures;         // seconds
   std::optional<double> latencySeconds;  // of the projector; none: was not measured
   std::vector<Message> verdicts;         // sentences on projector and camera
+  double tooBright = 0.0;  // share of the view in every exposure, of the camera that sees most of it
 };
 
 /// Curves and camera models: loadLinearization().
@@ -69,6 +70,9 @@ struct AcquisitionResult {
   std::optional<StageCost> cost;                    // of the measurement; of a repaired one that of the first
   std::optional<RepairNote> repair;                 // none: it was measured, and nothing else
   std::optional<transport::FoundChange> changed{};  // with which it ended; none: nothing had changed
+  // Shares of the camera pixels: that are left out of compensation, and that were too bright for every
+  // exposure. 0 of measurements that did not tell.
+  double leftOut = 0.0, overexposed = 0.0;
   /// It was not ended early, by somebody or by a change: there is nothing to go on with.
   bool isWhole() const { return stoppedAt == 0 && !changed; }
 };

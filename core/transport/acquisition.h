@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,6 +34,14 @@ struct Acquisition {
   std::optional<ExpectedQuality> expected{};  // of dense patterns
   std::vector<Message> findings;              // sentences
   std::optional<FoundChange> changed{};       // with which it ended; none: nothing had changed
+  double overexposed = 0.0;  // share of the camera pixels that were too bright for every exposure
 };
+
+/// The share of the camera pixels that the verification found wrong.
+inline double leftOut(const Acquisition& acquisition) {
+  if (acquisition.flagged.empty()) return 0.0;
+  const auto flagged = std::count(acquisition.flagged.begin(), acquisition.flagged.end(), 1);
+  return static_cast<double>(flagged) / static_cast<double>(acquisition.flagged.size());
+}
 
 }  // namespace relucent::transport

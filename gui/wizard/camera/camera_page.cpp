@@ -10,6 +10,7 @@
 
 #include "relucent/base/message.h"
 #include "relucent/linearization/test_light.h"
+#include "relucent/pipeline/screen_devices.h"
 #include "relucent/platform/memory_limits.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
@@ -18,6 +19,7 @@ namespace relucent::gui {
 namespace {
 
 constexpr double saturation = 0.97, dark = 0.01;
+constexpr double mostTooBright = 0.05;          // of the view, in every exposure
 constexpr unsigned long restMilliseconds = 20;  // between two checks of an answer that is waited for
 
 image::Region centre(Size camera) {
@@ -59,12 +61,20 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     start();
   });
   chooseAnother_ = addCommand(Icon::camera, [this] {
+    const auto former = session_.screenRig() != nullptr
+                            ? std::optional(pipeline::camerasOf(*session_.screenRig()).front())
+                            : std::nullopt;
     exchangeCamera({}, std::nullopt);
+    if (needsCamera()) former_ = former;
     listCameras();
+  });
+  keepFormer_ = addCommand(Icon::back, [this] {
+    if (former_) chooseCamera(former_->address, former_->size);
   });
   connect(&session_, &Session::opened, this, [this] {
     finish();
     forget();
+    former_.reset();
     cameras_.clear();
     connect(&session_.live(), &LiveRig::seen, this, &CameraPage::lookAtCheck);
   });
@@ -133,6 +143,9 @@ StepStatus CameraPage::status() const {
     return {done ? StepState::done : StepState::open, areChecksDone() ? tr("Checks done") : tr("Checking")};
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
+    const double bright = session_.figures<calibration::Stage::camera>()->tooBright;
+    if (bright > mostTooBright)
+      return {StepState::doubtful, tr("%1 too bright").arg(isolated(percentText(bright)))};
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
   }
@@ -172,6 +185,7 @@ void CameraPage::exchangeCamera(const std::string& address, std::optional<Size> 
     rig.cameraAddress = address;
     rig.camera = size;
     session_.changeRig(rig);
+    former_.reset();
     forget();
   } catch (...) {
     Q_EMIT failed({failureOf(std::current_exception()), tr("Nothing was changed.")});
@@ -186,7 +200,7 @@ QString CameraPage::hint() const {
     return tr("The camera is in use at %1.").arg(session_.devicesUserName());
   if (isChecking()) return job_.stage().isEmpty() ? tr("Opening the devices") : job_.stage();
   for (std::size_t camera = 0; camera < cameras(); ++camera)
-    if (const std::optional<double> bright = tooBrightEverywhere(camera); bright && *bright > 0.05)
+    if (const std::optional<double> bright = tooBrightEverywhere(camera); bright && *bright > mostTooBright)
       return cameras() == 1 ? tr("%1 is too bright in every exposure.").arg(percentText(*bright))
                             : tr("Camera %1: %2 is too bright in every exposure.")
                                   .arg(camera + 1)
@@ -204,6 +218,7 @@ void CameraPage::updateCommands() {
   pause_->show(tr("Pause"));
   again_->show(tr("Check again"), free && session_.isOpen());
   chooseAnother_->show(tr("Choose another camera"), free);
+  keepFormer_->show(tr("Keep the former camera"), free);
 }
 
 std::vector<double> CameraPage::exposures() const {
@@ -262,6 +277,7 @@ PageCommand* CameraPage::primary() const {
 
 std::vector<PageCommand*> CameraPage::secondary() const {
   if (isLooking()) return {pause_};
+  if (needsCamera() && former_) return {keepFormer_};
   if (needsCamera()) return {};
   if (mayChooseCamera()) return {again_, chooseAnother_};
   return {again_};
@@ -521,6 +537,8 @@ void CameraPage::ended() {
 void CameraPage::keepLook() {
   calibration::CameraCheckResult kept;
   kept.exposures = exposures_.seconds;
+  for (std::size_t camera = 0; camera < cameras(); ++camera)
+    kept.tooBright = std::max(kept.tooBright, tooBrightEverywhere(camera).value_or(0.0));
   if (check_) {
     kept.latencySeconds = check_->latency.seconds;
     for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*check_))

@@ -164,7 +164,9 @@ class CameraPage : public DevicePage {
   std::optional<pipeline::RigCheck> check_;
   std::vector<linearization::Coverage> coverage_;
   linearization::RigCoverage rigCoverage_;
-  PageCommand *keep_, *pause_, *again_, *chooseAnother_;
+  /// Before another was to be chosen: a command that was typed is found by no looking.
+  std::optional<pipeline::ScreenRigSettings::Camera> former_;
+  PageCommand *keep_, *pause_, *again_, *chooseAnother_, *keepFormer_;
   bool isChecking_ = false;
   struct FirstLook {
     std::shared_ptr<Shared> of;

@@ -10,11 +10,11 @@
 
 namespace relucent::gui {
 
-/// Where a result stands that follows from the measurement: one that was stopped early, or that fits nothing,
-/// is no plain tick.
+/// Where a result stands that follows from the measurement: one that was stopped early, fits nothing or has
+/// holes is no plain tick.
 inline StepState doneOn(const Session& session) {
   if (session.wasEndedEarly()) return StepState::coarse;
-  return session.poorQuality() ? StepState::doubtful : StepState::done;
+  return session.isDoubtful() ? StepState::doubtful : StepState::done;
 }
 
 /// Content was accepted with groups by the settings that are kept, which Preview made anew: that nobody has
@@ -23,8 +23,8 @@ inline bool areClustersFollowed(const Session& session) {
   return session.progress(calibration::Stage::content) == calibration::StageProgress::done;
 }
 
-/// What stands above the pages that use a measurement which was stopped early, or which fits nothing; none:
-/// neither. `toAcquire`: leads to where it can be gone on with, or begun again.
+/// What stands above the pages that use a measurement which was stopped early, fits nothing or has holes;
+/// none: it is whole. `toAcquire`: leads to where it can be gone on with, or begun again.
 inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* toAcquire) {
   if (const auto change = session.foundChange())
     return Banner{
@@ -50,8 +50,27 @@ inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* 
                                     "uncorrected. Measure again.")
             .arg(isolated(QCoreApplication::translate("StoppedEarly", "%1 dB").arg(decimalText(*poor, 0)))),
         toAcquire};
+  if (const auto leftOut = session.leftOut()) {
+    const QString share = isolated(percentText(*leftOut));
+    if (session.isOverexposed())
+      return Banner{Banner::Kind::amber,
+                    QCoreApplication::translate("StoppedEarly", "%1 of the view is too bright for the camera")
+                        .arg(share),
+                    QCoreApplication::translate("StoppedEarly",
+                                                "Nothing is corrected there. Close the lens a little, check "
+                                                "the camera, then measure again."),
+                    toAcquire};
+    return Banner{
+        Banner::Kind::amber,
+        QCoreApplication::translate("StoppedEarly", "%1 of the view is left out").arg(share),
+        QCoreApplication::translate("StoppedEarly",
+                                    "Test patterns looked different there from what was measured, and "
+                                    "nothing is corrected. See that all stands still, then measure again."),
+        toAcquire};
+  }
   return std::nullopt;
 }
+
 /// The command's words on those pages: it leads to Acquire, where it begins once all is ready.
 inline QString toAcquireText(const Session& session) {
   return session.wasEndedEarly() ? QCoreApplication::translate("StoppedEarly", "Go on at Acquire")

@@ -109,7 +109,10 @@ QWidget* previewInspector(PreviewPage& page) {
     problem->setText(page.problem());
     constexpr double worthSaying = 0.01;
     shadow->setVisible(page.preview() && page.preview()->unlit > worthSaying);
-    if (page.projectors() == 1)
+    if (page.isMuchLeftOut())
+      shadow->setText(PreviewPage::tr("Part of the picture lies where the view is left out."),
+                      PreviewPage::tr("It stays uncorrected. Acquire says why."));
+    else if (page.projectors() == 1)
       shadow->setText(PreviewPage::tr("Part of the picture gets no light from this projector."),
                       PreviewPage::tr("A second could fill it."));
     else

@@ -77,6 +77,8 @@ class PreviewPage : public DevicePage {
   /// Sets of the calibration. What was changed here is kept in the one in use before another one is; a new
   /// one has it alone.
   const pipeline::TargetSets& sets() const { return session_.sets(); }
+  /// Much of the view is left out of the measurement: what is not corrected there may well be lit.
+  bool isMuchLeftOut() const { return session_.leftOut().has_value(); }
   void useSet(const std::string& name);
   void saveSet(const std::string& name);
   void renameSet(const std::string& to);

@@ -111,6 +111,23 @@ class TestReadouts : public QObject {
     QCOMPARE(page.exposures(), (std::vector<double>{0.25, 0.5}));
   }
 
+  /// Law: a view of which no exposure shows much is no plain tick, whoever has kept them.
+  void aViewThatIsTooBrightIsDoubtful_data() {
+    QTest::addColumn<double>("share");
+    QTest::addColumn<StepState>("state");
+    QTest::newRow("none of it") << 0.0 << StepState::done;
+    QTest::newRow("a lamp") << 0.04 << StepState::done;
+    QTest::newRow("most of it") << 0.72 << StepState::doubtful;
+  }
+  void aViewThatIsTooBrightIsDoubtful() {
+    QFETCH(double, share);
+    own_->begin();
+    CameraPage page(*session_);
+    session_->decide(CameraCheckResult{.exposures = {0.25}, .tooBright = share});
+    QTEST(page.status().state, "state");
+    QCOMPARE(page.status().result.contains(percentText(share)), share > 0.05);
+  }
+
   /// Law: the histogram's bars are of what the readouts count; beyond everything, the strongest stay.
   void aCutIsTheSameEverywhere() {
     measure();
@@ -131,7 +148,7 @@ class TestReadouts : public QObject {
     for (double cut : {0.0, 1e-3, 1e9}) {
       page.setAbsolute(cut);
       QTRY_VERIFY_WITH_TIMEOUT(page.isExact(), patience);
-      QCOMPARE(barsOf("kept"), static_cast<double>(page.kept()->leaves));
+      QCOMPARE(barsOf("kept"), static_cast<double>(page.kept()->connections));
       QCOMPARE(barsOf("dropped") > 0.0, page.kept()->leaves < page.whole()->leaves);
     }
     QVERIFY(page.kept()->leaves > 0 && page.isStrongestKept());

@@ -50,7 +50,7 @@ void Job::start(Work work) {
   fraction_ = 0.0;
   stage_ = {};
   failure_ = {};
-  thread_.reset(QThread::create([this, work = std::move(work)] {
+  thread_.reset(QThread::create([this, work = std::move(work)]() mutable {
     Sink sink(*this);
     Progress progress(sink, *stop_);
     State end = State::done;
@@ -63,6 +63,7 @@ void Job::start(Work work) {
       end = State::failed;
       failure = failureOf(std::current_exception());
     }
+    work = nullptr;  // devices that it held are free for others, and are let go of here
     QMetaObject::invokeMethod(this, [this, end, failure] { finish(end, failure); }, Qt::QueuedConnection);
   }));
   thread_->start();
@@ -83,7 +84,9 @@ void Job::wait() {
 }
 
 QString Job::stage() const {
-  return text(stage_);
+  QString stage = text(stage_);
+  if (!stage.isEmpty()) stage[0] = stage[0].toUpper();  // some go on where a program's name stands before
+  return stage;
 }
 
 void Job::takeReports() {

@@ -27,7 +27,7 @@ class Job : public QObject {
   /// Cancels and waits.
   ~Job() override;
 
-  /// Contract: no work is running.
+  /// Nothing of the work, nor what it holds, stays once it has ended.  Contract: no work is running.
   void start(Work work);
   /// The work ends early with a valid, coarser result.
   void stopAndKeep();

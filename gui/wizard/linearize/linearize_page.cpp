@@ -207,7 +207,7 @@ void LinearizePage::measure(bool again) {
   begunAt_ = photographsOf(session_);
   // Another seed is another order of the levels: the result of before stays beside the new one.
   job_.start([work = workOf(session_), again, room = &room_](Progress& progress) {
-    room->countPauses([devices = work.devices] { return devices->live().paused(); });
+    room->countPauses([live = work.devices->sharedLive()] { return live->paused(); });
     Progress opening = progress.part(0.2, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =

@@ -136,6 +136,12 @@ void Session::makeDevices() {
     devices_->setLatency(*checked->latencySeconds);
 }
 
+void Session::letGoOfDevices() {
+  if (!isOpen() || !areDevicesFree()) return;
+  devices_ = nullptr;  // first: nobody else is let to a camera that is held
+  makeDevices();
+}
+
 /// Called on a worker's thread.
 std::unique_ptr<devices::ScreenProjector> Session::openScreen(const pipeline::ScreenRigSettings& settings) {
   return std::make_unique<WindowProjector>(
@@ -364,6 +370,17 @@ std::optional<double> Session::poorQuality() const {
   const auto& measured = figures<calibration::Stage::acquisition>();
   if (!measured || !measured->expected || !transport::isPoor(*measured->expected)) return std::nullopt;
   return measured->expected->whole;
+}
+
+std::optional<double> Session::leftOut() const {
+  constexpr double most = 0.1;  // a hole that anybody sees
+  const auto& measured = figures<calibration::Stage::acquisition>();
+  return measured && measured->leftOut > most ? std::optional(measured->leftOut) : std::nullopt;
+}
+
+bool Session::isOverexposed() const {
+  const auto& measured = figures<calibration::Stage::acquisition>();
+  return measured && 2.0 * measured->overexposed > measured->leftOut;
 }
 
 void Session::change(const std::function<void(calibration::CalibrationFolder&)>& write) {

@@ -75,6 +75,8 @@ class SessionDevices {
   /// Leaves the projector's screen to others until the next pattern.
   void rest();
   LiveRig& live() const { return *live_; }
+  /// For whoever asks later: devices that are kept for it would stay in use.
+  std::shared_ptr<LiveRig> sharedLive() const { return live_; }
 
  private:
   std::shared_ptr<devices::ScreenControl> screen() const;
@@ -199,6 +201,13 @@ class Session : public QObject {
   /// dB that are expected of corrected pictures where they will be no better than uncorrected; see
   /// transport::isPoor(). None: they will be.
   std::optional<double> poorQuality() const;
+  /// The share of the view that acquisition left out, where that is more than a tenth: what is shown there
+  /// stays as it is. None: it is less.
+  std::optional<double> leftOut() const;
+  /// Of leftOut(): most of it is too bright for every exposure of the camera.
+  bool isOverexposed() const;
+  /// It may be used, but nobody should be content with it.
+  bool isDoubtful() const { return poorQuality() || leftOut(); }
 
   /// The calibration's sets (pipeline/sets.h); none, too, where they cannot be read.
   const pipeline::TargetSets& sets() const { return sets_; }
@@ -222,6 +231,8 @@ class Session : public QObject {
   void changePixels(const reduction::PixelUse& use);
   /// Other devices, before anything is measured. Throws: as changeRig().
   void changeRig(const pipeline::RigSettings& rig);
+  /// So that another venue can have them: the next work opens them again. Nothing while somebody uses them.
+  void letGoOfDevices();
   /// The projector is another screen from now on; nothing that was measured becomes stale.
   /// Of `screen` its first one is that projector's. Contract: screenRig(). Throws: as
   /// pipeline::changeScreen().

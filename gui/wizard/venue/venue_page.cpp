@@ -207,7 +207,10 @@ void VenuePage::setMode(Mode mode) {
   openScreen_.forget();
   openPrograms_.forget();
   if (mode != Mode::start) suggestName();
-  if (mode == Mode::devices) finder_.look();
+  if (mode == Mode::devices) {
+    session_.letGoOfDevices();  // else its camera would be said to be another program's
+    finder_.look();
+  }
   tellSettings();
 }
 

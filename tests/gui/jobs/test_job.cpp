@@ -91,6 +91,16 @@ class TestJob : public QObject {
     QCOMPARE(then, QString("OPENING THE DEVICES"));
   }
 
+  /// Law: what work held is free when it has ended, while the job stays: a camera, for another venue.
+  void whatWorkHoldsIsLetGoOf() {
+    auto held = std::make_shared<int>(7);
+    const std::weak_ptr<int> watched = held;
+    Job job;
+    job.start([held = std::move(held)](Progress&) {});
+    QTRY_COMPARE(job.state(), Job::State::done);
+    QVERIFY(watched.expired());
+  }
+
   void endsInOneWay_data() {
     QTest::addColumn<int>("ending");
     QTest::addColumn<int>("state");
@@ -160,7 +170,7 @@ class TestJob : public QObject {
     job.wait();
     QTRY_VERIFY(job.state() == Job::State::done);
     QCOMPARE(job.fraction(), 1.0);
-    QCOMPARE(job.stage(), QString("counting"));
+    QCOMPARE(job.stage(), QString("Counting"));
     QCOMPARE(expected.size(), 1);
     QVERIFY(progressed.size() < 10);
   }

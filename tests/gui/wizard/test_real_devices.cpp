@@ -325,6 +325,17 @@ class TestRealDevices : public QObject {
     camera.primary()->trigger();
     QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.areDevicesFree());
 
+    // Who would have had another camera has the former one back as it was.
+    camera.secondary().back()->trigger();
+    QVERIFY(camera.needsCamera());
+    QCOMPARE(camera.secondary().size(), std::size_t{1});
+    camera.secondary().front()->trigger();
+    QVERIFY(!camera.needsCamera());
+    QCOMPARE(session.screenRig()->cameraAddress, found.address);
+    QTRY_VERIFY_WITH_TIMEOUT(camera.check().has_value() && !camera.isChecking(), 30000);
+    camera.primary()->trigger();
+    QTRY_VERIFY(session.progress(Stage::camera) == StageProgress::done && session.areDevicesFree());
+
     CalibrateSettings quick = session.settings();
     quick.linearization.levels = 9;
     quick.acquisition = settingsOf(AcquisitionMode::fast);
@@ -334,6 +345,14 @@ class TestRealDevices : public QObject {
     QTRY_VERIFY(session.areDevicesFree());
     acquire.primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(session.progress(Stage::acquisition) == StageProgress::done, 60000);
+
+    // Another venue may have the camera, though this one looked through it last.
+    QTRY_VERIFY(session.areDevicesFree());
+    venue.setMode(VenuePage::Mode::devices);
+    QTRY_VERIFY_WITH_TIMEOUT(!venue.finder().isLooking(), 30000);
+    const std::vector<ListedCamera>& offered = venue.finder().cameras().cameras;
+    QVERIFY(!offered.empty());
+    QVERIFY2(offered.front().usable, english(offered.front().problem).c_str());
 
     // Remembered: another session knows screen, camera and latency.
     Session again(cache());

@@ -33,6 +33,7 @@ class PlaneView : public QWidget {
   void setReadout(Readout readout);
   /// The text shown while there is no plane.
   void setEmptyText(const QString& text);
+  const QString& emptyText() const { return emptyText_; }
   /// A label in the corner: "Out of date".
   void setBadge(const QString& text);
   /// A text in the lower left corner: the state of the displayed picture.

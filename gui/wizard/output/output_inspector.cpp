@@ -107,6 +107,9 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (proof == nullptr)
     return remark.show(Remark::Kind::watch, OutputPage::tr("Not photographed yet"),
                        OutputPage::tr("One photograph shows whether the surface looks as predicted."));
+  if (page.proof().wasPushedBack())
+    return remark.show(Remark::Kind::watch, OutputPage::tr("The camera is back at its place"),
+                       OutputPage::tr("Take the photograph again: the last one was taken before."));
   const pipeline::ProvedView figures = proof->figuresOf(page.camera());
   QString meaning = errorLine(OutputPage::tr("Corrected"), figures.after) + '\n' +
                     errorLine(OutputPage::tr("Original"), figures.before) + '\n' +
@@ -134,9 +137,10 @@ void showProof(Remark& remark, const OutputPage& page) {
     remark.show(Remark::Kind::warning, OutputPage::tr("The camera or projector may have moved."), meaning);
 }
 
-void showDrift(Remark& remark, const std::optional<pipeline::DriftRecord>& drift) {
-  remark.setVisible(drift.has_value());
-  if (!drift) return;
+/// `hasMoved`: the photograph shows that the camera was bumped, which can be undone by hand, too.
+void showDrift(Remark& remark, const pipeline::DriftRecord* drift, bool hasMoved) {
+  remark.setVisible(drift != nullptr);
+  if (drift == nullptr) return;
   QString meaning =
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
           .arg(percentText(drift->error), percentText(drift->errorThen), percentText(drift->changedShare));
@@ -145,7 +149,9 @@ void showDrift(Remark& remark, const std::optional<pipeline::DriftRecord>& drift
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
       return remark.show(Remark::Kind::warning,
-                         OutputPage::tr("Something has changed. Repair the calibration."), meaning);
+                         hasMoved ? OutputPage::tr("Put the camera back, or repair the calibration.")
+                                  : OutputPage::tr("Something has changed. Repair the calibration."),
+                         meaning);
     case acquisition::Verdict::startAgain:
       return remark.show(Remark::Kind::failed,
                          OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),
@@ -188,7 +194,10 @@ QWidget* proofPart(OutputPage& page) {
   });
   auto refresh = [=, &page] {
     showProof(*found, page);
-    showDrift(*changed, page.proof().drift());
+    const std::shared_ptr<const Proof>& proof = page.proof().proof();
+    const bool hasMoved = proof && !page.proof().isOutOfDate() && !page.proof().wasPushedBack() &&
+                          proof->figures.moved.explains && !proof->isAsPredicted();
+    showDrift(*changed, page.proof().newestDrift(), hasMoved);
     take->setWhyNot(page.whyNotProve());
     drift->setWhyNot(page.whyNoPatterns());
     push->setWhyNot(page.whyNoPhotograph());

@@ -39,6 +39,10 @@ OutputPage::OutputPage(Session& session, QObject* parent)
   aimAgain_ = addCommand(Icon::camera, [this] { Q_EMIT stepWanted("camera"); });
   goOnMeasuring_ = addCommand(Icon::play, [this] { Q_EMIT stepWanted("acquire"); });
   endChart_ = addCommand(Icon::play, [this] { projection_.endChart(); });
+  stop_ = addCommand(Icon::stop, [this] {
+    proof_.cancel();
+    perfecting_.cancel();
+  });
   renew_ = addCommand(Icon::play, [this] { renew(); });
   review_ = addCommand(Icon::next, [this] { Q_EMIT stepWanted(stepToReview()); });
   connect(&session_, &Session::opened, this, [this] {
@@ -129,6 +133,7 @@ void OutputPage::enter() {
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (playsEarlier()) return {StepState::busy, tr("Earlier correction"), false, true};
+  if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
   if (isOpen())
     return {StepState::busy, isBlack()      ? tr("Black")
                              : showsChart() ? tr("Test chart")
@@ -137,6 +142,29 @@ StepStatus OutputPage::status() const {
   if (proof_.isOutOfDate()) return {StepState::outOfDate, tr("Proof out of date")};
   if (isInstalled()) return {StepState::done, tr("Show installed")};
   return {};
+}
+
+/// What is done by photographs now, for the rail; empty: nothing.
+QString OutputPage::photographicWork() const {
+  if (perfecting_.isRunning()) return tr("Perfecting");
+  switch (proof_.work()) {
+    case OutputProof::Work::photograph:
+      return tr("Photographing");
+    case OutputProof::Work::drift:
+      return tr("Checking for drift");
+    case OutputProof::Work::repair:
+      return tr("Repairing");
+    case OutputProof::Work::none:
+    case OutputProof::Work::report:
+      break;
+  }
+  return {};
+}
+
+QString OutputPage::whatIsProjected() const {
+  return photographicWork().isEmpty()
+             ? tr("The output is closed. Nothing is projected.")
+             : tr("The output is closed. Patterns to be photographed are projected.");
 }
 
 QString OutputPage::hint() const {
@@ -215,6 +243,7 @@ void OutputPage::updateCommands() {
   freeze_->show(isFrozen() ? tr("Play") : tr("Freeze"));
   black_->show(isBlack() ? tr("Show again") : tr("Black"));
   close_->show(tr("Close output"));
+  stop_->show(tr("Stop"));
 }
 
 PageCommand* OutputPage::primary() const {
@@ -241,6 +270,7 @@ PageCommand* OutputPage::primary() const {
 
 /// What comes and goes stands first, so that the others keep their places.
 std::vector<PageCommand*> OutputPage::secondary() const {
+  if (!photographicWork().isEmpty()) return {stop_};
   if (!isOpen()) return {};
   std::vector<PageCommand*> commands;
   // What nobody has seen on the projectors is not installed from here.

@@ -58,6 +58,8 @@ class OutputPage : public DevicePage {
   }
   /// The one that was chosen for the shown projector and is not there now; empty: it is, or none was chosen.
   QString missingScreen() const;
+  /// What stands on the projectors while the output is closed, a sentence.
+  QString whatIsProjected() const;
   /// What it means for what is measured that the projector is another screen now; empty: nothing.
   QString meaningOfScreen() const;
 
@@ -172,6 +174,7 @@ class OutputPage : public DevicePage {
   bool coversOperator() const;
   bool isOnPageOnly() const;
   QString playingHint() const;
+  QString photographicWork() const;
   QString screenHint(std::size_t projector) const;
   QString missingScreenOf(std::size_t projector) const;
   QString stepToReview() const;
@@ -195,7 +198,7 @@ class OutputPage : public DevicePage {
   PageCommand *open_, *install_, *freeze_, *black_, *close_;
   PageCommand *prove_, *checkDrift_, *repair_, *pushBack_, *measureAgain_, *removeShow_, *keepShow_,
       *aimAgain_;  // what comes before installing
-  PageCommand *renew_, *endChart_;
+  PageCommand *renew_, *endChart_, *stop_;
   PageCommand *goOnMeasuring_, *review_;  // of the banner
   OutputPlaylist playlist_;
   OutputProof proof_;

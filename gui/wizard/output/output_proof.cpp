@@ -100,7 +100,6 @@ void OutputProof::look() {
   if (isDriftOld || isRepairOld || wasOutOfDate != wasOutOfDate_) Q_EMIT changed();
 }
 
-/// A photograph that was taken later says more.
 const pipeline::DriftRecord* OutputProof::newestDrift() const {
   if (!drift_) return nullptr;
   const QDateTime checked = QDateTime::fromString(QString::fromStdString(drift_->checked), Qt::ISODate);
@@ -251,6 +250,10 @@ void OutputProof::finished() {
     // What was found before of the former measurement goes with it.
     if (found->repair->end == pipeline::RepairEnd::repaired) unread = session_.readAgain();
     repair_ = std::move(found->repair);
+    if (repair_->end == pipeline::RepairEnd::nothingToDo && drift_) {
+      drift_.reset();  // what was found before is no more
+      forgetDrift(proofFolder(session_.path()));
+    }
     repairOf_ = measurementOf(session_);
   }
   if (done && (found->proof || found->drift)) pushedBack_ = false;

@@ -65,6 +65,8 @@ class OutputProof : public QObject {
   /// There is one, of something else than is shown now.
   bool isOutOfDate() const { return proof_ && !holds(*proof_); }
   const std::optional<pipeline::DriftRecord>& drift() const { return drift_; }
+  /// The same where no photograph was taken later, which says more; else none.
+  const pipeline::DriftRecord* newestDrift() const;
   /// What the last repair here came to; none: there was none since the calibration was opened or changed.
   const std::optional<pipeline::RepairResult>& repair() const { return repair_; }
   /// What is used was repaired: of what, and what that gained. None: it was measured so.
@@ -76,6 +78,8 @@ class OutputProof : public QObject {
   Next next() const;
   /// Where it looks as it did, the camera was pushed back: what was found before that holds no more.
   void cameraPushedBack();
+  /// It was, since the last photograph.
+  bool wasPushedBack() const { return pushedBack_; }
 
   /// `picture`, a file or resource, as a show has it on that canvas: perfected, if it is.
   void photograph(const QString& picture, const Canvas& canvas);
@@ -105,7 +109,6 @@ class OutputProof : public QObject {
   bool holds(const Proof& proof) const;
   const Proof* current() const { return proof_ && holds(*proof_) ? proof_.get() : nullptr; }
   void look();
-  const pipeline::DriftRecord* newestDrift() const;
   /// It was tried in vain.
   bool isBeyondRepair() const { return repair_ && repair_->end == pipeline::RepairEnd::notBetter; }
 

@@ -34,7 +34,7 @@ constexpr double chartSeconds = 60.0, sampleSeconds = 0.5;
 
 /// The cards say so too.
 QString whyNoShow(const OutputPage& page) {
-  return page.isOpen() ? QString() : OutputPage::tr("The output is closed. Nothing is projected.");
+  return page.isOpen() ? QString() : page.whatIsProjected();
 }
 
 /// Three figures, and the time of every frame in the last minute.
@@ -133,12 +133,13 @@ class MirrorView : public ImageView {
  public:
   explicit MirrorView(OutputPage& page) : page_(page), projection_(page.projection()) {
     connect(&projection_, &OutputProjection::mirrored, this, &MirrorView::reflect);
+    connect(&page_, &OutputPage::resultChanged, this, &MirrorView::reflect);
     reflect();
   }
   void reflect() {
     const QString missing = page_.isOpen() ? page_.missingScreen() : QString();
     setEmptyText(missing.isEmpty()
-                     ? OutputPage::tr("The output is closed. Nothing is projected.")
+                     ? page_.whatIsProjected()
                      : OutputPage::tr("The screen %1 is unplugged. Nothing is projected.").arg(missing));
     setPicture(missing.isEmpty() ? projection_.mirror() : QImage());
   }

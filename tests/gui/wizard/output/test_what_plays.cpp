@@ -19,7 +19,9 @@
 #include "relucent/pipeline/sets.h"
 #include "relucent/pipeline/settings_json.h"
 #include "support/stream_sender.h"
+#include "views/image_view.h"
 #include "wizard/output/output_page.h"
+#include "wizard/output/output_view.h"
 #include "wizard/output/playlist_view.h"
 #include "wizard/output/set_times_dialog.h"
 
@@ -294,6 +296,47 @@ class TestWhatPlays : public QObject {
     page_->undoRepair();
     QCOMPARE(session().correction(), before);
     QVERIFY(!page_->proof().repairNote() && page_->playsEarlier() && !page_->proof().isOutOfDate());
+  }
+
+  /// Law: while patterns stand on the projectors, no part of the window says that nothing does; the rail says
+  /// what is done, and it can be stopped.
+  void whatIsDoneByPhotographsIsSaid_data() {
+    QTest::addColumn<bool>("repairs");
+    QTest::newRow("check for drift") << false;
+    QTest::newRow("repair") << true;
+  }
+  void whatIsDoneByPhotographsIsSaid() {
+    QFETCH(bool, repairs);
+    const PageView view = viewOf(*page_);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    const QString nothing = OutputPage::tr("The output is closed. Nothing is projected.");
+    const auto says = [&](const QString& sentence) {
+      const QList<ImageView*> pictures = stage->findChildren<ImageView*>();
+      return std::ranges::any_of(pictures, [&](ImageView* one) { return one->emptyText() == sentence; });
+    };
+    QVERIFY(!page_->isOpen() && says(nothing) && page_->secondary().empty());
+    repairs ? page_->repair() : page_->checkDrift();
+    QVERIFY(!isIdle() && !says(nothing) && says(page_->whatIsProjected()));
+    QCOMPARE(page_->status().state, StepState::busy);
+    QCOMPARE(page_->status().result, QString(repairs ? "Repairing" : "Checking for drift"));
+    QCOMPARE(page_->secondary().size(), std::size_t{1});
+    page_->secondary().front()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(isIdle(), patience);
+    QVERIFY(says(nothing) && !page_->proof().drift() && !page_->proof().repair());
+  }
+
+  /// Law: a repair that finds the venue as it was leaves nothing of what was found before.
+  void whatWasPutRightIsNoDrift() {
+    becomes([](venue::Changes& changes) { changes.painted.push_back({{0.45, 0.5}, 0.3}); });
+    page_->checkDrift();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().drift() && isIdle(), patience);
+    QCOMPARE(page_->proof().drift()->verdict, acquisition::Verdict::remeasure);
+    becomes([](venue::Changes& changes) { changes.painted.clear(); });
+    QVERIFY(page_->proof().drift().has_value());  // nobody has looked again
+    page_->repair();
+    QTRY_VERIFY_WITH_TIMEOUT(page_->proof().repair() && isIdle(), patience);
+    QCOMPARE(page_->proof().repair()->end, pipeline::RepairEnd::nothingToDo);
+    QVERIFY(!page_->proof().drift() && page_->proof().newestDrift() == nullptr);
   }
 
   /// Law: where nothing is better by it, measuring again is what is left.

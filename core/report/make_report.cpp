@@ -208,7 +208,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.venue = venueSentence(measured.rig);
   data.isSimulated = std::holds_alternative<venue::VenueSettings>(measured.rig);
   data.software = folder.software();
-  data.measured = folder.created();
+  data.measured = folder.created();  // where nobody knows better
   data.projector = transport.projectors().size(0);
   data.camera = transport.cameras().size(0);
   data.projectors = transport.projectors().devices();
@@ -231,6 +231,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.settings = settingsInWords(pipeline::settingsOf(folder));
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
   if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
+    data.measured = acquired->stored;
     data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
     data.drift = driftIn(folder.path(), *acquired);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/output_playlist.h"
 
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 
@@ -12,6 +13,15 @@
 
 namespace relucent::gui {
 namespace {
+
+constexpr const char* demonstration = "demonstration.png";  // the copy that a calibration keeps
+
+/// The program's own picture, or the copy of it.
+bool isDemonstration(const QString& path) {
+  const QFileInfo file(path);
+  return path == defaultPicture() ||
+         (file.fileName() == demonstration && file.size() == QFileInfo(defaultPicture()).size());
+}
 
 QString picturePath(const QString& picture) {
   return picture.isEmpty() ? defaultPicture() : picture;
@@ -76,7 +86,7 @@ void OutputPlaylist::save() const {
   PlaylistSettings kept = settings_;
   for (PlaylistItem& item : kept.items) {
     if (item.path != defaultPicture()) continue;
-    QString copy = folder_ + "/demonstration.png";
+    const QString copy = QDir(folder_).filePath(demonstration);
     if (!QFileInfo::exists(copy)) {
       QFile own(defaultPicture());
       require(own.open(QIODevice::ReadOnly), "the program's own picture is missing");
@@ -88,7 +98,7 @@ void OutputPlaylist::save() const {
 }
 
 QString OutputPlaylist::nameOf(const PlaylistItem& item) {
-  if (item.path == defaultPicture()) return tr("Demonstration picture");
+  if (isDemonstration(item.path)) return tr("Demonstration picture");
   if (addressOf(item.path).kind != ContentAddress::Kind::file) return shownPath(item.path);
   return QFileInfo(item.path).fileName();
 }

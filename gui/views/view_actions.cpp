@@ -62,13 +62,16 @@ void addSaving(Card& card, QToolButton& button, const std::function<ShownView()>
 
 QString suggestedFile(const QString& venue, const QString& shown, const QString& ending) {
   static const QRegularExpression refused(R"([/\\:*?"<>|\x00-\x1f])");
-  QStringList parts{QFileInfo(venue).fileName(), shown.simplified()};
+  static const QRegularExpression comma(QString::fromUtf8("[,\u060c\u3001\uff0c]"));
+  // What is told beyond a comma is for those who do not see it.
+  QStringList parts{QFileInfo(venue).fileName(), shown.section(comma, 0, 0).simplified()};
   parts.removeAll(QString());
   QString name = parts.join(", ");
   name.replace(refused, " ");
   if (name.simplified().isEmpty()) name = QCoreApplication::applicationName();
-  return QDir(QStandardPaths::writableLocation(QStandardPaths::PicturesLocation))
-      .filePath(name.simplified() + ending);
+  // Where there is no folder for pictures, a dialog would take that in which the program was started.
+  const QString pictures = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
+  return QDir(QFileInfo(pictures).isDir() ? pictures : QDir::homePath()).filePath(name.simplified() + ending);
 }
 
 void saveView(PlaneView& view, const ViewValues& values, const QString& path) {

@@ -59,6 +59,8 @@ class TestOutputPlaylist : public QObject {
     again.open(folder.path(), {});
     QCOMPARE(names(again), QStringList{folder.filePath("demonstration.png")});
     QVERIFY(QFile::exists(folder.filePath("demonstration.png")));
+    QCOMPARE(OutputPlaylist::nameOf(again.settings().items.front()),
+             OutputPlaylist::nameOf({defaultPicture()}));
   }
 
   void moving_data() {

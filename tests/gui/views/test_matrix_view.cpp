@@ -185,6 +185,10 @@ class TestMatrixView : public QObject {
     QTest::addColumn<QString>("name");
     QTest::newRow("plain") << "Error map" << "Error map.png";
     QTest::newRow("what no file may be called") << " Light: T\\p / \"e\"?\n" << "Light T p e.png";
+    QTest::newRow("what is told at length")
+        << "Audience's view, corrected at the right" << "Audience's view.png";
+    QTest::newRow("at length in another script")
+        << QString::fromUtf8("خريطة، تفاصيل") << QString::fromUtf8("خريطة.png");
     QTest::newRow("another script") << QString::fromUtf8("خريطة الخطأ")
                                     << QString::fromUtf8("خريطة الخطأ.png");
   }

@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>متابعة التشغيل</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>عرض الموقع «%1».</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -356,6 +360,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>ما يلي من قبل التغيّر. انظر في «القياس» ما يفيد.</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>%1 من المشهد ساطع جدًا للكاميرا</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>لا يُصحَّح شيء هناك. أغلق العدسة قليلًا، وافحص الكاميرا، ثم قِس من جديد.</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>%1 من المشهد مستبعَد</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>بدت أنماط الاختبار هناك مختلفة عما قيس، فلا يُصحَّح شيء. تأكد من ثبات كل شيء، ثم قِس من جديد.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -466,8 +486,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>⁨{} %⁩ من بكسلات الكاميرا مفرطة التعريض حتى عند أقصر تعريض: أغلق فتحة عدسة الكاميرا أو اسمح بتعريضات أقصر، ثم أعد القياس</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>⁨{} %⁩ من بكسلات الكاميرا مفرطة التعريض حتى عند أقصر تعريض: أغلق فتحة عدسة الكاميرا قليلًا، ثم أعد القياس</translation>
     </message>
 </context>
 <context>
@@ -3649,32 +3669,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1؛ الضوء صحيح في حدود %2 تقريبًا</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>لا أنماط متوقعة مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-            <numerusform>نمط واحد متوقع مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-            <numerusform>نمطان متوقعان مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-            <numerusform>%n أنماط متوقعة مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-            <numerusform>%n نمطًا متوقعًا مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-            <numerusform>%n نمط متوقع مع كل الفحوص؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>لا أنماط مع كل الفحوص</numerusform>
-            <numerusform>نمط واحد مع كل الفحوص</numerusform>
-            <numerusform>نمطان مع كل الفحوص</numerusform>
-            <numerusform>%n أنماط مع كل الفحوص</numerusform>
-            <numerusform>%n نمطًا مع كل الفحوص</numerusform>
-            <numerusform>%n نمط مع كل الفحوص</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>بانتظار الجواب، ⁨%1⁩</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>قراءة، ⁨%1⁩</translation>
@@ -3847,6 +3841,56 @@
             <numerusform>%n نمط</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>بانتظار الجواب</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 ساطع جدًا</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 مستبعَد</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>بانتظار جوابك.</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>إيقاف مع الاحتفاظ بهذا</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>لم تنتهِ المتابعة</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>لا أنماط متوقعة، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>نمط واحد متوقع، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>نمطان متوقعان، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n أنماط متوقعة، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمطًا متوقعًا، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+            <numerusform>%n نمط متوقع، منها للفحص: %1؛ يُعرف بالضبط عند بدء كل مستوى</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>لا أنماط، منها للفحص: %1</numerusform>
+            <numerusform>نمط واحد، منها للفحص: %1</numerusform>
+            <numerusform>نمطان، منها للفحص: %1</numerusform>
+            <numerusform>%n أنماط، منها للفحص: %1</numerusform>
+            <numerusform>%n نمطًا، منها للفحص: %1</numerusform>
+            <numerusform>%n نمط، منها للفحص: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>جارٍ الإنهاء</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4001,6 +4045,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>الضوء يرتعش، أو شيء يتحرّك</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>لا يُعرف ما دام المشهد مختلفًا.</translation>
     </message>
 </context>
 <context>
@@ -4402,6 +4450,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>كل المشهد عدا %1، بهذا التعريض أو ذاك.</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 ساطع جدًا</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>الإبقاء على الكاميرا السابقة</translation>
     </message>
 </context>
 <context>
@@ -5672,6 +5728,10 @@ projector %2</source>
         <source>Put the camera back</source>
         <translation>أعد الكاميرا إلى مكانها</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>في التدريب تعود من تلقاء نفسها بينما تنظر.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6514,6 +6574,42 @@ projector %2</source>
         <source>The report cannot be shown</source>
         <translation>يتعذّر عرض التقرير</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>عادت الكاميرا إلى موضعها</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>التقط الصورة من جديد: الأخيرة التُقطت قبل ذلك.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>أعد الكاميرا إلى مكانها، أو أصلِح المعايرة.</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>جارٍ الإتقان</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>جارٍ التصوير</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>جارٍ فحص الانحراف</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>جارٍ الإصلاح</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>الخرج مغلق. تُعرض أنماط لتصويرها.</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>إيقاف</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7334,6 +7430,14 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>لا سطح للتدريب: يضيء هذا الشاشة %1 حتى توقفه أو تغادر.</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>جزء من الصورة يقع حيث استُبعد المشهد.</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>يبقى دون تصحيح. السبب مذكور في خطوة القياس.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7895,6 +7999,10 @@ projector %2</source>
             <numerusform>%n كاميرا</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>غير مستخدم</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8242,6 +8350,10 @@ projector %2</source>
     <message>
         <source>It is in use.</source>
         <translation>هو المستخدم الآن.</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>لم يبقَ ضوء من البكسل المختار.</translation>
     </message>
 </context>
 <context>

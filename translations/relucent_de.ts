@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>Weiterspielen</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>Die Vorführung des Spielorts „%1“.</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -348,6 +352,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>Was folgt, ist von davor. Unter „Erfassen“ steht, was hilft.</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>%1 des Blicks sind für die Kamera zu hell</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>Dort wird nichts korrigiert. Schließen Sie die Blende etwas, prüfen Sie die Kamera, dann messen Sie neu.</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>%1 des Blicks sind ausgelassen</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>Testmuster sahen dort anders aus als gemessen, und nichts wird korrigiert. Sorgen Sie dafür, dass alles still steht, dann messen Sie neu.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -458,8 +478,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{} % der Kamerapixel sind selbst bei der kürzesten Belichtung überbelichtet: Schließen Sie die Blende der Kamera oder erlauben Sie kürzere Belichtungen, dann messen Sie erneut</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>{} % der Kamerapixel sind selbst bei der kürzesten Belichtung überbelichtet: Schließen Sie die Blende der Kamera etwas, dann messen Sie erneut</translation>
     </message>
 </context>
 <context>
@@ -3585,24 +3605,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1; Licht auf etwa %2 genau</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n Muster mit allen Prüfungen erwartet; genau bekannt, wenn jede Stufe beginnt</numerusform>
-            <numerusform>%n Muster mit allen Prüfungen erwartet; genau bekannt, wenn jede Stufe beginnt</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n Muster mit allen Prüfungen</numerusform>
-            <numerusform>%n Muster mit allen Prüfungen</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>Wartet auf Antwort, %1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>Liest, %1</translation>
@@ -3759,6 +3761,48 @@
             <numerusform>%n Muster</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>Wartet auf Antwort</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 zu hell</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 ausgelassen</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>Wartet auf Ihre Antwort.</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>Stoppen, diese behalten</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>Das Weitermessen ist nicht zu Ende</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n Muster erwartet, davon %1 Prüfungen; genau bekannt, wenn jede Stufe beginnt</numerusform>
+            <numerusform>%n Muster erwartet, davon %1 Prüfungen; genau bekannt, wenn jede Stufe beginnt</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n Muster, davon %1 Prüfungen</numerusform>
+            <numerusform>%n Muster, davon %1 Prüfungen</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>Wird beendet</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3913,6 +3957,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>Das Licht flackert, oder etwas bewegt sich</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>Nicht zu sagen, solange der Blick ein anderer ist.</translation>
     </message>
 </context>
 <context>
@@ -4310,6 +4358,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>Bis auf %1 des Kamerabilds, von der einen oder der anderen Belichtung.</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 zu hell</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>Bisherige Kamera behalten</translation>
     </message>
 </context>
 <context>
@@ -5532,6 +5588,10 @@ Projektor %2</translation>
         <source>Put the camera back</source>
         <translation>Kamera zurückstellen</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>In einer Probe kommt sie von selbst zurück, während Sie zusehen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6370,6 +6430,42 @@ Projektor %2</translation>
         <source>The report cannot be shown</source>
         <translation>Der Bericht kann nicht gezeigt werden</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>Die Kamera steht wieder an ihrem Platz</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>Machen Sie das Foto noch einmal: Das letzte ist von vorher.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>Stellen Sie die Kamera zurück, oder reparieren Sie die Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>Perfektioniert</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>Fotografiert</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Prüft auf Drift</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>Repariert</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>Die Ausgabe ist geschlossen. Muster zum Fotografieren werden projiziert.</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stoppen</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7182,6 +7278,14 @@ Projektor %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Eine Probe hat keine Fläche: Dies leuchtet auf dem Bildschirm %1, bis Sie es beenden oder weggehen.</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>Ein Teil des Bildes liegt dort, wo der Blick ausgelassen ist.</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>Er bleibt unkorrigiert. Warum, steht bei Erfassen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7723,6 +7827,10 @@ Projektor %2</translation>
             <numerusform>%n Kameras</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>keiner in Gebrauch</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8066,6 +8174,10 @@ Projektor %2</translation>
     <message>
         <source>It is in use.</source>
         <translation>Er wird verwendet.</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>Vom gewählten Pixel blieb kein Licht.</translation>
     </message>
 </context>
 <context>

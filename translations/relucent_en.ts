@@ -138,20 +138,6 @@
         </translation>
     </message>
     <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n pattern expected with all checks; known exactly as each level begins</numerusform>
-            <numerusform>%n patterns expected with all checks; known exactly as each level begins</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n pattern with all checks</numerusform>
-            <numerusform>%n patterns with all checks</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
         <source>%n photograph(s) of before are read first. Then measuring goes on where it ended.</source>
         <translation>
             <numerusform>%n photograph of before is read first. Then measuring goes on where it ended.</numerusform>
@@ -177,6 +163,20 @@
         <translation>
             <numerusform>%n pattern</numerusform>
             <numerusform>%n patterns</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n pattern expected, %1 of them checks; known exactly as each level begins</numerusform>
+            <numerusform>%n patterns expected, %1 of them checks; known exactly as each level begins</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n pattern, %1 of them checks</numerusform>
+            <numerusform>%n patterns, %1 of them checks</numerusform>
         </translation>
     </message>
 </context>

@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>Seguir reproduciendo</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>La función del lugar «%1».</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -348,6 +352,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>Lo que sigue es de antes. En «Adquisición» se indica qué ayuda.</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>El %1 de la vista es demasiado brillante para la cámara</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>Allí no se corrige nada. Cierre un poco el objetivo, compruebe la cámara y mida de nuevo.</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>Se deja fuera el %1 de la vista</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>Allí los patrones de prueba se vieron distintos de lo medido, y no se corrige nada. Procure que todo esté quieto y mida de nuevo.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -458,8 +478,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>el {} % de los píxeles de la cámara está sobreexpuesto incluso con la exposición más corta: cierre el diafragma de la cámara o permita exposiciones más cortas y mida de nuevo</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>el {} % de los píxeles de la cámara está sobreexpuesto incluso con la exposición más corta: cierre un poco el diafragma de la cámara y mida de nuevo</translation>
     </message>
 </context>
 <context>
@@ -3585,24 +3605,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1; luz exacta en torno a %2</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n patrón previsto con todas las comprobaciones; se sabe con exactitud al empezar cada nivel</numerusform>
-            <numerusform>%n patrones previstos con todas las comprobaciones; se sabe con exactitud al empezar cada nivel</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n patrón con todas las comprobaciones</numerusform>
-            <numerusform>%n patrones con todas las comprobaciones</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>Espera respuesta, %1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>Leyendo, %1</translation>
@@ -3759,6 +3761,48 @@
             <numerusform>%n patrones</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>Espera respuesta</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 demasiado claro</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 fuera</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>Espera su respuesta.</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>Detener y guardar esta</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>La continuación no ha terminado</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n patrón previsto, %1 de comprobación; se sabe con exactitud al empezar cada nivel</numerusform>
+            <numerusform>%n patrones previstos, %1 de comprobación; se sabe con exactitud al empezar cada nivel</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n patrón, %1 de comprobación</numerusform>
+            <numerusform>%n patrones, %1 de comprobación</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>Terminando</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3913,6 +3957,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>La luz parpadea o algo se mueve</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>No se sabe mientras la vista sea otra.</translation>
     </message>
 </context>
 <context>
@@ -4310,6 +4358,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>Todo menos el %1 de la vista, con una u otra exposición.</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 demasiado claro</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>Conservar la cámara anterior</translation>
     </message>
 </context>
 <context>
@@ -5532,6 +5588,10 @@ proyector %2</translation>
         <source>Put the camera back</source>
         <translation>Recolocar la cámara</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>En un ensayo vuelve sola mientras usted mira.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6370,6 +6430,42 @@ proyector %2</translation>
         <source>The report cannot be shown</source>
         <translation>No se puede mostrar el informe</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La cámara vuelve a estar en su sitio</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>Tome la fotografía otra vez: la última es de antes.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>Recoloque la cámara o repare la calibración.</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>Perfeccionando</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>Fotografiando</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Comprobando la deriva</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>Reparando</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>La salida está cerrada. Se proyectan patrones para fotografiarlos.</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Detener</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7182,6 +7278,14 @@ proyector %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Un ensayo no tiene superficie: esto ilumina la pantalla %1 hasta que lo detenga o salga.</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>Parte de la imagen cae donde se deja fuera la vista.</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>Queda sin corregir. Adquisición dice por qué.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7723,6 +7827,10 @@ proyector %2</translation>
             <numerusform>%n cámaras</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>sin uso</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8066,6 +8174,10 @@ proyector %2</translation>
     <message>
         <source>It is in use.</source>
         <translation>Está en uso.</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>Del píxel elegido no quedó luz.</translation>
     </message>
 </context>
 <context>

@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>Continuer la lecture</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>Le spectacle du lieu « %1 ».</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -348,6 +352,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>La suite date d’avant. L’étape «&#x202f;Acquisition&#x202f;» dit quoi faire.</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>%1 de la vue est trop claire pour la caméra</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>Rien n’y est corrigé. Fermez un peu l’objectif, vérifiez la caméra, puis mesurez à nouveau.</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>%1 de la vue est laissée de côté</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>Les mires de test y différaient de la mesure, et rien n’est corrigé. Veillez à ce que tout reste immobile, puis mesurez à nouveau.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -458,8 +478,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{}&#x202f;% des pixels de la caméra sont surexposés même au temps de pose le plus court&#x202f;: fermez le diaphragme de la caméra ou autorisez des temps de pose plus courts, puis mesurez à nouveau</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>{} % des pixels de la caméra sont surexposés même au temps de pose le plus court : fermez un peu le diaphragme de la caméra, puis mesurez à nouveau</translation>
     </message>
 </context>
 <context>
@@ -3585,24 +3605,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1 ; lumière juste à %2 près environ</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n motif prévu avec tous les contrôles ; connu exactement au début de chaque niveau</numerusform>
-            <numerusform>%n motifs prévus avec tous les contrôles ; connu exactement au début de chaque niveau</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n motif avec tous les contrôles</numerusform>
-            <numerusform>%n motifs avec tous les contrôles</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>Attend une réponse, %1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>Lecture, %1</translation>
@@ -3759,6 +3761,48 @@
             <numerusform>%n motifs</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>Attend une réponse</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 trop clair</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 laissés de côté</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>Attend votre réponse.</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>Arrêter et garder celle-ci</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>La reprise n’est pas terminée</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n motif prévu, dont %1 de contrôle ; connu exactement au début de chaque niveau</numerusform>
+            <numerusform>%n motifs prévus, dont %1 de contrôle ; connu exactement au début de chaque niveau</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n motif, dont %1 de contrôle</numerusform>
+            <numerusform>%n motifs, dont %1 de contrôle</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>Fin en cours</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3913,6 +3957,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>La lumière vacille, ou quelque chose bouge</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>Inconnu tant que la vue est une autre.</translation>
     </message>
 </context>
 <context>
@@ -4310,6 +4358,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>Toute la vue, sauf %1, par un temps de pose ou un autre.</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 trop clair</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>Garder la caméra précédente</translation>
     </message>
 </context>
 <context>
@@ -5532,6 +5588,10 @@ projecteur %2</translation>
         <source>Put the camera back</source>
         <translation>Replacer la caméra</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>En répétition, elle revient d’elle-même pendant que vous regardez.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6370,6 +6430,42 @@ projecteur %2</translation>
         <source>The report cannot be shown</source>
         <translation>Le rapport ne peut pas être affiché</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La caméra est revenue à sa place</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>Reprenez la photo : la dernière date d’avant.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>Replacez la caméra ou réparez la calibration.</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>Perfectionnement</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>Prise de vue</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Contrôle de la dérive</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>Réparation</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>La sortie est fermée. Des motifs à photographier sont projetés.</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Arrêter</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7182,6 +7278,14 @@ projecteur %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Une répétition n’a pas de surface : ceci éclaire l’écran %1 jusqu’à ce que vous l’arrêtiez ou partiez.</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>Une partie de l’image se trouve là où la vue est laissée de côté.</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>Elle reste non corrigée. Acquisition dit pourquoi.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7723,6 +7827,10 @@ projecteur %2</translation>
             <numerusform>%n caméras</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>non utilisé</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8066,6 +8174,10 @@ projecteur %2</translation>
     <message>
         <source>It is in use.</source>
         <translation>Il est utilisé.</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>Aucune lumière du pixel choisi n’a été gardée.</translation>
     </message>
 </context>
 <context>

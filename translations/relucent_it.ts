@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>Continua la riproduzione</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>Lo spettacolo del luogo «%1».</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -348,6 +352,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>Ciò che segue è di prima. In «Acquisizione» è indicato che cosa aiuta.</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>Il %1 della vista è troppo luminoso per la fotocamera</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>Lì non si corregge nulla. Chiudere un po’ l’obiettivo, controllare la fotocamera, poi misurare di nuovo.</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>Il %1 della vista è escluso</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>Lì i motivi di prova erano diversi da quanto misurato, e non si corregge nulla. Fare in modo che tutto resti fermo, poi misurare di nuovo.</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -458,8 +478,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>il {} % dei pixel della fotocamera è sovraesposto anche con l’esposizione più breve: chiudere il diaframma della fotocamera o consentire esposizioni più brevi, poi misurare di nuovo</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>il {} % dei pixel della fotocamera è sovraesposto anche con l’esposizione più breve: chiudere un po’ il diaframma della fotocamera, poi misurare di nuovo</translation>
     </message>
 </context>
 <context>
@@ -3585,24 +3605,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1; luce esatta entro circa %2</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>%n motivo previsto con tutti i controlli; noto con esattezza quando inizia ogni livello</numerusform>
-            <numerusform>%n motivi previsti con tutti i controlli; noto con esattezza quando inizia ogni livello</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n motivo con tutti i controlli</numerusform>
-            <numerusform>%n motivi con tutti i controlli</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>Attende risposta, %1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>Lettura, %1</translation>
@@ -3759,6 +3761,48 @@
             <numerusform>%n pattern</numerusform>
         </translation>
     </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>Attende risposta</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 troppo chiaro</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 escluso</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>In attesa di una risposta.</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>Ferma e conserva questa</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>La ripresa non è finita</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n motivo previsto, di cui %1 di controllo; noto con esattezza quando inizia ogni livello</numerusform>
+            <numerusform>%n motivi previsti, di cui %1 di controllo; noto con esattezza quando inizia ogni livello</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n motivo, di cui %1 di controllo</numerusform>
+            <numerusform>%n motivi, di cui %1 di controllo</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>In chiusura</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -3913,6 +3957,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>La luce sfarfalla, o qualcosa si muove</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>Non si sa finché la vista è un’altra.</translation>
     </message>
 </context>
 <context>
@@ -4310,6 +4358,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>Tutta l’inquadratura tranne %1, con l’una o l’altra esposizione.</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 troppo chiaro</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>Tieni la fotocamera di prima</translation>
     </message>
 </context>
 <context>
@@ -5532,6 +5588,10 @@ proiettore %2</translation>
         <source>Put the camera back</source>
         <translation>Rimetti a posto la fotocamera</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>In una prova torna da sola mentre si guarda.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6370,6 +6430,42 @@ proiettore %2</translation>
         <source>The report cannot be shown</source>
         <translation>Impossibile mostrare il rapporto</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>La fotocamera è di nuovo al suo posto</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>Scattare di nuovo la foto: l’ultima è di prima.</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>Rimettere a posto la fotocamera o riparare la calibrazione.</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>Perfezionamento</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>Scatto in corso</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>Controllo della deriva</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>Riparazione</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>L’uscita è chiusa. Si proiettano motivi da fotografare.</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Ferma</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7182,6 +7278,14 @@ proiettore %2</translation>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>Una prova non ha superficie: questo illumina lo schermo %1 finché non si ferma o si esce.</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>Parte dell’immagine cade dove la vista è esclusa.</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>Resta non corretta. Acquisizione dice perché.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7723,6 +7827,10 @@ proiettore %2</translation>
             <numerusform>%n fotocamere</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>non in uso</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8066,6 +8174,10 @@ proiettore %2</translation>
     <message>
         <source>It is in use.</source>
         <translation>È in uso.</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>Del pixel scelto non è rimasta luce.</translation>
     </message>
 </context>
 <context>

@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>再生を続ける</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>会場「%1」の上映。</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -346,6 +350,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>以降の結果は変化前のものです。対処は「光輸送測定」で確認できます。</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>視野の %1 がカメラには明るすぎます</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>そこでは何も補正されません。レンズを少し絞り、カメラを確認してから、もう一度測定してください。</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>視野の %1 が除外されています</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>そこではテストパターンが測定と異なって見え、何も補正されません。すべてが静止していることを確かめてから、もう一度測定してください。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -456,8 +476,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>カメラ画素の {} % が最短の露出でも露出オーバーです：カメラの絞りを絞るか、より短い露出を許可して、測定し直してください</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>カメラ画素の {} % が最短の露出でも露出オーバーです：カメラの絞りを少し絞って、測定し直してください</translation>
     </message>
 </context>
 <context>
@@ -3569,22 +3589,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1、光の誤差は約 %2</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>確認を含めて %n パターンの見込み。正確な数は各段階の開始時に分かります</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>確認を含めて %n パターン</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>回答待ち、%1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>読み込み中、%1</translation>
@@ -3736,6 +3740,46 @@
         <translation>
             <numerusform>%n パターン</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>回答待ち</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 が明るすぎ</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 を除外</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>回答を待っています。</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>終了してこれを保持</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>続きの測定が終わっていません</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>%n パターンの見込み、うち %1 は確認。正確な数は各段階の開始時に分かります</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n パターン、うち %1 は確認</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>終了中</translation>
     </message>
 </context>
 <context>
@@ -3891,6 +3935,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>光がちらついているか、何かが動いています</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>視野が違う間は分かりません。</translation>
     </message>
 </context>
 <context>
@@ -4287,6 +4335,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>視野の %1 を除くすべてが、いずれかの露出で。</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 が明るすぎ</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>前のカメラを使い続ける</translation>
     </message>
 </context>
 <context>
@@ -5497,6 +5553,10 @@ projector %2</source>
         <source>Put the camera back</source>
         <translation>カメラを元に戻す</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>リハーサルでは、見ている間に自然に元へ戻ります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6334,6 +6394,42 @@ projector %2</source>
         <source>The report cannot be shown</source>
         <translation>レポートを表示できません</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>カメラは元の位置に戻りました</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>もう一度撮影してください。前の写真は戻す前のものです。</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>カメラを元に戻すか、校正を修復してください。</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>仕上げ中</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>撮影中</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>ずれを確認中</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>修復中</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>出力は閉じています。撮影用のパターンを投影しています。</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7144,6 +7240,14 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>リハーサルには面がありません。停止するかページを離れるまで、画面 %1 に映します。</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>画像の一部は視野から除外された場所にあります。</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>そこは補正されません。理由は「光輸送測定」にあります。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7680,6 +7784,10 @@ projector %2</source>
             <numerusform>カメラ %n 台</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>使用なし</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8022,6 +8130,10 @@ projector %2</source>
     <message>
         <source>It is in use.</source>
         <translation>使用中です。</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>選んだ画素の光は残っていません。</translation>
     </message>
 </context>
 <context>

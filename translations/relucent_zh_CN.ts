@@ -77,6 +77,10 @@
         <source>Go on playing</source>
         <translation>继续播放</translation>
     </message>
+    <message>
+        <source>The show of the venue “%1”.</source>
+        <translation>场地“%1”的放映。</translation>
+    </message>
 </context>
 <context>
     <name>Failure</name>
@@ -346,6 +350,22 @@
         <source>What follows is of before. See at Acquire what helps.</source>
         <translation>后续结果来自变化之前。请在“采集”中查看解决办法。</translation>
     </message>
+    <message>
+        <source>%1 of the view is too bright for the camera</source>
+        <translation>画面的 %1 对相机来说太亮</translation>
+    </message>
+    <message>
+        <source>Nothing is corrected there. Close the lens a little, check the camera, then measure again.</source>
+        <translation>那里不会得到校正。请稍微收小光圈，检查相机，然后重新测量。</translation>
+    </message>
+    <message>
+        <source>%1 of the view is left out</source>
+        <translation>画面的 %1 被排除</translation>
+    </message>
+    <message>
+        <source>Test patterns looked different there from what was measured, and nothing is corrected. See that all stands still, then measure again.</source>
+        <translation>那里的测试图案与测量结果不符，不会得到校正。请确保一切静止，然后重新测量。</translation>
+    </message>
 </context>
 <context>
     <name>VenueKeeping</name>
@@ -456,8 +476,8 @@
 <context>
     <name>acquisition.overexposed</name>
     <message>
-        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture or allow shorter exposures, then measure again</source>
-        <translation>{} % 的相机像素即使用最短曝光也过曝：请收小相机光圈或允许更短的曝光，然后重新测量</translation>
+        <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
+        <translation>{} % 的相机像素即使用最短曝光也过曝：请稍微收小相机光圈，然后重新测量</translation>
     </message>
 </context>
 <context>
@@ -3569,22 +3589,6 @@
         <source>%1; light right within about %2</source>
         <translation>%1；光的误差约 %2</translation>
     </message>
-    <message numerus="yes">
-        <source>%n pattern(s) expected with all checks; known exactly as each level begins</source>
-        <translation>
-            <numerusform>预计 %n 个图案（含全部检查）；每级开始时才确切知道</numerusform>
-        </translation>
-    </message>
-    <message numerus="yes">
-        <source>%n pattern(s) with all checks</source>
-        <translation>
-            <numerusform>%n 个图案（含全部检查）</numerusform>
-        </translation>
-    </message>
-    <message>
-        <source>Waits for an answer, %1</source>
-        <translation>等待回答，%1</translation>
-    </message>
     <message>
         <source>Reading, %1</source>
         <translation>读取中，%1</translation>
@@ -3736,6 +3740,46 @@
         <translation>
             <numerusform>%n 个图案</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Waits for an answer</source>
+        <translation>等待回答</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 太亮</translation>
+    </message>
+    <message>
+        <source>%1 left out</source>
+        <translation>%1 被排除</translation>
+    </message>
+    <message>
+        <source>Waiting for your answer.</source>
+        <translation>正在等待您的回答。</translation>
+    </message>
+    <message>
+        <source>Stop and keep this one</source>
+        <translation>停止并保留这次</translation>
+    </message>
+    <message>
+        <source>Going on has not ended</source>
+        <translation>继续测量尚未结束</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s) expected, %1 of them checks; known exactly as each level begins</source>
+        <translation>
+            <numerusform>预计 %n 个图案，其中 %1 个为检查；每级开始时才确切知道</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pattern(s), %1 of them checks</source>
+        <translation>
+            <numerusform>%n 个图案，其中 %1 个为检查</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Ending</source>
+        <translation>正在结束</translation>
     </message>
 </context>
 <context>
@@ -3891,6 +3935,10 @@
     <message>
         <source>The light flickers, or something moves</source>
         <translation>光线闪烁，或有东西在移动</translation>
+    </message>
+    <message>
+        <source>Not told while the view is another.</source>
+        <translation>视野不同时无法判断。</translation>
     </message>
 </context>
 <context>
@@ -4287,6 +4335,14 @@
     <message>
         <source>All but %1 of the view, by one exposure or another.</source>
         <translation>视野中仅 %1 除外，由这种或那种曝光覆盖。</translation>
+    </message>
+    <message>
+        <source>%1 too bright</source>
+        <translation>%1 太亮</translation>
+    </message>
+    <message>
+        <source>Keep the former camera</source>
+        <translation>保留原来的相机</translation>
     </message>
 </context>
 <context>
@@ -5497,6 +5553,10 @@ projector %2</source>
         <source>Put the camera back</source>
         <translation>把相机放回原位</translation>
     </message>
+    <message>
+        <source>In a rehearsal it comes back by itself while you look.</source>
+        <translation>排练时，它会在您观看时自行回到原位。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPage</name>
@@ -6334,6 +6394,42 @@ projector %2</source>
         <source>The report cannot be shown</source>
         <translation>无法显示报告</translation>
     </message>
+    <message>
+        <source>The camera is back at its place</source>
+        <translation>相机已回到原位</translation>
+    </message>
+    <message>
+        <source>Take the photograph again: the last one was taken before.</source>
+        <translation>请再拍一次：上一张是之前拍的。</translation>
+    </message>
+    <message>
+        <source>Put the camera back, or repair the calibration.</source>
+        <translation>请把相机放回原位，或修复校准。</translation>
+    </message>
+    <message>
+        <source>Perfecting</source>
+        <translation>正在精修</translation>
+    </message>
+    <message>
+        <source>Photographing</source>
+        <translation>正在拍摄</translation>
+    </message>
+    <message>
+        <source>Checking for drift</source>
+        <translation>正在检查漂移</translation>
+    </message>
+    <message>
+        <source>Repairing</source>
+        <translation>正在修复</translation>
+    </message>
+    <message>
+        <source>The output is closed. Patterns to be photographed are projected.</source>
+        <translation>输出已关闭。正在投影用于拍摄的图案。</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>停止</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7144,6 +7240,14 @@ projector %2</source>
         <source>A rehearsal has no surface: this lights the screen %1 until you stop it or leave.</source>
         <translation>排练没有表面：在您停止或离开之前，这会点亮屏幕 %1。</translation>
     </message>
+    <message>
+        <source>Part of the picture lies where the view is left out.</source>
+        <translation>画面的一部分位于被排除的区域。</translation>
+    </message>
+    <message>
+        <source>It stays uncorrected. Acquire says why.</source>
+        <translation>那里保持未校正。原因见“采集”。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::RenameDialog</name>
@@ -7680,6 +7784,10 @@ projector %2</source>
             <numerusform>%n 台相机</numerusform>
         </translation>
     </message>
+    <message>
+        <source>none in use</source>
+        <translation>未使用</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::StepRail</name>
@@ -8022,6 +8130,10 @@ projector %2</source>
     <message>
         <source>It is in use.</source>
         <translation>正在使用。</translation>
+    </message>
+    <message>
+        <source>No light of the picked pixel was kept.</source>
+        <translation>所选像素的光没有保留。</translation>
     </message>
 </context>
 <context>

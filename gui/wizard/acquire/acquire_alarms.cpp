@@ -37,6 +37,7 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) 
       alarm.kind == sentinels::AlarmKind::moved || alarm.kind == sentinels::AlarmKind::unsteady;
   if (mayHaveMoved && !viewBefore_.empty() && !isPutRight) report.repair = pushBack_;
   report.isPutRight = isPutRight_ = isPutRight;
+  trace_.setPutRight(isPutRight);
   alarm_ = alarm;
   asking_ = std::make_unique<QObject>();
   report.reason = asking_.get();

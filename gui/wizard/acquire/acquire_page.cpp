@@ -110,7 +110,7 @@ StepStatus AcquirePage::status() const {
   const QString share = percentText(progress().value_or(0.0));
   if (isPaused() || isDiskFull())
     return {StepState::busy, tr("Paused, %1").arg(share), hasResult, isDiskFull()};
-  if (isAsking()) return {StepState::busy, tr("Waits for an answer, %1").arg(share), hasResult, true};
+  if (isAsking()) return {StepState::busy, tr("Waits for an answer"), hasResult, true};
   if (isReading()) return {StepState::busy, tr("Reading, %1").arg(share), hasResult};
   if (isCountingDown())
     return {StepState::busy, tr("Begins in %n second(s)", nullptr, secondsLeftToLeave_), hasResult};
@@ -123,6 +123,10 @@ StepStatus AcquirePage::status() const {
         return {StepState::coarse, tr("Stopped at %1 px").arg(blocks)};
       if (const auto poor = session_.poorQuality())
         return {StepState::doubtful, tr("%1 expected").arg(isolated(tr("%1 dB").arg(decimalText(*poor, 0))))};
+      if (const auto holes = session_.leftOut())
+        return {StepState::doubtful, session_.isOverexposed()
+                                         ? tr("%1 too bright").arg(isolated(percentText(*holes)))
+                                         : tr("%1 left out").arg(isolated(percentText(*holes)))};
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)
@@ -144,7 +148,7 @@ QString AcquirePage::hint() const {
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
-  if (isAsking()) return tr("Waiting for your answer. Every photograph is saved.");
+  if (isAsking()) return tr("Waiting for your answer.");
   if (isReading())
     return tr("%n photograph(s) of before are read first. Then measuring goes on where it ended.", nullptr,
               kept_);
@@ -194,7 +198,8 @@ void AcquirePage::updateCommands() {
   pause_->show(tr("Pause"), !isStopping() && !isAsking());
   pause_->setToolTip(isAsking() ? tr("Waiting for your answer. Every photograph is saved.") : QString());
   resume_->show(tr("Resume"));
-  keep_->show(tr("Stop and keep"), !isStopping());
+  // Beside the other that can be kept.
+  keep_->show(isMeasuringAgain() ? tr("Stop and keep this one") : tr("Stop and keep"), !isStopping());
   return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));
   return_->setToolTip(tr("The earlier measurement is used again, with all that followed from it."));
   goOnWithDisk_->show(tr("Go on now"));
@@ -236,6 +241,8 @@ std::optional<Banner> AcquirePage::banner() const {
   calibration::StageProgress progress = session_.progress(calibration::Stage::acquisition);
   if (progress == calibration::StageProgress::stale) return staleBanner();
   if (const auto change = session_.foundChange(); change && isDone()) return changedBanner(*change);
+  if (progress == calibration::StageProgress::done && wasEndedEarly() && again_ > 0)
+    return interruptedBanner();
   if (progress == calibration::StageProgress::done && stoppedAt() > 0) return stoppedBanner();
   if (isDoubtful()) return onMeasurement(session_, nullptr);
   if (progress == calibration::StageProgress::open && kept_ > 0)
@@ -249,9 +256,17 @@ Banner AcquirePage::staleBanner() const {
   if (again_ == 0)
     return {Banner::Kind::amber, tr("This measurement belongs to earlier settings"),
             tr("It still works and stays until the new one is ready.")};
-  return {Banner::Kind::amber, tr("Measuring again has not ended"),
-          tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
-             nullptr, again_)};
+  return {Banner::Kind::amber, tr("Measuring again has not ended"), safeSince()};
+}
+
+/// While it was gone on with: what the earlier end came to stands, and there is more.
+Banner AcquirePage::interruptedBanner() const {
+  return {Banner::Kind::amber, tr("Going on has not ended"), safeSince(), goOnMeasuring_};
+}
+
+QString AcquirePage::safeSince() const {
+  return tr("%n new photograph(s) are safe: resume any time. Until then the earlier measurement is used.",
+            nullptr, again_);
 }
 
 bool AcquirePage::isStale() const {
@@ -263,7 +278,7 @@ bool AcquirePage::needsConsentNow() const {
 }
 
 bool AcquirePage::isDoubtful() const {
-  return isDone() && !wasEndedEarly() && session_.poorQuality().has_value();
+  return isDone() && !wasEndedEarly() && session_.isDoubtful();
 }
 
 QString AcquirePage::whyLocked() const {
@@ -392,7 +407,7 @@ void AcquirePage::begin() {
   rate_.forget();
   job_.start([work = workOf(session_), anew = anew_, handler, retrying, expects,
               room = &room_](Progress& progress) {
-    room->countPauses([devices = work.devices] { return devices->live().paused(); });
+    room->countPauses([live = work.devices->sharedLive()] { return live->paused(); });
     Progress opening = progress.part(0.05, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));
     rig::Rig& rig = work.devices->open(opening);
     calibration::CalibrationFolder folder =

@@ -189,6 +189,8 @@ class AcquirePage : public DevicePage {
   /// It is whole, and yet nothing would be corrected by it.
   bool isDoubtful() const;
   Banner staleBanner() const;
+  Banner interruptedBanner() const;
+  QString safeSince() const;
   void countKept();
   void start(bool anew);
   void begin();

@@ -128,6 +128,7 @@ QWidget* stageOf(AcquirePage& model) {
 
 /// How long it still takes; held up, that stands still.
 QString timeText(const AcquirePage& model) {
+  if (model.isStopping()) return AcquirePage::tr("Ending");
   const std::optional<double> seconds = model.secondsLeft();
   if (!seconds)
     return model.isHeldUp()       ? AcquirePage::tr("Paused")
@@ -152,8 +153,7 @@ QString stageText(const AcquirePage& model) {
     return AcquirePage::tr("Reading the %n photograph(s) that are kept: %1.", nullptr, read.expected)
         .arg(percentText(static_cast<double>(read.taken) / read.expected));
   }
-  QString stage = model.stage();
-  if (!stage.isEmpty()) stage[0] = stage[0].toUpper();
+  const QString stage = model.stage();
   const std::optional<double> seconds = model.secondsLeft();
   // Of what ends within a minute, minutes would say nothing.
   if (!seconds || model.isHeldUp() || isUnderAMinute(*seconds)) return stage;

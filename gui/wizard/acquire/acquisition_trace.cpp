@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "views/number_text.h"
 
@@ -101,8 +102,12 @@ void AcquisitionTrace::clear() {
   }
   began_.reset();
   ended_.reset();
-  isRecalled_ = false;
+  isRecalled_ = isPutRight_ = false;
   Q_EMIT changed();
+}
+
+void AcquisitionTrace::setPutRight(bool isPutRight) {
+  if (std::exchange(isPutRight_, isPutRight) != isPutRight) Q_EMIT changed();
 }
 
 void AcquisitionTrace::begin() {
@@ -141,6 +146,7 @@ void AcquisitionTrace::checked(const sentinels::Reading& reading) {
       [this, reading, now] {
         if (!began_ || now < *began_) return;  // of the measurement before
         points_.push_back({std::chrono::duration<double>(now - *began_).count(), reading});
+        isPutRight_ = false;
         Q_EMIT changed();
       },
       Qt::QueuedConnection);
@@ -195,7 +201,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
              {false, true, tr("Flicker"), {}}}};
   const sentinels::Reading& now = points_.back().reading;
   // What was put right is no longer so, and not looked at again before the next check.
-  const bool isOver = now.alarm && isAnswered();
+  const bool isOver = now.alarm && (isPutRight_ || isAnswered());
   bool room = !isOf(now, {sentinels::AlarmKind::ambientChanged});
   bool view = !isOf(now, {sentinels::AlarmKind::moved, sentinels::AlarmKind::localChange,
                           sentinels::AlarmKind::mirroredScreen, sentinels::AlarmKind::wrongScreen,
@@ -212,7 +218,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
        view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
                          tr("Its light drifted by %1 and is corrected.")
                              .arg(fineShare(std::abs(now.lamp - 1.0)))}
-            : WatchState{false, true, tr("Projector"), {}},
+            : WatchState{false, true, tr("Projector"), tr("Not told while the view is another.")},
        {true, even, even ? tr("No flicker") : tr("The light flickers, or something moves"),
         // One exposure alone has nothing to differ from.
         now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))

@@ -81,6 +81,9 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   /// From any thread.
   void expects(const pipeline::Outlook& outlook);
 
+  /// What the last check found was put right by hand, and is not looked at again yet.
+  void setPutRight(bool isPutRight);
+
   void checked(const sentinels::Reading& reading) override;
   void takenAgain(const sentinels::Retake& retake) override;
   void grew(const std::vector<int>& levels, int through) override;
@@ -96,7 +99,7 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
   std::vector<Mark> marks_;
   std::optional<Clock::time_point> began_, ended_;
   SharedOutlook outlook_;
-  bool isRecalled_ = false;
+  bool isRecalled_ = false, isPutRight_ = false;
   mutable QMutex guard_;
   Growth growth_;
 };

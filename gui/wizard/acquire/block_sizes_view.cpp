@@ -150,15 +150,24 @@ QWidget* blockSizesCard(AcquirePage& model) {
     card->setVisible(!levels.empty());
     const bool isPlan = std::ranges::any_of(levels, [](const BlockLevel& level) { return !level.isKnown; });
     const int count = model.patternsExpected();
+    double divided = 0.0;
+    for (const BlockLevel& level : levels) divided += level.patterns.likely;
+    const QString checks =
+        countText(static_cast<std::uint64_t>(std::max(0LL, count - std::llround(divided))));
     if (model.isMeasuring())
       card->setSubtitle(AcquirePage::tr("blocks are divided only where light needs it"));
     else if (isPlan)
-      card->setSubtitle(groupedText(
-          AcquirePage::tr("%n pattern(s) expected with all checks; known exactly as each level begins",
-                          nullptr, count),
-          count));
+      card->setSubtitle(
+          groupedText(
+              AcquirePage::tr("%n pattern(s) expected, %1 of them checks; known exactly as each level "
+                              "begins",
+                              nullptr, count),
+              count)
+              .arg(checks));
     else
-      card->setSubtitle(groupedText(AcquirePage::tr("%n pattern(s) with all checks", nullptr, count), count));
+      card->setSubtitle(
+          groupedText(AcquirePage::tr("%n pattern(s), %1 of them checks", nullptr, count), count)
+              .arg(checks));
     view->show(std::move(levels), model.isMeasuring());
   };
   refreshOn(model, card, refresh, &AcquirePage::progressChanged, &AcquirePage::settingsChanged,

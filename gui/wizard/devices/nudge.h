@@ -52,6 +52,8 @@ class Nudge : public QObject {
   const std::optional<NudgeSight>& sight() const { return sight_; }
   /// The device that it waits for; none: it waits for none.
   std::optional<Banner> waiting() const { return lostDeviceBanner(session_, nullptr); }
+  /// Nobody can push a simulated camera.
+  bool isRehearsal() const { return session_.isSimulated(); }
   /// Why it ended by itself.
   const std::optional<Failure>& failure() const { return failure_; }
 

@@ -84,6 +84,8 @@ NudgeDialog::NudgeDialog(Nudge& nudge, QWidget* parent) : QDialog(parent), nudge
   column->addWidget(labelOf(tr("The projector shows full light. Left of the line stands what the camera saw "
                                "when the venue was measured, right of it what it sees now."),
                             "note"));
+  if (nudge_.isRehearsal())
+    column->addWidget(labelOf(tr("In a rehearsal it comes back by itself while you look."), "note"));
   column->addWidget(lineOf());
   column->addWidget(across_ = new ValueRow(tr("Sideways")));
   column->addWidget(along_ = new ValueRow(tr("Up and down")));
@@ -129,9 +131,12 @@ void NudgeDialog::showPictures() {
     return;
   }
   const image::Image &then = nudge_.expected(), &now = nudge_.sight()->seen;
-  view_->setPicture(pictureOf(then, pipeline::displayWhite(then)));
-  view_->setCompared(pictureOf(now, pipeline::displayWhite(now)), tr("Measured"), tr("Now"));
   const pipeline::AimOffset& offset = nudge_.sight()->offset;
+  // Both as bright, so that only what has moved differs.
+  const float white = pipeline::displayWhite(then), gain = static_cast<float>(offset.gain);
+  view_->setPicture(pictureOf(then, white));
+  view_->setCompared(pictureOf(now, gain > 0.0f ? gain * white : pipeline::displayWhite(now)), tr("Measured"),
+                     tr("Now"));
   view_->setOverlay(offset.isRecognised
                         ? arrowTo(QSize(now.width(), now.height()), offset.movement.x, offset.movement.y)
                         : QImage());

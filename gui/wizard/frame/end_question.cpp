@@ -42,7 +42,9 @@ FailureReport EndQuestion::question() {
     safe << tr("Every photograph is on the disk. Opened again, the venue goes on from there.");
   }
   if (now.show) {
-    ends << tr("The show of the venue “%1”: the projector's screen goes dark.").arg(session_.name());
+    ends << (session_.isSimulated()
+                 ? tr("The show of the venue “%1”.").arg(session_.name())
+                 : tr("The show of the venue “%1”: the projector's screen goes dark.").arg(session_.name()));
     safe << tr("Playlist and results are on the disk. Open the output again to play the show again.");
   }
   FailureReport question;

@@ -135,8 +135,9 @@ void StatusStrip::showRoomLight() {
 void StatusStrip::refresh() {
   showRoomLight();
   if (!session_.isOpen()) {
-    projector_->setWhole(tr("none chosen"));
-    camera_->setWhole(tr("none chosen"));
+    // What is chosen for a new venue is not in use yet.
+    projector_->setWhole(tr("none in use"));
+    camera_->setWhole(tr("none in use"));
     showDisk(QDir::homePath());
     saved_->setWhole({});
     return;

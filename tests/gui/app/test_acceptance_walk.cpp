@@ -277,7 +277,7 @@ class TestAcceptanceWalk : public QObject {
     TRY_SEEN(seen.part(step(4)).more.startsWith("Waits for an answer") && amber(step(4)) > 0);
     TRY_DO(program_->press("Escape"));
     TRY_SEEN(seen.dialog().isEmpty() && seen.part("banner-sentence").text == moved &&
-             seen.part("hint").text == "Waiting for your answer. Every photograph is saved.");
+             seen.part("hint").text == "Waiting for your answer.");
     TRY_DO(program_->click("banner-primary"));
     TRY_SEEN(seen.dialog() == moved);
     TRY_DO(program_->clickText("Put the camera back"));

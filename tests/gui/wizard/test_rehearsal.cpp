@@ -221,7 +221,7 @@ class TestRehearsal : public QObject {
     QVERIFY(acquire_->isHeldUp() && wizard_->statusOf(1).isHeldUp);
     QVERIFY2(wizard_->statusOf(1).result.startsWith("Waits for an answer"),
              qPrintable(wizard_->statusOf(1).result));
-    QCOMPARE(acquire_->hint(), QString("Waiting for your answer. Every photograph is saved."));
+    QCOMPARE(acquire_->hint(), QString("Waiting for your answer."));
     const std::optional<Banner> banner = wizard_->banner();
     QVERIFY(banner && banner->kind == Banner::Kind::amber && banner->command);
     QCOMPARE(banner->sentence, asked.failure.heading);

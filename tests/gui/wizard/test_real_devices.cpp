@@ -304,7 +304,7 @@ class TestRealDevices : public QObject {
     QSignalSpy listed(&camera, &CameraPage::camerasListed);
     camera.enter();
     QTRY_VERIFY_WITH_TIMEOUT(!camera.foundCameras().cameras.empty(), 10000);
-    const ListedCamera& found = camera.foundCameras().cameras.front();
+    const ListedCamera found = camera.foundCameras().cameras.front();
     QVERIFY2(found.usable, english(found.problem).c_str());
     QElapsedTimer since;
     since.start();

@@ -144,14 +144,15 @@ void showDrift(Remark& remark, const pipeline::DriftRecord* drift, bool hasMoved
   QString meaning =
       OutputPage::tr("Error of the test patterns: %1, when measured %2. %3 of the view changed.")
           .arg(percentText(drift->error), percentText(drift->errorThen), percentText(drift->changedShare));
+  if (hasMoved && drift->verdict != acquisition::Verdict::stillGood)
+    return remark.show(Remark::Kind::warning,
+                       OutputPage::tr("Put the camera back, or repair the calibration."), meaning);
   switch (drift->verdict) {
     case acquisition::Verdict::stillGood:
       return remark.show(Remark::Kind::good, OutputPage::tr("The measurement still holds"), meaning);
     case acquisition::Verdict::remeasure:
       return remark.show(Remark::Kind::warning,
-                         hasMoved ? OutputPage::tr("Put the camera back, or repair the calibration.")
-                                  : OutputPage::tr("Something has changed. Repair the calibration."),
-                         meaning);
+                         OutputPage::tr("Something has changed. Repair the calibration."), meaning);
     case acquisition::Verdict::startAgain:
       return remark.show(Remark::Kind::failed,
                          OutputPage::tr("Hardly anything fits. Aim, focus and measure everything again."),

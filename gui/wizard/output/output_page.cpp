@@ -134,6 +134,9 @@ StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (playsEarlier()) return {StepState::busy, tr("Earlier correction"), false, true};
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
+  const OutputProof::Next next = proof_.next();
+  const bool isDoubted = next != OutputProof::Next::install && next != OutputProof::Next::photograph;
+  if (isOpen() && isDoubted) return {StepState::busy, tr("Not as predicted"), false, true};
   if (isOpen())
     return {StepState::busy, isBlack()      ? tr("Black")
                              : showsChart() ? tr("Test chart")

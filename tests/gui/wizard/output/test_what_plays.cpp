@@ -284,6 +284,8 @@ class TestWhatPlays : public QObject {
     QCOMPARE(page_->proof().next(), OutputProof::Next::repair);
     QCOMPARE(page_->primary()->text(), OutputPage::tr("Repair the calibration"));
     QVERIFY(page_->primary()->isEnabled() && !page_->proof().repairNote());
+    QVERIFY(page_->isOpen() && page_->status().isHeldUp);
+    QCOMPARE(page_->status().result, QString("Not as predicted"));
     const std::string before = session().correction();
     page_->primary()->trigger();
     QCOMPARE(page_->proof().work(), OutputProof::Work::repair);

@@ -36,6 +36,7 @@ QString grouped(QString number) {
 QString digitsOf(double value, int decimals) {
   QLocale locale;
   locale.setNumberOptions(QLocale::OmitGroupSeparator);
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;  // nothing is less than no digit
   return grouped(locale.toString(value, 'f', decimals));
 }
 

@@ -36,7 +36,8 @@ QString decimalText(double value, int decimals) {
 QString percentText(double share) {
   if (!std::isfinite(share)) return QString::fromUtf8("–");
   double percent = 100.0 * share;
-  int decimals = std::abs(percent) >= 99.95 || percent == 0.0 ? 0 : std::abs(percent) < 0.095 ? 2 : 1;
+  const double size = std::abs(percent);
+  const int decimals = size >= 99.95 || size == 0.0 ? 0 : size < 0.005 ? 4 : size < 0.095 ? 2 : 1;
   return isolated(digitsOf(percent, decimals) + narrowSpace + '%');
 }
 

@@ -80,6 +80,30 @@ class TestNumberText : public QObject {
     QCOMPARE(numberText(value), text);
   }
 
+  void sharesAreSaidByTheirSize_data() {
+    QTest::addColumn<double>("share");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("nothing") << 0.0 << "0";
+    QTest::newRow("hardly any") << 1.4e-5 << "0.0014";
+    QTest::newRow("little") << 8e-4 << "0.08";
+    QTest::newRow("some") << 0.0123 << "1.2";
+    QTest::newRow("less than nothing") << -0.0123 << "-1.2";
+    QTest::newRow("all") << 0.9999 << "100";
+  }
+  void sharesAreSaidByTheirSize() {
+    QFETCH(double, share);
+    QFETCH(QString, text);
+    QCOMPARE(percentText(share), text + QString::fromUtf8("\u202F%"));
+  }
+
+  /// Law: what no digit is left of has no sign.
+  void nothingIsNotLessThanNothing() {
+    QCOMPARE(decimalText(-0.004, 2), QString("0.00"));
+    QCOMPARE(decimalText(-0.006, 2), QString("-0.01"));
+    QCOMPARE(decimalText(-0.4, 0), QString("0"));
+    QCOMPARE(decimalText(0.004, 2), QString("0.00"));
+  }
+
   void thousandsAreApartInSentences() {
     QCOMPARE(groupedText("21480 clusters, median %1", 21480),
              QString::fromUtf8("21\u202F480 clusters, median %1"));

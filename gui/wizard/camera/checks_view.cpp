@@ -185,7 +185,7 @@ void showWhetherSeen(CameraPage& model, Remark* sees) {
 
 /// How the devices work together, a line each.
 QString verdictLines(const CameraPage& model) {
-  QStringList lines = model.keptVerdicts();
+  QStringList lines = model.check() ? QStringList() : model.keptVerdicts();  // of one look, not of two
   if (model.check())
     for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*model.check()))
       lines << text(devices::messageOf(verdict));

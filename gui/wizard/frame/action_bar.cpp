@@ -171,6 +171,10 @@ void ActionBar::arrange() {
     grid_->addWidget(reason_, 1, 1);
   else
     grid_->addWidget(reason_, 0, 0, 1, 4);
+  // Of two rows neither touches what is above or below.
+  constexpr int above = 10, below = 14;
+  grid_->setContentsMargins(space::page, isOneRow ? 0 : above, space::page, isOneRow ? 0 : below);
+  grid_->setVerticalSpacing(isOneRow ? 0 : +space::small);
   setFixedHeight(isOneRow ? rowHeight : rowHeight + space::small + hint_->heightForWidth(std::max(1, whole)));
 }
 

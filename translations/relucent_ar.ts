@@ -6610,6 +6610,10 @@ projector %2</source>
         <source>Stop</source>
         <translation>إيقاف</translation>
     </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>ليس كما هو متوقع</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

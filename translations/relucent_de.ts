@@ -6466,6 +6466,10 @@ Projektor %2</translation>
         <source>Stop</source>
         <translation>Stoppen</translation>
     </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>Nicht wie vorhergesagt</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

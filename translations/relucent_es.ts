@@ -6466,6 +6466,10 @@ proyector %2</translation>
         <source>Stop</source>
         <translation>Detener</translation>
     </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>No como se predijo</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -479,7 +479,7 @@
     <name>acquisition.overexposed</name>
     <message>
         <source>{} % of the camera pixels are overexposed even at the shortest exposure: close the camera&apos;s aperture a little, then measure again</source>
-        <translation>{} % des pixels de la caméra sont surexposés même au temps de pose le plus court : fermez un peu le diaphragme de la caméra, puis mesurez à nouveau</translation>
+        <translation>{}&#x202f;% des pixels de la caméra sont surexposés même au temps de pose le plus court&#x202f;: fermez un peu le diaphragme de la caméra, puis mesurez à nouveau</translation>
     </message>
 </context>
 <context>
@@ -6465,6 +6465,10 @@ projecteur %2</translation>
     <message>
         <source>Stop</source>
         <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>Non conforme à la prévision</translation>
     </message>
 </context>
 <context>

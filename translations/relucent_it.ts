@@ -6466,6 +6466,10 @@ proiettore %2</translation>
         <source>Stop</source>
         <translation>Ferma</translation>
     </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>Non come previsto</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -6430,6 +6430,10 @@ projector %2</source>
         <source>Stop</source>
         <translation>停止</translation>
     </message>
+    <message>
+        <source>Not as predicted</source>
+        <translation>予測と異なる</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>

@@ -449,6 +449,8 @@ class TestLayouts : public QObject {
       faults << seen(nights, language, "weeks of nights");
       StreamDialog stream(&wizard_->window());
       stream.show();
+      // Else the size that it is shown with may be told after the one that it grows to.
+      if (!QTest::qWaitForWindowExposed(&stream)) faults << language + ": no dialog for a stream's address";
       stream.findChild<QLineEdit*>("stream-address")->setText("rtsp://camera:port/live");
       stream.findChild<QPushButton*>("stream-add")->click();
       faults << seen(stream, language, "a stream's address");

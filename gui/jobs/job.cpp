@@ -50,7 +50,7 @@ void Job::start(Work work) {
   fraction_ = 0.0;
   stage_ = {};
   failure_ = {};
-  thread_.reset(QThread::create([this, work = std::move(work)]() mutable {
+  thread_.reset(QThread::create([this, work = std::move(work)] {
     Sink sink(*this);
     Progress progress(sink, *stop_);
     State end = State::done;
@@ -63,7 +63,6 @@ void Job::start(Work work) {
       end = State::failed;
       failure = failureOf(std::current_exception());
     }
-    work = nullptr;  // devices that it held are free for others, and are let go of here
     QMetaObject::invokeMethod(this, [this, end, failure] { finish(end, failure); }, Qt::QueuedConnection);
   }));
   thread_->start();

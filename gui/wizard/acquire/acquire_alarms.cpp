@@ -36,7 +36,7 @@ void AcquirePage::askAboutAlarm(const sentinels::Alarm& alarm, bool isPutRight) 
   const bool mayHaveMoved =
       alarm.kind == sentinels::AlarmKind::moved || alarm.kind == sentinels::AlarmKind::unsteady;
   if (mayHaveMoved && !viewBefore_.empty() && !isPutRight) report.repair = pushBack_;
-  report.isPutRight = isPutRight_ = isPutRight;
+  report.isPutRight = isPutRight;
   trace_.setPutRight(isPutRight);
   alarm_ = alarm;
   asking_ = std::make_unique<QObject>();
@@ -67,8 +67,8 @@ QString AcquirePage::whatAnswersDo(const sentinels::Alarm& alarm, bool mayGoOn) 
 /// Whoever has closed the question finds it here again.
 Banner AcquirePage::alarmBanner() const {
   return {Banner::Kind::amber,
-          isPutRight_ ? putRightHeading(alarm_->kind) : AcquisitionTrace::headingOf(alarm_->kind),
-          isPutRight_ ? tr("Measuring waits for your answer.") : fullSentence(alarm_->what), answer_};
+          trace_.isPutRight() ? putRightHeading(alarm_->kind) : AcquisitionTrace::headingOf(alarm_->kind),
+          trace_.isPutRight() ? tr("Measuring waits for your answer.") : fullSentence(alarm_->what), answer_};
 }
 
 void AcquirePage::askAgain(bool isPutRight) {

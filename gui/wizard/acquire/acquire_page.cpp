@@ -96,7 +96,7 @@ void AcquirePage::makeCommands() {
   retryAlarm_ = answering(Icon::retry, sentinels::Answer::retry);
   keepAtAlarm_ = answering(Icon::save, sentinels::Answer::keepAndStop);
   skipAlarm_ = answering(Icon::next, sentinels::Answer::skip);
-  answer_ = addCommand(Icon::warning, [this] { askAgain(isPutRight_); });
+  answer_ = addCommand(Icon::warning, [this] { askAgain(trace_.isPutRight()); });
   pushBack_ = addCommand(Icon::camera, [this] { Q_EMIT nudgeWanted(); });
   retry_ = addCommand(Icon::play, begins);
 }
@@ -124,9 +124,8 @@ StepStatus AcquirePage::status() const {
       if (const auto poor = session_.poorQuality())
         return {StepState::doubtful, tr("%1 expected").arg(isolated(tr("%1 dB").arg(decimalText(*poor, 0))))};
       if (const auto holes = session_.leftOut())
-        return {StepState::doubtful, session_.isOverexposed()
-                                         ? tr("%1 too bright").arg(isolated(percentText(*holes)))
-                                         : tr("%1 left out").arg(isolated(percentText(*holes)))};
+        return {StepState::doubtful, session_.isOverexposed() ? tr("%1 too bright").arg(percentText(*holes))
+                                                              : tr("%1 left out").arg(percentText(*holes))};
       if (const auto spent = cost())
         return {StepState::done,
                 groupedText(tr("%n pattern(s), %1", nullptr, spent->patterns), spent->patterns)

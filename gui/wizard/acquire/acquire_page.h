@@ -263,7 +263,6 @@ class AcquirePage : public DevicePage {
   bool sound_ = true;
   std::optional<sentinels::Alarm> alarm_;  // the last
   std::unique_ptr<QObject> asking_;        // about it
-  bool isPutRight_ = false;
   image::Image viewBefore_;
   RoomQuestion room_;
   bool diskWasFull_ = false;

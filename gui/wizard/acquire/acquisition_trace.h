@@ -83,6 +83,7 @@ class AcquisitionTrace : public QObject, public sentinels::AcquisitionObserver {
 
   /// What the last check found was put right by hand, and is not looked at again yet.
   void setPutRight(bool isPutRight);
+  bool isPutRight() const { return isPutRight_; }
 
   void checked(const sentinels::Reading& reading) override;
   void takenAgain(const sentinels::Retake& retake) override;

@@ -10,7 +10,6 @@
 
 #include "relucent/base/message.h"
 #include "relucent/linearization/test_light.h"
-#include "relucent/pipeline/screen_devices.h"
 #include "relucent/platform/memory_limits.h"
 #include "text/message_text.h"
 #include "views/number_text.h"
@@ -61,11 +60,9 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     start();
   });
   chooseAnother_ = addCommand(Icon::camera, [this] {
-    const auto former = session_.screenRig() != nullptr
-                            ? std::optional(pipeline::camerasOf(*session_.screenRig()).front())
-                            : std::nullopt;
+    const pipeline::ScreenRigSettings before = *session_.screenRig();
     exchangeCamera({}, std::nullopt);
-    if (needsCamera()) former_ = former;
+    if (needsCamera()) former_ = {before.cameraAddress, before.camera};
     listCameras();
   });
   keepFormer_ = addCommand(Icon::back, [this] {
@@ -144,8 +141,7 @@ StepStatus CameraPage::status() const {
   }
   if (const auto& result = session_.result(calibration::Stage::camera)) {
     const double bright = session_.figures<calibration::Stage::camera>()->tooBright;
-    if (bright > mostTooBright)
-      return {StepState::doubtful, tr("%1 too bright").arg(isolated(percentText(bright)))};
+    if (bright > mostTooBright) return {StepState::doubtful, tr("%1 too bright").arg(percentText(bright))};
     QDateTime when = QDateTime::fromString(QString::fromStdString(result->stored), Qt::ISODate).toLocalTime();
     return {StepState::done, tr("Checked %1").arg(QLocale().toString(when.time(), QLocale::ShortFormat))};
   }

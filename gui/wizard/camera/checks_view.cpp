@@ -185,10 +185,10 @@ void showWhetherSeen(CameraPage& model, Remark* sees) {
 
 /// How the devices work together, a line each.
 QString verdictLines(const CameraPage& model) {
-  QStringList lines = model.check() ? QStringList() : model.keptVerdicts();  // of one look, not of two
-  if (model.check())
-    for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*model.check()))
-      lines << text(devices::messageOf(verdict));
+  if (!model.check()) return model.keptVerdicts().join('\n');
+  QStringList lines;
+  for (const devices::CheckVerdict& verdict : pipeline::verdictsOf(*model.check()))
+    lines << text(devices::messageOf(verdict));
   return lines.join('\n');
 }
 

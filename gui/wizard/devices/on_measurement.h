@@ -51,7 +51,7 @@ inline std::optional<Banner> onMeasurement(const Session& session, PageCommand* 
             .arg(isolated(QCoreApplication::translate("StoppedEarly", "%1 dB").arg(decimalText(*poor, 0)))),
         toAcquire};
   if (const auto leftOut = session.leftOut()) {
-    const QString share = isolated(percentText(*leftOut));
+    const QString share = percentText(*leftOut);
     if (session.isOverexposed())
       return Banner{Banner::Kind::amber,
                     QCoreApplication::translate("StoppedEarly", "%1 of the view is too bright for the camera")

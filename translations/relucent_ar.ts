@@ -3315,10 +3315,6 @@
         <translation>الأنماط</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>اللقطات</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>خطأ أنماط الاختبار</translation>
     </message>
@@ -3890,6 +3886,10 @@
     <message>
         <source>Ending</source>
         <translation>جارٍ الإنهاء</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>التعريضات</translation>
     </message>
 </context>
 <context>
@@ -6283,10 +6283,6 @@ projector %2</source>
         <translation>لا يمكن التحقق بعد</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>ما زال جهاز العرض يعرض التصحيح السابق. أظهر الجديد ثم التقط اللقطة.</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>قيس ما تُظهره أو اختير من جديد منذ ذلك الحين. التقطها مرة أخرى للتحقق مما يُعرض الآن.</translation>
     </message>
@@ -6309,10 +6305,6 @@ projector %2</source>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>ما يُعرض ليس آخر ما قيس أو اختير. أظهره أولًا.</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>إظهار التصحيح الجديد</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6475,10 +6467,6 @@ projector %2</source>
         <translation>تستمر قائمة التشغيل دون أن تُرى حتى تُظهرها من جديد.</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>يُعرض التصحيح السابق. أظهر الجديد أولًا.</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>أوقات المجموعات</translation>
     </message>
@@ -6613,6 +6601,22 @@ projector %2</source>
     <message>
         <source>Not as predicted</source>
         <translation>ليس كما هو متوقع</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>ما زال جهاز العرض يعرض التصحيح السابق. أظهر الحالي ثم التقط اللقطة.</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>الخرج مغلق. الأجهزة مستخدمة في خطوة «%1».</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>إظهار التصحيح الحالي</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>يُعرض التصحيح السابق. أظهر الحالي أولًا.</translation>
     </message>
 </context>
 <context>

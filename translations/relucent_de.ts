@@ -3271,10 +3271,6 @@
         <translation>Muster</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>Fotos</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>Fehler der Testmuster</translation>
     </message>
@@ -3802,6 +3798,10 @@
     <message>
         <source>Ending</source>
         <translation>Wird beendet</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Belichtungen</translation>
     </message>
 </context>
 <context>
@@ -6139,10 +6139,6 @@ Projektor %2</translation>
         <translation>Noch nicht zu prüfen</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>Der Projektor zeigt noch die frühere Korrektur. Zeigen Sie die neue, dann nehmen Sie das Foto auf.</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>Was es zeigt, wurde seitdem neu gemessen oder gewählt. Nehmen Sie es neu auf, um zu prüfen, was jetzt gezeigt wird.</translation>
     </message>
@@ -6165,10 +6161,6 @@ Projektor %2</translation>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>Was läuft, ist nicht das zuletzt Gemessene oder Gewählte. Zeigen Sie zuerst dieses.</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>Neue Korrektur zeigen</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6331,10 +6323,6 @@ Projektor %2</translation>
         <translation>Die Playlist läuft ungesehen weiter, bis Sie sie wieder zeigen.</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>Es läuft noch die frühere Korrektur. Zeigen Sie erst die neue.</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>Zeiten der Varianten</translation>
     </message>
@@ -6469,6 +6457,22 @@ Projektor %2</translation>
     <message>
         <source>Not as predicted</source>
         <translation>Nicht wie vorhergesagt</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>Der Projektor zeigt noch die frühere Korrektur. Zeigen Sie die aktuelle, dann nehmen Sie das Foto auf.</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>Die Ausgabe ist geschlossen. Die Seite „%1“ nutzt die Geräte.</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>Aktuelle Korrektur zeigen</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>Es läuft noch die frühere Korrektur. Zeigen Sie erst die aktuelle.</translation>
     </message>
 </context>
 <context>

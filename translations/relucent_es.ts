@@ -3271,10 +3271,6 @@
         <translation>Patrones</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>Fotografías</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>Error de los patrones de prueba</translation>
     </message>
@@ -3802,6 +3798,10 @@
     <message>
         <source>Ending</source>
         <translation>Terminando</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Exposiciones</translation>
     </message>
 </context>
 <context>
@@ -6139,10 +6139,6 @@ proyector %2</translation>
         <translation>Aún no se puede verificar</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>El proyector muestra aún la corrección anterior. Muestre la nueva y luego tome la fotografía.</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>Lo que muestra se ha medido o elegido de nuevo desde entonces. Tómela otra vez para verificar lo que se muestra ahora.</translation>
     </message>
@@ -6165,10 +6161,6 @@ proyector %2</translation>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>Lo que se reproduce no es lo último medido o elegido. Muéstrelo primero.</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>Mostrar la nueva corrección</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6331,10 +6323,6 @@ proyector %2</translation>
         <translation>La lista sigue sin verse hasta que la muestre de nuevo.</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>Se muestra la corrección anterior. Muestre primero la nueva.</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>Horas de las variantes</translation>
     </message>
@@ -6469,6 +6457,22 @@ proyector %2</translation>
     <message>
         <source>Not as predicted</source>
         <translation>No como se predijo</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>El proyector muestra aún la corrección anterior. Muestre la actual y luego tome la fotografía.</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>La salida está cerrada. Los dispositivos están en uso en %1.</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>Mostrar la corrección actual</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>Se muestra la corrección anterior. Muestre primero la actual.</translation>
     </message>
 </context>
 <context>

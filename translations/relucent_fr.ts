@@ -3271,10 +3271,6 @@
         <translation>Motifs</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>Photos</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>Erreur des motifs de test</translation>
     </message>
@@ -3802,6 +3798,10 @@
     <message>
         <source>Ending</source>
         <translation>Fin en cours</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Poses</translation>
     </message>
 </context>
 <context>
@@ -6139,10 +6139,6 @@ projecteur %2</translation>
         <translation>Pas encore à contrôler</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>Le projecteur montre encore l’ancienne correction. Montrez la nouvelle, puis prenez la photo.</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>Ce qu’elle montre a été mesuré ou choisi à nouveau depuis. Reprenez-la pour contrôler ce qui est montré maintenant.</translation>
     </message>
@@ -6165,10 +6161,6 @@ projecteur %2</translation>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>Ce qui passe n’est pas ce qui a été mesuré ou choisi en dernier. Montrez-le d’abord.</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>Montrer la nouvelle correction</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6331,10 +6323,6 @@ projecteur %2</translation>
         <translation>La liste de lecture continue sans être vue jusqu’à ce que vous la réaffichiez.</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>La correction précédente est diffusée. Montrez d’abord la nouvelle.</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>Heures des variantes</translation>
     </message>
@@ -6469,6 +6457,22 @@ projecteur %2</translation>
     <message>
         <source>Not as predicted</source>
         <translation>Non conforme à la prévision</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>Le projecteur montre encore la correction précédente. Montrez l’actuelle, puis prenez la photo.</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>La sortie est fermée. Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>Montrer la correction actuelle</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>La correction précédente est diffusée. Montrez d’abord l’actuelle.</translation>
     </message>
 </context>
 <context>

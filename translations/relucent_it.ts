@@ -3271,10 +3271,6 @@
         <translation>Pattern</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>Foto</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>Errore dei pattern di prova</translation>
     </message>
@@ -3802,6 +3798,10 @@
     <message>
         <source>Ending</source>
         <translation>In chiusura</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>Esposizioni</translation>
     </message>
 </context>
 <context>
@@ -6139,10 +6139,6 @@ proiettore %2</translation>
         <translation>Ancora da non verificare</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>Il proiettore mostra ancora la correzione precedente. Mostrare la nuova, poi scattare la foto.</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>Ciò che mostra è stato nel frattempo misurato o scelto di nuovo. Scattarla ancora per verificare ciò che si vede ora.</translation>
     </message>
@@ -6165,10 +6161,6 @@ proiettore %2</translation>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>Ciò che si vede non è quanto misurato o scelto per ultimo. Mostrarlo prima.</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>Mostra la nuova correzione</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6331,10 +6323,6 @@ proiettore %2</translation>
         <translation>La playlist prosegue non vista finché non la si mostra di nuovo.</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>È in riproduzione la correzione precedente. Mostrare prima la nuova.</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>Orari delle varianti</translation>
     </message>
@@ -6469,6 +6457,22 @@ proiettore %2</translation>
     <message>
         <source>Not as predicted</source>
         <translation>Non come previsto</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>Il proiettore mostra ancora la correzione precedente. Mostrare quella attuale, poi scattare la foto.</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>L’uscita è chiusa. I dispositivi sono in uso nel passo %1.</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>Mostra la correzione attuale</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>È in riproduzione la correzione precedente. Mostrare prima quella attuale.</translation>
     </message>
 </context>
 <context>

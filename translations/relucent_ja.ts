@@ -3260,10 +3260,6 @@
         <translation>パターン</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>写真</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>テストパターンの誤差</translation>
     </message>
@@ -3780,6 +3776,10 @@
     <message>
         <source>Ending</source>
         <translation>終了中</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>露光回数</translation>
     </message>
 </context>
 <context>
@@ -6103,10 +6103,6 @@ projector %2</source>
         <translation>まだ検証できません</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>プロジェクターはまだ以前の補正を表示しています。新しい補正を表示してから撮影してください。</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>撮影後に、測定または設定が変わりました。今の表示を検証するには撮影し直してください。</translation>
     </message>
@@ -6129,10 +6125,6 @@ projector %2</source>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>再生中の補正は、最後の測定や設定のものではありません。まずそれを表示してください。</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>新しい補正を表示</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6295,10 +6287,6 @@ projector %2</source>
         <translation>もう一度表示するまで、プレイリストは見えないまま進みます。</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>以前の補正が再生されています。先に新しい補正を表示してください。</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>セットの時刻</translation>
     </message>
@@ -6433,6 +6421,22 @@ projector %2</source>
     <message>
         <source>Not as predicted</source>
         <translation>予測と異なる</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>プロジェクターはまだ以前の補正を表示しています。現在の補正を表示してから撮影してください。</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>出力は閉じています。機器は「%1」で使用中です。</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>現在の補正を表示</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>以前の補正が再生されています。先に現在の補正を表示してください。</translation>
     </message>
 </context>
 <context>

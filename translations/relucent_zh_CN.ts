@@ -3260,10 +3260,6 @@
         <translation>图案</translation>
     </message>
     <message>
-        <source>Photographs</source>
-        <translation>照片</translation>
-    </message>
-    <message>
         <source>Error of the test patterns</source>
         <translation>测试图案的误差</translation>
     </message>
@@ -3780,6 +3776,10 @@
     <message>
         <source>Ending</source>
         <translation>正在结束</translation>
+    </message>
+    <message>
+        <source>Exposures</source>
+        <translation>曝光次数</translation>
     </message>
 </context>
 <context>
@@ -6103,10 +6103,6 @@ projector %2</source>
         <translation>尚不能验证</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the new one, then take the photograph.</source>
-        <translation>投影机仍在显示以前的补偿。请先显示新的补偿，再拍照。</translation>
-    </message>
-    <message>
         <source>What it was taken of has been measured or chosen anew since. Take it again to prove what is shown now.</source>
         <translation>拍摄之后又重新测量或更改过。请重新拍摄，以验证现在显示的内容。</translation>
     </message>
@@ -6129,10 +6125,6 @@ projector %2</source>
     <message>
         <source>What plays is not what was measured or chosen last. Show that first.</source>
         <translation>正在播放的不是最近测量或选择的结果。请先显示它。</translation>
-    </message>
-    <message>
-        <source>Show the new correction</source>
-        <translation>显示新的补偿</translation>
     </message>
     <message>
         <source>Look at it first</source>
@@ -6295,10 +6287,6 @@ projector %2</source>
         <translation>播放列表在不可见的状态下继续，直到您再次显示。</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the new one first.</source>
-        <translation>正在播放较早的补偿。请先显示新的补偿。</translation>
-    </message>
-    <message>
         <source>Times of sets</source>
         <translation>方案的时间</translation>
     </message>
@@ -6433,6 +6421,22 @@ projector %2</source>
     <message>
         <source>Not as predicted</source>
         <translation>与预测不符</translation>
+    </message>
+    <message>
+        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
+        <translation>投影机仍在显示以前的补偿。请先显示当前的补偿，再拍照。</translation>
+    </message>
+    <message>
+        <source>The output is closed. The devices are in use at %1.</source>
+        <translation>输出已关闭。设备正由“%1”使用。</translation>
+    </message>
+    <message>
+        <source>Show the current correction</source>
+        <translation>显示当前补偿</translation>
+    </message>
+    <message>
+        <source>The earlier correction plays. Show the current one first.</source>
+        <translation>正在播放较早的补偿。请先显示当前的补偿。</translation>
     </message>
 </context>
 <context>

@@ -301,9 +301,9 @@ void setSettingsAndTimes(Data& page, const ReportData& data) {
   const pipeline::CalibrateResult& result = data.result;
   Data costs(Data::type::list);
   // By the steps that measured them, each as its page in the program counts it.
-  const auto step = [](double seconds, int patterns, int photographs) {
-    return fmt::format("{}, {} patterns, {} photographs", stageDuration(seconds),
-                       grouped(atLeastNone(patterns)), grouped(atLeastNone(photographs)));
+  const auto step = [](double seconds, int patterns, int exposures) {
+    return fmt::format("{}, {} patterns, {} exposures", stageDuration(seconds),
+                       grouped(atLeastNone(patterns)), grouped(atLeastNone(exposures)));
   };
   costs << named(
                "Colours and brightness (Linearize)",

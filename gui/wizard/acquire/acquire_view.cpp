@@ -173,7 +173,7 @@ QWidget* runOf(AcquirePage& model) {
   column->addWidget(outlookPart(model));
   column->addWidget(lineOf());
   auto* patterns = new ValueRow(AcquirePage::tr("Patterns"));
-  auto* photographs = new ValueRow(AcquirePage::tr("Photographs"));
+  auto* photographs = new ValueRow(AcquirePage::tr("Exposures"));
   auto* disk = new ValueRow(AcquirePage::tr("Disk still needed"));
   for (ValueRow* row : {patterns, photographs, disk}) column->addWidget(row);
   column->addWidget(lineOf());

@@ -165,9 +165,11 @@ QString OutputPage::photographicWork() const {
 }
 
 QString OutputPage::whatIsProjected() const {
-  return photographicWork().isEmpty()
-             ? tr("The output is closed. Nothing is projected.")
-             : tr("The output is closed. Patterns to be photographed are projected.");
+  if (!photographicWork().isEmpty())
+    return tr("The output is closed. Patterns to be photographed are projected.");
+  if (!session_.areDevicesFree())
+    return tr("The output is closed. The devices are in use at %1.").arg(session_.devicesUserName());
+  return tr("The output is closed. Nothing is projected.");
 }
 
 QString OutputPage::hint() const {
@@ -232,7 +234,7 @@ void OutputPage::updateCommands() {
                  : isJudged    ? tr("Install anyway")
                                : tr("Install without proof"),
                  isInstallable() && !playlist_.isEmpty());
-  renew_->show(tr("Show the new correction"), session_.areDevicesFree() && !projectorWithoutScreen());
+  renew_->show(tr("Show the current correction"), session_.areDevicesFree() && !projectorWithoutScreen());
   review_->show(tr("Look at it first"));
   endChart_->show(tr("Show the playlist"));
   prove_->showUnless(whyNotProve(), tr("Take verification photograph"));

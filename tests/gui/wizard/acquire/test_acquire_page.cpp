@@ -247,7 +247,7 @@ class TestAcquirePage : public QObject {
     QCOMPARE(page.expectedQuality().value().now, page.trace().outlook()->now);
   }
 
-  /// What was stopped and kept is no plain tick, and is gone on with.
+  /// What was stopped and kept is no plain tick, and is gone on with, also where going on did not end.
   void whatWasStoppedIsGoneOnWith() {
     CalibrateSettings settings = smallVenue();
     std::get<VenueSettings>(settings.rig).projector = {96, 72};
@@ -283,6 +283,18 @@ class TestAcquirePage : public QObject {
     QElapsedTimer since;
     since.start();
     banner->command->trigger();
+    QVERIFY(page.isMeasuring());
+    QTRY_VERIFY_WITH_TIMEOUT(session_->photographsSince(Stage::acquisition) > 3, patience);
+    page.finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    const std::optional<Banner> interrupted = page.banner();
+    QVERIFY(interrupted && interrupted->kind == Banner::Kind::amber);
+    QCOMPARE(interrupted->sentence, AcquirePage::tr("Going on has not ended"));
+    QVERIFY2(interrupted->more.contains(QString::number(page.photographsOfNew())),
+             qPrintable(interrupted->more));
+    QCOMPARE(page.status().state, StepState::coarse);
+    QVERIFY(interrupted->command && interrupted->command->isEnabled());
+    interrupted->command->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     QCOMPARE(page.stoppedAt(), 0);

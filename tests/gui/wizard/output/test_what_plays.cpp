@@ -206,7 +206,7 @@ class TestWhatPlays : public QObject {
     QVERIFY(page_->status().isHeldUp && page_->status().result != OutputPage::tr("Playing"));
     page_->verify();
     QVERIFY(page_->isOpen() && page_->proof().work() == OutputProof::Work::none);
-    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the new correction"));
+    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the current correction"));
     QVERIFY(page_->primary()->isEnabled());
     page_->primary()->trigger();
     QVERIFY(!page_->isOpen());
@@ -300,6 +300,23 @@ class TestWhatPlays : public QObject {
     QVERIFY(!page_->proof().repairNote() && page_->playsEarlier() && !page_->proof().isOutOfDate());
   }
 
+  /// Law: while another step has the devices, no part of the page says that nothing is projected.
+  void devicesInUseAreNoDarkProjector() {
+    const PageView view = viewOf(*page_);
+    const std::unique_ptr<QWidget> stage(view.stage), inspector(view.inspector);
+    const auto says = [&](const char* words) {
+      const QList<ImageView*> pictures = stage->findChildren<ImageView*>();
+      return std::ranges::any_of(pictures, [&](ImageView* one) { return one->emptyText().contains(words); });
+    };
+    QVERIFY(says("Nothing is projected"));
+    {
+      const DeviceLease lease = session().leaseDevices({"acquire", "", "Acquire"}, DeviceWork::measurement);
+      QVERIFY(says("in use at Acquire") && !says("Nothing is projected"));
+      QVERIFY(!page_->hint().contains("Nothing is projected"));
+    }
+    QTRY_VERIFY(says("Nothing is projected"));
+  }
+
   /// Law: while patterns stand on the projectors, no part of the window says that nothing does; the rail says
   /// what is done, and it can be stopped.
   void whatIsDoneByPhotographsIsSaid_data() {
@@ -371,7 +388,7 @@ class TestWhatPlays : public QObject {
     session().reload();
     QVERIFY(session().progress(Stage::acquisition) == StageProgress::done);
     QVERIFY(page_->playsEarlier() && page_->proof().isOutOfDate());
-    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the new correction"));
+    QCOMPARE(page_->primary()->text(), OutputPage::tr("Show the current correction"));
     page_->primary()->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(page_->isOpen(), patience);
     QCOMPARE(page_->banner()->sentence, OutputPage::tr("The verification photograph is out of date"));

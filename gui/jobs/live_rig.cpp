@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "jobs/live_rig.h"
 
+#include <QScopeGuard>
 #include <algorithm>
 #include <utility>
 
@@ -32,18 +33,26 @@ LiveRig::LiveRig(int interval) : interval_(interval) {}
 
 void LiveRig::beforeShowing(std::size_t, rig::RigLight& light) {
   QMutexLocker lock(&guard_);
-  if (paused_) {
-    pausedSince_ = now_();
-    light.darken();
-    while (paused_) resumed_.wait(&guard_);
-    pauses_ += now_() - *std::exchange(pausedSince_, std::nullopt);
-    light.restore();
-  }
+  while (paused_) pauseInTheDark(light, lock);
   // Resuming ends no wait but a pause.
   auto left = [&] { return shownLast_.isValid() ? leastBetween_ - shownLast_.elapsed() : 0; };
   for (qint64 wait = left(); wait > 0; wait = left())
     resumed_.wait(&guard_, static_cast<unsigned long>(wait));
   shownLast_.start();
+}
+
+/// Unlocked while the light changes: a window shows it once the interface's thread comes to it, which may be
+/// about to read from here.
+void LiveRig::pauseInTheDark(rig::RigLight& light, QMutexLocker<QMutex>& lock) {
+  pausedSince_ = now_();
+  const auto over = qScopeGuard([this] { pauses_ += now_() - *std::exchange(pausedSince_, std::nullopt); });
+  lock.unlock();
+  const auto locked = qScopeGuard([&lock] { lock.relock(); });
+  light.darken();
+  lock.relock();
+  while (paused_) resumed_.wait(&guard_);
+  lock.unlock();
+  light.restore();
 }
 
 void LiveRig::setLeastInterval(int milliseconds) {
@@ -77,6 +86,12 @@ void LiveRig::afterPhotographing(std::size_t index) noexcept {
 void LiveRig::setClock(std::function<Clock::time_point()> now) {
   QMutexLocker lock(&guard_);
   now_ = std::move(now);
+}
+
+void LiveRig::waitAnew() {
+  QMutexLocker lock(&guard_);
+  for (std::optional<Asked>& asked : asked_)
+    if (asked) asked->when = now_();
 }
 
 LiveRig::Clock::duration LiveRig::paused() const {

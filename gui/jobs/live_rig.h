@@ -50,6 +50,8 @@ class LiveRig : public QObject, public rig::RigWatcher {
   /// The first camera of which one is; none: no photograph is.
   std::optional<std::size_t> silentCamera() const;
   std::optional<std::size_t> silentCamera(Clock::time_point now) const;
+  /// Photographs under way wait for another device: from now on for the camera again.
+  void waitAnew();
   /// By all cameras, since the start.
   int photographs() const;
   /// Photographs of one stage, and the number of the last one's shot: others may look through the cameras
@@ -105,6 +107,7 @@ class LiveRig : public QObject, public rig::RigWatcher {
     rig::CaptureRequest request;
     Floodlight floodlight;
   };
+  void pauseInTheDark(rig::RigLight& light, QMutexLocker<QMutex>& lock);
   bool isFloodlit() const;
   Clock::duration usualArrival() const;
   std::vector<Shown> projectors_;

@@ -69,6 +69,46 @@ class TestLiveRig : public QObject {
     QCOMPARE(live.photographs(), 1);
   }
 
+  /// Law: whoever pauses does not wait for the light: a window goes dark on the thread that asks meanwhile.
+  void nobodyWaitsForTheLight() {
+    LiveRig live(0);
+    struct Light : RigLight {
+      LiveRig& live;
+      int answers = 0;
+      explicit Light(LiveRig& of) : live(of) {}
+      void ask() {
+        constexpr int patience = 10'000;  // ms, for a thread on a busy machine
+        const std::unique_ptr<QThread> interface(QThread::create([this] { live.pictures(); }));
+        interface->start();
+        if (!interface->wait(QDeadlineTimer(patience))) qFatal("who asks waits for the light");
+        ++answers;
+      }
+      void darken() override {
+        ask();
+        live.resume();
+      }
+      void restore() override { ask(); }
+    } light(live);
+    live.pause();
+    live.beforeShowing(0, light);
+    QCOMPARE(light.answers, 2);
+    QVERIFY(live.paused() < std::chrono::hours(1));
+  }
+
+  /// Law: the time in which a photograph waits for another device is not the camera's.
+  void whoWaitsForAScreenIsNotSilent() {
+    using namespace std::chrono_literals;
+    LiveRig::Clock::time_point time{};
+    LiveRig live(0);
+    live.setClock([&time] { return time; });
+    live.beforePhotographing(0, {{"stage", 3}, 0, 1.0});
+    time += 1h;
+    QVERIFY(live.silentCamera().has_value());
+    live.waitAnew();
+    QVERIFY(!live.silentCamera() && !live.silentCamera(time + 3s));
+    QVERIFY(live.silentCamera(time + 5s).has_value());
+  }
+
   /// Law: slow cameras are waited for longer; one photograph that was held up makes none slow.
   void slowCamerasAreWaitedForLonger() {
     using namespace std::chrono_literals;

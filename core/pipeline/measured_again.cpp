@@ -89,17 +89,18 @@ Json withSeed(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) 
   return settings;
 }
 
+bool hasResultOf(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) {
+  const calibration::StageDescription& description = calibration::descriptionOf(stage);
+  const std::string inputs = calibration::fingerprintOf(folder, description.predecessor.value());
+  return folder.isCurrent(stage,
+                          calibration::fingerprintAfter(inputs, description, withSeed(folder, stage, seed)));
+}
+
 /// The settings that an earlier result was measured with, if they differ from those of now by their seed.
 std::optional<Json> earlierSettings(const CalibrationFolder& folder, Stage stage) {
-  const calibration::StageDescription& description = calibration::descriptionOf(stage);
-  if (folder.isCurrent(stage, calibration::fingerprintOf(folder, stage))) return std::nullopt;
-  const std::string inputs = calibration::fingerprintOf(folder, description.predecessor.value());
   std::uint64_t seed = seedOf(folder, stage);
-  for (int again = 0; again < mostAgain && seed-- > 0; ++again) {
-    Json settings = withSeed(folder, stage, seed);
-    if (folder.isCurrent(stage, calibration::fingerprintAfter(inputs, description, settings)))
-      return settings;
-  }
+  for (int again = 0; again < mostAgain && seed-- > 0; ++again)
+    if (hasResultOf(folder, stage, seed)) return withSeed(folder, stage, seed);
   return std::nullopt;
 }
 
@@ -115,11 +116,18 @@ void setShotsAside(const CalibrationFolder& folder, Stage stage) {
 
 void measureAgain(CalibrationFolder& folder, Stage stage) {
   setShotsAside(folder, stage);
-  folder.setSettings(withSeed(folder, stage, seedOf(folder, stage) + 1));
+  // Not the seed of one that was gone back from.
+  std::uint64_t seed = seedOf(folder, stage) + 1;
+  while (hasResultOf(folder, stage, seed)) ++seed;
+  folder.setSettings(withSeed(folder, stage, seed));
+}
+
+bool hasEarlier(const CalibrationFolder& folder, Stage stage) {
+  return earlierSettings(folder, stage).has_value();
 }
 
 bool mayReturnToEarlier(const CalibrationFolder& folder, Stage stage) {
-  return earlierSettings(folder, stage).has_value();
+  return !folder.isCurrent(stage, calibration::fingerprintOf(folder, stage)) && hasEarlier(folder, stage);
 }
 
 void returnToEarlier(CalibrationFolder& folder, Stage stage) {

@@ -15,11 +15,15 @@ void setShotsAside(const calibration::CalibrationFolder& folder, calibration::St
 /// Throws: Error{disk}.
 void measureAgain(calibration::CalibrationFolder& folder, calibration::Stage stage);
 
-/// Whether measuring again was begun and has no result yet: there is an earlier one to go back to.
+/// Whether there is a result from before measureAgain() to go back to.
+bool hasEarlier(const calibration::CalibrationFolder& folder, calibration::Stage stage);
+
+/// Whether there is, and measuring again has no result yet.
 bool mayReturnToEarlier(const calibration::CalibrationFolder& folder, calibration::Stage stage);
 
 /// Takes measureAgain() back: the earlier result is current again, and what followed from it, and its
-/// photographs are in the journal. The new ones are set aside. Nothing where !mayReturnToEarlier().
+/// photographs, where they are kept, are in the journal. The new ones are set aside. Nothing where
+/// !hasEarlier().
 /// Throws: Error{disk}.
 void returnToEarlier(calibration::CalibrationFolder& folder, calibration::Stage stage);
 

@@ -14,6 +14,7 @@
 #include "relucent/calibration/shot_journal.h"
 #include "relucent/calibration/stage_fingerprint.h"
 #include "relucent/calibration/stage_progress.h"
+#include "relucent/linearization/test_light.h"
 #include "relucent/pipeline/acquisition_record.h"
 #include "relucent/pipeline/kept_photographs.h"
 #include "relucent/pipeline/kept_windows.h"
@@ -89,10 +90,13 @@ std::chrono::duration<double> pausesOf(const calibration::RoomWaiter* waiter) {
   return waiter != nullptr ? waiter->otherPauses() : std::chrono::steady_clock::duration{};
 }
 
-/// The same, with the time that an answer takes left out.
-sentinels::AlarmHandler patientHandler(const sentinels::AlarmHandler& handler, StageShots& stage) {
+/// The same, in the dark, and with the time that an answer takes left out. Every shot begins by showing its
+/// patterns: nothing has to be put back.
+sentinels::AlarmHandler patientHandler(const sentinels::AlarmHandler& handler, rig::Rig& rig,
+                                       StageShots& stage) {
   if (!handler) return {};
-  return [&handler, &stage](const sentinels::Alarm& alarm) {
+  return [&handler, &rig, &stage](const sentinels::Alarm& alarm) {
+    linearization::showEven(rig, {0, 0, 0});
     const Stopwatch waiting;
     const sentinels::Answer answer = handler(alarm);
     stage.leaveOut(std::chrono::duration<double>(waiting.seconds()));
@@ -139,7 +143,7 @@ transport::Acquisition acquired(calibration::CalibrationFolder& folder, rig::Rig
   OutlookObserver looking(recording, outlook);
   Progress photographing = progress.part(photographedShare, progress.stage());
   transport::Acquisition acquisition = acquisition::acquire(
-      {shots, linearization, settings, patientHandler(handler, stage), &looking}, photographing);
+      {shots, linearization, settings, patientHandler(handler, rig, stage), &looking}, photographing);
   Progress concluding = progress.part(
       1.0, RELUCENT_MESSAGE("stage.concluding-measurement", "what may be expected of the result"));
   if (std::optional<Outlook> last = lastOf(looking)) {

@@ -182,7 +182,10 @@ void AcquirePage::updateCommands() {
   const bool mayStart = session_.areDevicesFree() && session_.mayMeasure();
   const bool isNew = isStale() && again_ == 0;
   start_->setGlyph(isNew ? Icon::retry : Icon::play);
-  start_->show(isNew ? tr("Measure again") : kept_ > 0 ? tr("Resume") : tr("Start measuring"), mayStart);
+  start_->show(isNew       ? tr("Measure with these settings")
+               : kept_ > 0 ? tr("Resume")
+                           : tr("Start measuring"),
+               mayStart);
   // As the hint says it, so that it is said once.
   const QString inUse = tr("The devices are in use at %1.").arg(session_.devicesUserName());
   const auto why = [&](const QString& unclear) {
@@ -199,7 +202,8 @@ void AcquirePage::updateCommands() {
   resume_->show(tr("Resume"));
   // Beside the other that can be kept.
   keep_->show(isMeasuringAgain() ? tr("Stop and keep this one") : tr("Stop and keep"), !isStopping());
-  return_->show(tr("Keep the earlier one"), !isStopping() && (isMeasuring() || session_.areDevicesFree()));
+  return_->show(isDone() && !isMeasuring() ? tr("Use the earlier one") : tr("Keep the earlier one"),
+                !isStopping() && (isMeasuring() || session_.areDevicesFree()));
   return_->setToolTip(tr("The earlier measurement is used again, with all that followed from it."));
   goOnWithDisk_->show(tr("Go on now"));
   goOnMeasuring_->showUnless(why(tr("To go on measuring, confirm that the room is clear.")),
@@ -221,11 +225,13 @@ PageCommand* AcquirePage::primary() const {
 }
 
 std::vector<PageCommand*> AcquirePage::secondary() const {
+  using Commands = std::vector<PageCommand*>;
   if (isCountingDown()) return {stay_};
-  if (isDoubtful()) return {next_};
+  // What was measured again may have come to less than what was there before.
+  if (isDoubtful()) return hasBetterBefore() ? Commands{return_, next_} : Commands{next_};
   if (const PageCommand* leadsOn = afterChange())
     return {leadsOn == measureAnew_ ? goOnMeasuring_ : measureAnew_, next_};
-  if (isDone()) return {measureAnew_};
+  if (isDone()) return hasBetterBefore() ? Commands{return_, measureAnew_} : Commands{measureAnew_};
   PageCommand* const pause = isPaused() ? resume_ : pause_;
   if (isMeasuringAgain()) return {return_, pause, keep_};
   if (isMeasuring()) return {pause, keep_};
@@ -274,6 +280,10 @@ bool AcquirePage::isStale() const {
 
 bool AcquirePage::needsConsentNow() const {
   return !session_.mayMeasure() && (!isDone() || wasEndedEarly() || isDoubtful());
+}
+
+bool AcquirePage::hasBetterBefore() const {
+  return (wasEndedEarly() || isDoubtful()) && session_.hasEarlier(calibration::Stage::acquisition);
 }
 
 bool AcquirePage::isDoubtful() const {

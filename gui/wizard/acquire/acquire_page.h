@@ -188,6 +188,7 @@ class AcquirePage : public DevicePage {
   bool needsConsentNow() const;
   /// It is whole, and yet nothing would be corrected by it.
   bool isDoubtful() const;
+  bool hasBetterBefore() const;
   Banner staleBanner() const;
   Banner interruptedBanner() const;
   QString safeSince() const;

@@ -156,7 +156,7 @@ QString stageText(const AcquirePage& model) {
   const QString stage = model.stage();
   const std::optional<double> seconds = model.secondsLeft();
   // Of what ends within a minute, minutes would say nothing.
-  if (!seconds || model.isHeldUp() || isUnderAMinute(*seconds)) return stage;
+  if (!seconds || model.isHeldUp() || model.isStopping() || isUnderAMinute(*seconds)) return stage;
   const QTime end = QTime::currentTime().addSecs(static_cast<int>(*seconds));
   return AcquirePage::tr("Ends near %1. %2").arg(QLocale().toString(end, QLocale::ShortFormat), stage);
 }

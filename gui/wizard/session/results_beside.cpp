@@ -37,7 +37,7 @@ ResultsBeside::ResultsBeside(const std::filesystem::path& calibration) {
     // written.
     CalibrationFolder folder = CalibrationFolder::open(path(), CalibrationFolder::Access::write);
     for (Stage stage : measuredStages) {
-      pipeline::returnToEarlier(folder, stage);
+      if (pipeline::mayReturnToEarlier(folder, stage)) pipeline::returnToEarlier(folder, stage);
       // Of other settings than those of now: it is what there is until it is measured with these.
       if (const std::string inputs = calibration::fingerprintOf(folder, stage);
           !folder.isCurrent(stage, inputs))

@@ -245,8 +245,11 @@ void Session::look(const calibration::CalibrationFolder& folder) {
   for (calibration::Stage stage : allValues<calibration::Stage>())
     stages_[static_cast<std::size_t>(stage)] = {calibration::progressOf(folder, stage),
                                                 calibration::resultOf(folder, stage)};
-  for (calibration::Stage stage : {calibration::Stage::linearization, calibration::Stage::acquisition})
-    stages_[static_cast<std::size_t>(stage)].mayReturn = pipeline::mayReturnToEarlier(folder, stage);
+  for (calibration::Stage stage : {calibration::Stage::linearization, calibration::Stage::acquisition}) {
+    StageState& state = stages_[static_cast<std::size_t>(stage)];
+    state.mayReturn = pipeline::mayReturnToEarlier(folder, stage);
+    state.hasEarlier = pipeline::hasEarlier(folder, stage);
+  }
 }
 
 void Session::reload() {
@@ -471,6 +474,8 @@ QString Session::whyLocked(const StepName& step) const {
 }
 
 void Session::listenForCamera() {
+  // Until its light is back the photograph waits for the screen, whatever the camera does.
+  if (isScreenMissing()) live_->waitAnew();
   const std::optional<std::size_t> silent = live_->silentCamera();
   const std::optional<Failure> failure = silent ? devices_->patience().failure() : std::nullopt;
   const QString why = failure ? failure->what : QString();

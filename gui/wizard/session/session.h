@@ -114,8 +114,9 @@ struct RoomLight {
 
 /// What a step uses the devices for.
 enum class DeviceWork {
-  brief,       // begun again in no time
-  measurement  // minutes to hours
+  brief,       // begun again in no time, in the dark
+  light,       // the same with light on the projectors
+  measurement  // minutes to hours, with light
 };
 
 /// What is under way with a calibration and would end with it.
@@ -246,6 +247,10 @@ class Session : public QObject {
   bool isMeasured() const { return result(calibration::Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
   /// A stage is being measured again, and has an earlier result to go back to.
+  /// pipeline/measured_again.h
+  bool hasEarlier(calibration::Stage stage) const {
+    return stages_[static_cast<std::size_t>(stage)].hasEarlier;
+  }
   bool mayReturnToEarlier(calibration::Stage stage) const {
     return stages_[static_cast<std::size_t>(stage)].mayReturn;
   }
@@ -308,6 +313,8 @@ class Session : public QObject {
   QString devicesUserName() const { return devicesUser_ ? devicesUser_->text() : QString(); }
   /// For `step`, until the lease ends. Contract: areDevicesFree().
   DeviceLease leaseDevices(const StepName& step, DeviceWork work = DeviceWork::brief);
+  /// Light of a step stands on the projectors, before whatever else does.
+  bool isProjecting() const { return devicesUser_ && deviceWork_ != DeviceWork::brief; }
   /// Work under way that takes long and is not to be ended by the way.
   bool isMeasuring() const { return devicesUser_ && deviceWork_ == DeviceWork::measurement; }
   /// A show plays on the projectors' screens.
@@ -342,7 +349,7 @@ class Session : public QObject {
   struct StageState {
     calibration::StageProgress progress = calibration::StageProgress::open;
     std::optional<calibration::StageResult> result;
-    bool mayReturn = false;
+    bool mayReturn = false, hasEarlier = false;
   };
   void look(const calibration::CalibrationFolder& folder);
   void tellSteps();

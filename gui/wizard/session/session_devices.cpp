@@ -148,6 +148,8 @@ void SessionDevices::prove(Progress& progress) {
     return devices::testExposure(screen, camera, settling, devices::sleepFor, proving);
   };
   proof_ = devices::proveScreen(projector, others, camera, exposureOf, {}, proving);
+  // Photographs that are kept may be read for a while before anything else is shown.
+  linearization::showEven(opened_->rig, {0, 0, 0});
   devices::requireSeen(proof_, projector, camera);
   watching_ = {0};
 }

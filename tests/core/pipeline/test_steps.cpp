@@ -346,10 +346,19 @@ class TestSteps : public QObject {
       QCOMPARE(folder.settings().dump(), settings);
       QVERIFY(!mayReturnToEarlier(folder, Stage::linearization));
     }
-    // With its own result it is not to be taken back.
+    // With its own result it is no longer under way; but what it replaced can be gone back to.
+    const std::string result = currentResultOf(folder, Stage::linearization)->folder.string();
+    QVERIFY(!hasEarlier(folder, Stage::linearization));
     measureAgain(folder, Stage::linearization);
     measureLinearization(folder, devices.rig, quiet);
     QVERIFY(!mayReturnToEarlier(folder, Stage::linearization));
+    QVERIFY(hasEarlier(folder, Stage::linearization));
+    returnToEarlier(folder, Stage::linearization);
+    QVERIFY(shots() == first);
+    QCOMPARE(currentResultOf(folder, Stage::linearization)->folder.string(), result);
+    // And measured again that is not what was gone back from.
+    measureAgain(folder, Stage::linearization);
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::stale);
   }
 
   void wrongSettingsBeginNothing() {

@@ -282,9 +282,11 @@ class TestAcquirePage : public QObject {
     disconnect(stopping);
     QElapsedTimer since;
     since.start();
+    session_->live().setLeastInterval(50);  // not to be at its end before it is interrupted
     banner->command->trigger();
     QVERIFY(page.isMeasuring());
     QTRY_VERIFY_WITH_TIMEOUT(session_->photographsSince(Stage::acquisition) > 3, patience);
+    session_->live().setLeastInterval(0);
     page.finish();
     QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
     const std::optional<Banner> interrupted = page.banner();
@@ -333,8 +335,31 @@ class TestAcquirePage : public QObject {
     QVERIFY(page.isDone() && !page.banner() && page.photographsOfNew() == 0);
     // Other settings: nothing of theirs is there yet.
     page.setFineness(Fineness::fast);
-    QCOMPARE(page.primary()->text(), AcquirePage::tr("Measure again"));
+    QCOMPARE(page.primary()->text(), AcquirePage::tr("Measure with these settings"));
     QVERIFY(page.banner() && page.banner()->command == nullptr);
+  }
+
+  /// Law: from a measurement that was stopped and kept in place of a whole one, that is gone back to.
+  void whatReplacedMoreIsGoneBackFrom() {
+    CalibrateSettings settings = smallVenue();
+    std::get<VenueSettings>(settings.rig).projector = {96, 72};
+    own_->begin(settings);
+    AcquirePage page(*session_);
+    page.primary()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring() && page.isDone(), patience);
+    const std::filesystem::path whole = session_->result(Stage::acquisition)->folder;
+    connect(&page.trace(), &AcquisitionTrace::changed, &page, [&page] {
+      if (page.isMeasuring() && !page.isStopping() && !page.trace().growth().levels.empty())
+        page.stopAndKeep();
+    });
+    page.secondary().front()->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!page.isMeasuring(), patience);
+    QVERIFY(page.stoppedAt() > 1 && session_->result(Stage::acquisition)->folder != whole);
+    QCOMPARE(page.secondary().front()->text(), AcquirePage::tr("Use the earlier one"));
+    page.secondary().front()->trigger();
+    QVERIFY(session_->result(Stage::acquisition)->folder == whole);
+    QVERIFY(page.stoppedAt() == 0 && page.isDone() && !page.banner());
+    QCOMPARE(page.secondary().size(), std::size_t{1});
   }
 
   /// Law: how many patterns are expected is one number, wherever it is said; done, it is how many there were.

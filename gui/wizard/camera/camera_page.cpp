@@ -92,12 +92,18 @@ CameraPage::CameraPage(Session& session, QObject* parent)
 void CameraPage::forget() {
   goOn_ = startsAgain_ = false;
   shared_ = nullptr;
+  forgetChecks();
+  for (Watched& camera : cameras_) camera = {.area = camera.area};
+}
+
+/// They are made anew: what they came to before is no answer to what is asked now.
+void CameraPage::forgetChecks() {
   check_.reset();
   exposures_ = {};
   pixels_.clear();
   coverage_.clear();
   rigCoverage_ = {};
-  for (Watched& camera : cameras_) camera = {.area = camera.area};
+  for (Watched& camera : cameras_) camera.tooBright = camera.tooDark = std::nullopt;
 }
 
 const CameraPage::Watched& CameraPage::watched(std::size_t camera) const {
@@ -390,10 +396,11 @@ void CameraPage::start() {
   if (needsCamera() || !session_.areDevicesFree()) return;
   goOn_ = false;
   isChecking_ = true;
+  forgetChecks();
   shared_ = std::make_shared<Shared>();
   cameras_.resize(std::max(cameras_.size(), cameras()));
   for (const Watched& camera : cameras_) shared_->cameras.push_back({.area = camera.area});
-  lease_ = session_.leaseDevices(stepName);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::light);
   job_.start([this, shared = shared_, work = workOf(session_), settings = session_.settings().acquisition,
               unit = exposureUnit()](Progress& progress) {
     Progress opening = progress.part(0.1, RELUCENT_MESSAGE("stage.opening-devices", "Opening the devices"));

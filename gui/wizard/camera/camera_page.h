@@ -134,6 +134,7 @@ class CameraPage : public DevicePage {
   void keepLook();
   void keepExposureUnit(double seconds);
   void forget();
+  void forgetChecks();
   void learnBest();
   void keepPixels(const reduction::PixelUse& use);
   void start();

@@ -299,9 +299,10 @@ class CameraStage : public Card {
     bright_->setVisible(isAlone && look && look->check.tooBright > 0.0);
     dark_->setVisible(isAlone && look && look->check.tooDark > 0.0);
     if (!look) return setSubtitle({});
-    setSubtitle(isOverlap() ? CameraPage::tr("how many projectors light each place")
-                            : CameraPage::tr("exposure %1. Click where the focus is to be judged.")
-                                  .arg(exposureText(look->frame.seconds)));
+    setSubtitle(
+        isOverlap()
+            ? CameraPage::tr("how many projectors light each place")
+            : CameraPage::tr("exposure %1, click to judge focus").arg(exposureText(look->frame.seconds)));
     bright_->setText(CameraPage::tr("Too bright %1").arg(percentText(look->check.tooBright)));
     dark_->setText(CameraPage::tr("Too dark %1").arg(percentText(look->check.tooDark)));
   }

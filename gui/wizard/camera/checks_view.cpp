@@ -178,8 +178,7 @@ void showWhetherSeen(CameraPage& model, Remark* sees) {
   if (!model.exposures().empty())
     return sees->show(Kind::good, CameraPage::tr("The camera sees the projector"),
                       CameraPage::tr("White and black differ as they should."));
-  if (model.isLooking())
-    return sees->show(Kind::watch, CameraPage::tr("Looking for the projector's light"), {});
+  if (model.isLooking()) return sees->show(Kind::watch, CameraPage::tr("Checks under way"), {});
   sees->show(Kind::watch, CameraPage::tr("Not checked yet"), {});
 }
 

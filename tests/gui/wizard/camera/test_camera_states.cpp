@@ -78,7 +78,7 @@ class TestCameraStates : public QObject {
     QVERIFY(page_->exposures() == found);
     const QString said = textsOf(*checks_);
     QVERIFY2(said.contains(CameraPage::tr("Checked before")), qPrintable(said));
-    QVERIFY(!said.contains(CameraPage::tr("Looking for the projector's light")));
+    QVERIFY(!said.contains(CameraPage::tr("Checks under way")));
     QCOMPARE(page_->primary()->text(), CameraPage::tr("Continue"));
     QVERIFY(page_->primary()->isEnabled());
   }
@@ -96,6 +96,20 @@ class TestCameraStates : public QObject {
     QCOMPARE(said, QStringList({CameraPage::tr("Checking"), CameraPage::tr("Checks done")}));
     keep();
     QVERIFY2(page_->status().result != CameraPage::tr("Checks done"), qPrintable(page_->status().result));
+  }
+
+  /// Law: while checks are made anew, what they came to before is neither ticked nor chosen from.
+  void checksMadeAnewHaveNoVerdictYet() {
+    look();
+    page_->finish();
+    QTRY_VERIFY_WITH_TIMEOUT(!page_->isLooking(), patience);
+    QVERIFY(textsOf(*checks_).contains(CameraPage::tr("Bright parts are covered")));
+    page_->secondary().front()->trigger();
+    QVERIFY(page_->isLooking() && page_->exposures().empty() && page_->coverage().empty());
+    const QString said = textsOf(*checks_);
+    QVERIFY2(said.contains(CameraPage::tr("Checks under way")), qPrintable(said));
+    QVERIFY2(!said.contains(CameraPage::tr("Bright parts are covered")), qPrintable(said));
+    QTRY_VERIFY_WITH_TIMEOUT(page_->tooDarkEverywhere() && !page_->exposures().empty(), patience);
   }
 
   /// Law: the best focus is that of this venue and this exposure; what arrives of another venue counts not.

@@ -29,7 +29,8 @@ bool QuietWheel::eventFilter(QObject* watched, QEvent* event) {
     if (control->focusPolicy() == Qt::WheelFocus) control->setFocusPolicy(Qt::StrongFocus);
     return false;
   }
-  if (control->hasFocus()) return false;
+  const bool isList = qobject_cast<QComboBox*>(control) != nullptr;
+  if (control->hasFocus() && !isList) return false;
   event->ignore();  // it goes on to what is behind
   return true;
 }

@@ -5,8 +5,9 @@
 
 namespace relucent::gui {
 
-/// Keeps the wheel from changing sliders, lists and numbers while a page is scrolled: they react to it only
-/// while they have the focus, and it does not give it to them. Installed for all widgets of the program.
+/// Keeps the wheel from changing sliders, lists and numbers while a page is scrolled: lists that are closed
+/// do not react to it, the others only while they have the focus, and it does not give it to them. Installed
+/// for all widgets of the program.
 class QuietWheel : public QObject {
  public:
   explicit QuietWheel(QObject* parent);

@@ -64,13 +64,13 @@ class TestQuietWheel : public QObject {
     QCOMPARE(list->currentIndex(), 1);
     QCOMPARE(number->value(), 50);
 
-    // Whoever has the focus was meant.
+    // Whoever has the focus was meant; but a list has it long after something was chosen there.
     slider->setFocus();
     turnWheel(slider);
     QVERIFY(slider->value() != 50);
     list->setFocus();
     turnWheel(list);
-    QVERIFY(list->currentIndex() != 1);
+    QCOMPARE(list->currentIndex(), 1);
   }
 };
 

@@ -235,6 +235,8 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
     data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());
     data.drift = driftIn(folder.path(), *acquired);
+    // What was found before the last photograph is answered by it.
+    if (data.drift && data.verification && data.drift->checked < data.verification->taken) data.drift.reset();
   }
 
   data.perfected = perfectedIn(folder);

@@ -11,7 +11,11 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/calibration_folder.h"
 #include "relucent/calibration/json.h"
+#include "relucent/image/exr.h"
 #include "relucent/pipeline/calibrate.h"
+#include "relucent/pipeline/drift_record.h"
+#include "relucent/pipeline/proof_record.h"
+#include "relucent/pipeline/prove.h"
 #include "relucent/pipeline/stopped_early.h"
 #include "relucent/pipeline/stored_settings.h"
 #include "relucent/report/number_text.h"
@@ -41,6 +45,18 @@ Image waves(double seed, double level) {
       for (int c = 0; c < 3; ++c)
         image.at(x, y, c) = static_cast<float>(level * (0.5 + 0.5 * std::sin(0.1 * x + 0.13 * y + c + seed)));
   return image;
+}
+
+CalibrateSettings plainVenue() {
+  venue::VenueSettings venue;
+  venue.name = "plain";
+  venue.projector = {32, 24};
+  venue.camera = {24, 18};
+  venue.pathsPerPixel = 16;
+  CalibrateSettings settings;
+  settings.rig = venue;
+  settings.linearization.levels = 9;
+  return settings;
 }
 
 ReportData fullData() {
@@ -408,14 +424,7 @@ class TestReport : public QObject {
   void picturesAreJudgedAsContentIsShown() {
     QTemporaryDir folder;
     const std::filesystem::path path = folder.path().toStdString();
-    CalibrateSettings settings;
-    venue::VenueSettings venue;
-    venue.name = "plain";
-    venue.projector = {32, 24};
-    venue.camera = {24, 18};
-    venue.pathsPerPixel = 16;
-    settings.rig = venue;
-    settings.linearization.levels = 9;
+    CalibrateSettings settings = plainVenue();
     Progress silent;
     calibrate(path / "venue", settings, path / "cache", silent);
     const auto reported = [&] {
@@ -436,6 +445,38 @@ class TestReport : public QObject {
       changeSettings(calibration, settings);
     }
     QVERIFY(reported() != before);
+  }
+
+  /// Law: what a check for drift found is said until a later photograph has answered it.
+  void aLaterPhotographAnswersWhatWasFoundBefore() {
+    QTemporaryDir folder;
+    const std::filesystem::path path = folder.path().toStdString();
+    Progress silent;
+    calibrate(path / "venue", plainVenue(), path / "cache", silent);
+    const std::string measured = CalibrationFolder::open(path / "venue", CalibrationFolder::Access::read)
+                                     .latest(Stage::acquisition)
+                                     ->stored;
+    ProveSettings proof;
+    proof.out = path / "venue" / "verification";
+    proof.image = path / "picture.exr";
+    writeExr(proof.image, waves(1.0, 0.5), ExrType::half);
+    saveDriftRecord(
+        {.checked = "2026-01-03T04:05:06Z", .measurement = measured, .verdict = Verdict::remeasure},
+        proof.out);
+    const auto isDoubted = [&] {
+      return QString::fromStdString(
+                 readFile(makeReport(path / "venue", {}, path / "cache", silent).files.front()))
+          .contains("should be repaired");
+    };
+    QVERIFY(isDoubted());
+    const ProveResult figures = proveCalibration(path / "venue", proof, path / "cache", silent);
+    // Of the moment before, and of the one after.
+    for (const auto& [taken, doubted] :
+         {std::pair("2026-01-03T04:05:05Z", true), {"2026-01-03T04:05:07Z", false}}) {
+      saveProofRecord({.taken = taken, .measurement = measured, .content = {}, .figures = figures},
+                      proof.out);
+      QCOMPARE(isDoubted(), doubted);
+    }
   }
 
   void aBundleShowsNothingOfTheVenueUnlessAsked() {

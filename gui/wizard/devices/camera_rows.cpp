@@ -2,6 +2,7 @@
 #include "wizard/devices/camera_rows.h"
 
 #include <QScrollArea>
+#include <utility>
 
 #include "text/message_text.h"
 #include "theme/action_button.h"
@@ -26,6 +27,7 @@ CameraRows::CameraRows(CameraFinder& finder, const QString& subtitle, Offering o
   rows_->setContentsMargins(0, 0, 0, 0);
   auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
+  scroll->setFocusPolicy(Qt::NoFocus);  // its buttons are gone to one by one
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(list);
@@ -46,7 +48,11 @@ void CameraRows::refresh() {
     delete item;
   }
   const devices::CameraList& devices = finder_.cameras();
+  chooses_.clear();
   for (std::size_t i = 0; i < devices.cameras.size(); ++i) rows_->addWidget(rowOf(i));
+  // Made later than what stands behind the list: Tab comes to them in the order that is seen.
+  QWidget* before = again_;
+  for (QPushButton* choose : chooses_) setTabOrder(std::exchange(before, choose), choose);
   if (devices.cameras.empty() && finder_.isLooking())
     rows_->addWidget(labelOf(tr("Looking for cameras"), "secondary"));
   else if (devices.cameras.empty())
@@ -115,6 +121,7 @@ QWidget* CameraRows::rowOf(std::size_t index) {
               camera.usable ? QString() : tr("Cannot be used: %1").arg(fullSentence(camera.problem)));
   connect(choose, &QPushButton::clicked, this, [this, camera] { chosen_(camera); });
   row->addWidget(choose);
+  chooses_.push_back(choose);
   return card;
 }
 

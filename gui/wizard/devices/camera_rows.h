@@ -43,6 +43,7 @@ class CameraRows : public Card {
   std::function<void()> another_;
   QVBoxLayout* rows_;
   QPushButton* again_;
+  std::vector<QPushButton*> chooses_;  // of the cameras, in their order
 };
 
 }  // namespace relucent::gui

@@ -114,12 +114,14 @@ QWidget* projectorList(VenuePage& model) {
       DeviceRow& row = rows->row(i);
       const QString usual = VenuePage::tr("Projector %1").arg(i + 1);
       showName(row, screens[i].name, usual, VenuePage::tr("Remove projector %1").arg(i + 1));
-      const QString screen =
-          QString("%1, %2").arg(QString::fromStdString(screens[i].display.connector),
-                                sizeText(screens[i].projector.width, screens[i].projector.height));
+      const QString connector = QString::fromStdString(screens[i].display.connector);
+      const QString size = sizeText(screens[i].projector.width, screens[i].projector.height);
+      const bool isThere = model.isPluggedIn(screens[i]);
+      const QString screen = isThere ? QString("%1, %2").arg(connector, size)
+                                     : VenuePage::tr("%1, %2, unplugged").arg(connector, size);
       const bool isSelected = screens.size() > 1 && i == model.projector();
       row.facts->setWhole(isSelected ? VenuePage::tr("%1: choose its screen").arg(screen) : screen);
-      setRole(row.facts, isSelected ? "strong" : "note");
+      setRole(row.facts, !isThere ? "amber" : isSelected ? "strong" : "note");
       row.remove->setVisible(screens.size() > 1);
     }
   };

@@ -124,6 +124,7 @@ class VenuePage : public PageModel {
   bool mayAddProjector() const;
   /// On the first screen that is left, and selected.
   void addProjector();
+  bool isPluggedIn(const pipeline::ScreenRigSettings::Screen& screen) const;
   void removeProjector(std::size_t projector);
   void nameProjector(std::size_t projector, const QString& name);
 

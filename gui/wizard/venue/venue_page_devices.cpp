@@ -18,6 +18,12 @@ std::optional<std::size_t> projectorAt(const std::vector<Screen>& screens,
   return static_cast<std::size_t>(found - screens.begin());
 }
 
+/// For another projector. One that is chosen with a warning only, as the one that is worked on, is chosen by
+/// hand.
+bool isFree(const ScreenChoice& choice, const std::vector<Screen>& screens) {
+  return choice.refusal.isEmpty() && choice.warning.isEmpty() && !projectorAt(screens, choice.display);
+}
+
 }  // namespace
 
 void VenuePage::selectProjector(std::size_t projector) {
@@ -50,14 +56,19 @@ bool VenuePage::mayAddProjector() const {
   const std::vector<Screen> screens = projectors();
   const std::vector<ScreenChoice> choices = screenChoices();
   return !screens.empty() && std::ranges::any_of(choices, [&screens](const ScreenChoice& choice) {
-    return choice.refusal.isEmpty() && !projectorAt(screens, choice.display);
+    return isFree(choice, screens);
   });
+}
+
+bool VenuePage::isPluggedIn(const Screen& screen) const {
+  const std::vector<ScreenChoice> choices = screenChoices();
+  return std::ranges::find(choices, screen.display, &ScreenChoice::display) != choices.end();
 }
 
 void VenuePage::addProjector() {
   std::vector<Screen> screens = projectors();
   for (const ScreenChoice& choice : screenChoices()) {
-    if (!choice.refusal.isEmpty() || projectorAt(screens, choice.display)) continue;
+    if (!isFree(choice, screens)) continue;
     screens.push_back({choice.display, choice.size, choice.frameRate, {}});
     screen_ = pipeline::withScreens(std::move(screen_), screens);
     projector_ = screens.size() - 1;

@@ -135,6 +135,22 @@ class TestVenueScreen : public QObject {
     QCOMPARE(again.screenRig()->display.connector, std::string("DUMMY2"));
   }
 
+  /// Law: of a new venue, too, a chosen screen that is gone is said to be; the operator's own does not become
+  /// a projector by itself.
+  void theOperatorsOwnIsChosenByHandOnly() {
+    plugThird(false);
+    VenuePage page(*session_, RecentVenues(*settings_));
+    page.setMode(VenuePage::Mode::devices);
+    page.chooseScreen(choiceOf(page.screensToChoose(), "DUMMY1"));
+    QCOMPARE(page.projectors().size(), std::size_t{1});
+    QVERIFY(page.isPluggedIn(page.projectors().front()));
+    unplug();
+    QTRY_VERIFY(!page.isPluggedIn(page.projectors().front()));
+    QVERIFY(!page.mayAddProjector());
+    page.addProjector();
+    QCOMPARE(page.projectors().size(), std::size_t{1});
+  }
+
   void nothingIsChangedWhileSomethingUsesIt() {
     begin(true);
     VenuePage page(*session_, RecentVenues(*settings_));

@@ -96,6 +96,22 @@ class TestDeviceLists : public QObject {
     QCOMPARE(page_->mode(), VenuePage::Mode::script);
   }
 
+  /// Law: Tab comes to every camera, right after what looks for them.
+  void camerasAreReachedByTab() {
+    const std::unique_ptr<QWidget> stage(devicesStage(*page_));
+    QWidget* next = stage->findChild<QPushButton*>("look-for-cameras");
+    const auto reached = [&next] {
+      do next = next->nextInFocusChain();
+      while ((next->focusPolicy() & Qt::TabFocus) == 0 || next->isHidden() || !next->isEnabled());
+      return qobject_cast<QPushButton*>(next);
+    };
+    for (int camera = 0; camera < 2; ++camera) {
+      const QPushButton* button = reached();
+      QVERIFY(button != nullptr);
+      QCOMPARE(button->text(), VenuePage::tr("Add"));
+    }
+  }
+
   /// Law: a screen needs no program to show on it, and then no more is asked of the projector.
   void aScreenGoesWithACameraByCommand() {
     page_->setMode(VenuePage::Mode::script);

@@ -109,12 +109,10 @@ QImage readContent(const QString& file) {
   reader.setDecideFormatFromContent(true);
   QImage image = reader.read();
   if (image.isNull())
-    throw Error(ErrorKind::format,
-                RELUCENT_ENGLISH_MESSAGE("content.picture-unreadable", "not a picture that can be read ({})")
-                    .with(reader.errorString().toStdString()),
-                RELUCENT_ENGLISH_MESSAGE("content.choose-supported-picture",
-                                         "choose a PNG, JPEG, TIFF or EXR picture"),
-                file.toStdString());
+    throw Error(
+        ErrorKind::format, RELUCENT_MESSAGE("content.picture-unreadable", "not a picture that can be read"),
+        RELUCENT_MESSAGE("content.choose-supported-picture", "choose a PNG, JPEG, TIFF or EXR picture"),
+        file.toStdString());
   return encodedFrom(image);
 }
 

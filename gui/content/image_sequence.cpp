@@ -26,10 +26,9 @@ double checkedRate(double rate) {
 
 const QStringList& checkedFiles(const QStringList& files) {
   if (!files.isEmpty()) return files;
-  throw Error(ErrorKind::input,
-              RELUCENT_ENGLISH_MESSAGE("content.sequence-empty", "the sequence has no pictures"),
-              RELUCENT_ENGLISH_MESSAGE("content.choose-picture-folder",
-                                       "choose a folder with PNG, JPEG, TIFF or EXR files"));
+  throw Error(
+      ErrorKind::input, RELUCENT_MESSAGE("content.sequence-empty", "the sequence has no pictures"),
+      RELUCENT_MESSAGE("content.choose-picture-folder", "choose a folder with PNG, JPEG, TIFF or EXR files"));
 }
 
 }  // namespace
@@ -63,10 +62,9 @@ QStringList picturesIn(const QString& folder) {
   QStringList names = directory.entryList(
       {"*.png", "*.jpg", "*.jpeg", "*.tif", "*.tiff", "*.exr", "*.bmp", "*.webp"}, QDir::Files);
   if (names.isEmpty())
-    throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("content.no-pictures", "no pictures in this folder"),
-                RELUCENT_ENGLISH_MESSAGE("content.choose-picture-folder",
-                                         "choose a folder with PNG, JPEG, TIFF or EXR files"),
+    throw Error(ErrorKind::input, RELUCENT_MESSAGE("content.no-pictures", "no pictures in this folder"),
+                RELUCENT_MESSAGE("content.choose-picture-folder",
+                                 "choose a folder with PNG, JPEG, TIFF or EXR files"),
                 folder.toStdString());
   QCollator byNumber(QLocale(QLocale::English));
   byNumber.setNumericMode(true);

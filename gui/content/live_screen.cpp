@@ -50,13 +50,12 @@ class LiveScreen::Grabber {
       }
       titles.append(title);
     }
-    throw Error(ErrorKind::input,
-                RELUCENT_ENGLISH_MESSAGE("content.unknown-window", "there is no window '{}'")
-                    .with(which_.toStdString()),
-                titles.isEmpty()
-                    ? RELUCENT_ENGLISH_MESSAGE("content.open-first", "open it first")
-                    : RELUCENT_ENGLISH_MESSAGE("content.open-first-or-choose", "open it first; there are: {}")
-                          .with(titles.join(", ").toStdString()));
+    throw Error(
+        ErrorKind::input,
+        RELUCENT_MESSAGE("content.unknown-window", "there is no window '{}'").with(which_.toStdString()),
+        titles.isEmpty() ? RELUCENT_MESSAGE("content.open-first", "open it first")
+                         : RELUCENT_MESSAGE("content.open-first-or-choose", "open it first; there are: {}")
+                               .with(titles.join(", ").toStdString()));
   }
 
   ScreenCapture desktop_;

@@ -1167,6 +1167,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>اختر مجلدًا فيه ملفات PNG أو JPEG أو TIFF أو EXR</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>اختر صورة PNG أو JPEG أو TIFF أو EXR</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1181,6 +1195,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>لا صور في هذا المجلد</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1192,6 +1213,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>لا يعطي جهاز الالتقاط أي صورة</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>افتحها أولًا</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>افتحها أولًا؛ الموجود: {}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>ليست صورة تُقرأ</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>لا صور في التسلسل</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>لا نافذة «{}»</translation>
     </message>
 </context>
 <context>
@@ -3891,6 +3947,14 @@
         <source>Exposures</source>
         <translation>التعريضات</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>القياس بهذه الإعدادات</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>استخدام السابق</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4161,10 +4225,6 @@
         <translation>لا تُشاهَد صورة الكاميرا الآن.</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>التعريض ⁨%1⁩. انقر حيث يُقيَّم التركيز.</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>الضوء في هذا التعريض: أحمر، أخضر، أزرق</translation>
     </message>
@@ -4195,10 +4255,6 @@
     <message>
         <source>Pixels</source>
         <translation>البكسلات</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>البحث عن ضوء جهاز العرض</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4458,6 +4514,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>الإبقاء على الكاميرا السابقة</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>التعريض %1، انقر لتقييم التركيز</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>الفحوص جارية</translation>
     </message>
 </context>
 <context>
@@ -6199,10 +6263,6 @@ projector %2</source>
         <translation>أعد الكاميرا إلى مكانها</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>تحرك منظر الكاميرا ⁨%1 px⁩. أعدها إلى مكانها ثم صوّر مرة أخرى.</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>الكاميرا أو جهاز العرض في موضع آخر. أعد الكاميرا إلى مكانها، أو وجّهها وقِس من جديد.</translation>
     </message>
@@ -6295,10 +6355,6 @@ projector %2</source>
         <translation>لم يتحرّك شيء: التوقّع نفسه تقريبي. يفيد قياس أدق أو محتوى أعتم.</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>التصحيح السابق</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>في انتظار عودة شاشة جهاز العرض.</translation>
     </message>
@@ -6309,10 +6365,6 @@ projector %2</source>
     <message>
         <source>Look at it first</source>
         <translation>ألقِ نظرة أولًا</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>العرض ما زال يستخدم التصحيح السابق</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6499,10 +6551,6 @@ projector %2</source>
         <translation>شاشة جهاز العرض مفصولة.</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>ما زال يُعرض التصحيح السابق.</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>لا شيء آخر في القائمة.</translation>
     </message>
@@ -6603,10 +6651,6 @@ projector %2</source>
         <translation>ليس كما هو متوقع</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>ما زال جهاز العرض يعرض التصحيح السابق. أظهر الحالي ثم التقط اللقطة.</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>الخرج مغلق. الأجهزة مستخدمة في خطوة «%1».</translation>
     </message>
@@ -6615,8 +6659,44 @@ projector %2</source>
         <translation>إظهار التصحيح الحالي</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>يُعرض التصحيح السابق. أظهر الحالي أولًا.</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>ما زال جهاز العرض يعرض تصحيحًا آخر. أظهر الحالي ثم التقط اللقطة.</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>تصحيح آخر</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>تحرك منظر الكاميرا. أعدها إلى مكانها ثم صوّر مرة أخرى.</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>العرض ما زال يستخدم تصحيحًا آخر</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>يُعرض تصحيح آخر. أظهر الحالي أولًا.</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>ما زال تصحيح آخر معروضًا.</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>خلف ضوء آخر</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>يعرض جهاز العرض ضوء خطوة أخرى: %1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>يستمر العرض خلفه ويظهر من جديد عند انتهائه.</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>ضوء خطوة أخرى أمام العرض.</translation>
     </message>
 </context>
 <context>
@@ -9293,6 +9373,10 @@ projector %2</source>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>اختر شاشة جهاز العرض، أو اكتب الأمر الذي يعرض.</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1، %2، مفصول</translation>
     </message>
 </context>
 <context>

@@ -1143,6 +1143,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>wählen Sie einen Ordner mit PNG-, JPEG-, TIFF- oder EXR-Dateien</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>wählen Sie ein Bild in PNG, JPEG, TIFF oder EXR</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1157,6 +1171,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>in diesem Ordner sind keine Bilder</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1168,6 +1189,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>das Aufnahmegerät liefert kein Bild</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>öffnen Sie es zuerst</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>öffnen Sie es zuerst; es gibt: {}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>kein Bild, das gelesen werden kann</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>die Bildfolge hat keine Bilder</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>es gibt kein Fenster „{}“</translation>
     </message>
 </context>
 <context>
@@ -3803,6 +3859,14 @@
         <source>Exposures</source>
         <translation>Belichtungen</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>Mit diesen Einstellungen messen</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>Frühere verwenden</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4073,10 +4137,6 @@
         <translation>Es wird nicht durch die Kamera gesehen.</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>Belichtung %1. Klicken Sie, wo der Fokus beurteilt werden soll.</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>Licht in dieser Belichtung: Rot, Grün, Blau</translation>
     </message>
@@ -4107,10 +4167,6 @@
     <message>
         <source>Pixels</source>
         <translation>Pixel</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>Suche nach dem Licht des Projektors</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4366,6 +4422,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>Bisherige Kamera behalten</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>Belichtung %1, Klick prüft den Fokus dort</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>Prüfungen laufen</translation>
     </message>
 </context>
 <context>
@@ -6055,10 +6119,6 @@ Projektor %2</translation>
         <translation>Kamera zurückstellen</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>Der Blick der Kamera hat sich um %1 px verschoben. Stellen Sie sie zurück und fotografieren Sie erneut.</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>Kamera oder Projektor stehen anders. Stellen Sie die Kamera zurück, oder richten Sie neu aus und messen Sie erneut.</translation>
     </message>
@@ -6151,10 +6211,6 @@ Projektor %2</translation>
         <translation>Nichts hat sich bewegt: Die Vorhersage selbst ist grob. Feiner messen oder dunklere Inhalte helfen.</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>Frühere Korrektur</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>Wartet, bis der Bildschirm des Projektors zurückkommt.</translation>
     </message>
@@ -6165,10 +6221,6 @@ Projektor %2</translation>
     <message>
         <source>Look at it first</source>
         <translation>Erst ansehen</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>Die Show spielt noch die frühere Korrektur</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6355,10 +6407,6 @@ Projektor %2</translation>
         <translation>Projektorbildschirm abgesteckt.</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>Es läuft noch die frühere Korrektur.</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>Sonst ist nichts in der Liste.</translation>
     </message>
@@ -6459,10 +6507,6 @@ Projektor %2</translation>
         <translation>Nicht wie vorhergesagt</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>Der Projektor zeigt noch die frühere Korrektur. Zeigen Sie die aktuelle, dann nehmen Sie das Foto auf.</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>Die Ausgabe ist geschlossen. Die Seite „%1“ nutzt die Geräte.</translation>
     </message>
@@ -6471,8 +6515,44 @@ Projektor %2</translation>
         <translation>Aktuelle Korrektur zeigen</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>Es läuft noch die frühere Korrektur. Zeigen Sie erst die aktuelle.</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>Der Projektor zeigt noch eine andere Korrektur. Zeigen Sie die aktuelle, dann nehmen Sie das Foto auf.</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>Andere Korrektur</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>Der Blick der Kamera hat sich verschoben. Stellen Sie sie zurück und fotografieren Sie erneut.</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>Die Show spielt noch eine andere Korrektur</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>Es läuft noch eine andere Korrektur. Zeigen Sie erst die aktuelle.</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>Es läuft noch eine andere Korrektur.</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>Hinter anderem Licht</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>Der Projektor zeigt das Licht eines anderen Schritts: %1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>Die Show läuft dahinter weiter und ist wieder zu sehen, wenn das beendet ist.</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>Vor der Show steht das Licht eines anderen Schritts.</translation>
     </message>
 </context>
 <context>
@@ -9093,6 +9173,10 @@ Projektor %2</translation>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>Wählen Sie den Bildschirm des Projektors, oder geben Sie den Befehl ein, der zeigt.</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1, %2, ausgesteckt</translation>
     </message>
 </context>
 <context>

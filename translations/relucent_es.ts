@@ -1143,6 +1143,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>elija una carpeta con archivos PNG, JPEG, TIFF o EXR</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>elija una imagen PNG, JPEG, TIFF o EXR</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1157,6 +1171,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>no hay imágenes en esta carpeta</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1168,6 +1189,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>el dispositivo de captura no da ninguna imagen</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>ábrala primero</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>ábrala primero; hay: {}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>no es una imagen que se pueda leer</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>la secuencia no tiene imágenes</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>no hay ninguna ventana «{}»</translation>
     </message>
 </context>
 <context>
@@ -3803,6 +3859,14 @@
         <source>Exposures</source>
         <translation>Exposiciones</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>Medir con estos ajustes</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>Usar la anterior</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4073,10 +4137,6 @@
         <translation>No se está mirando por la cámara.</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>exposición %1. Haga clic donde deba evaluarse el enfoque.</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>Luz en esta exposición: rojo, verde, azul</translation>
     </message>
@@ -4107,10 +4167,6 @@
     <message>
         <source>Pixels</source>
         <translation>Píxeles</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>Buscando la luz del proyector</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4366,6 +4422,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>Conservar la cámara anterior</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>exposición %1, clic para evaluar el enfoque</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>Comprobaciones en curso</translation>
     </message>
 </context>
 <context>
@@ -6055,10 +6119,6 @@ proyector %2</translation>
         <translation>Recolocar la cámara</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>La vista de la cámara se ha movido %1 px. Recolóquela y fotografíe otra vez.</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>La cámara o el proyector están en otro sitio. Recoloque la cámara, o apunte y mida de nuevo.</translation>
     </message>
@@ -6151,10 +6211,6 @@ proyector %2</translation>
         <translation>Nada se ha movido: la propia previsión es tosca. Ayuda medir con más detalle o un contenido más oscuro.</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>Corrección anterior</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>Esperando a que vuelva la pantalla del proyector.</translation>
     </message>
@@ -6165,10 +6221,6 @@ proyector %2</translation>
     <message>
         <source>Look at it first</source>
         <translation>Verla antes</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>El show aún usa la corrección anterior</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6355,10 +6407,6 @@ proyector %2</translation>
         <translation>Pantalla del proyector desconectada.</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>Aún se muestra la corrección anterior.</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>No hay nada más en la lista.</translation>
     </message>
@@ -6459,10 +6507,6 @@ proyector %2</translation>
         <translation>No como se predijo</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>El proyector muestra aún la corrección anterior. Muestre la actual y luego tome la fotografía.</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>La salida está cerrada. Los dispositivos están en uso en %1.</translation>
     </message>
@@ -6471,8 +6515,44 @@ proyector %2</translation>
         <translation>Mostrar la corrección actual</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>Se muestra la corrección anterior. Muestre primero la actual.</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>El proyector muestra aún otra corrección. Muestre la actual y luego tome la fotografía.</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>Otra corrección</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>La vista de la cámara se ha movido. Recolóquela y fotografíe otra vez.</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>El show aún usa otra corrección</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>Se muestra otra corrección. Muestre primero la actual.</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>Aún se muestra otra corrección.</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>Detrás de otra luz</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>El proyector muestra la luz de otro paso: %1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>El show continúa detrás y se verá de nuevo cuando eso termine.</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>La luz de otro paso está delante del show.</translation>
     </message>
 </context>
 <context>
@@ -9093,6 +9173,10 @@ proyector %2</translation>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>Elija la pantalla del proyector o escriba la orden que muestra.</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1, %2, desconectada</translation>
     </message>
 </context>
 <context>

@@ -1143,6 +1143,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>choisissez un dossier contenant des fichiers PNG, JPEG, TIFF ou EXR</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>choisissez une image PNG, JPEG, TIFF ou EXR</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1157,6 +1171,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>aucune image dans ce dossier</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1168,6 +1189,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>le périphérique de capture ne fournit aucune image</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>ouvrez-la d’abord</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>ouvrez-la d’abord ; il y a : {}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>ce n’est pas une image lisible</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>la séquence ne contient aucune image</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>il n’y a pas de fenêtre « {} »</translation>
     </message>
 </context>
 <context>
@@ -3803,6 +3859,14 @@
         <source>Exposures</source>
         <translation>Poses</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>Mesurer avec ces réglages</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>Utiliser la précédente</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4073,10 +4137,6 @@
         <translation>La vue caméra est arrêtée.</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>pose %1. Cliquez où juger la netteté.</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>Lumière à cette pose&#x202f;: rouge, vert, bleu</translation>
     </message>
@@ -4107,10 +4167,6 @@
     <message>
         <source>Pixels</source>
         <translation>Pixels</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>Recherche de la lumière du projecteur</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4366,6 +4422,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>Garder la caméra précédente</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>pose %1, cliquez où juger la netteté</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>Contrôles en cours</translation>
     </message>
 </context>
 <context>
@@ -6055,10 +6119,6 @@ projecteur %2</translation>
         <translation>Replacer la caméra</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>La vue de la caméra a bougé de %1 px. Replacez-la, puis photographiez à nouveau.</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>La caméra ou le projecteur est ailleurs. Replacez la caméra, ou visez et mesurez à nouveau.</translation>
     </message>
@@ -6151,10 +6211,6 @@ projecteur %2</translation>
         <translation>Rien n’a bougé&#x202f;: la prévision elle-même est grossière. Mesurer plus finement ou un contenu plus sombre aide.</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>Ancienne correction</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>En attente du retour de l’écran du projecteur.</translation>
     </message>
@@ -6165,10 +6221,6 @@ projecteur %2</translation>
     <message>
         <source>Look at it first</source>
         <translation>La voir d’abord</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>La diffusion utilise encore l’ancienne correction</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6355,10 +6407,6 @@ projecteur %2</translation>
         <translation>Écran du projecteur débranché.</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>L’ancienne correction est diffusée.</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>Il n’y a rien d’autre dans la liste.</translation>
     </message>
@@ -6459,10 +6507,6 @@ projecteur %2</translation>
         <translation>Non conforme à la prévision</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>Le projecteur montre encore la correction précédente. Montrez l’actuelle, puis prenez la photo.</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>La sortie est fermée. Appareils utilisés à l’étape «&#x202f;%1&#x202f;».</translation>
     </message>
@@ -6471,8 +6515,44 @@ projecteur %2</translation>
         <translation>Montrer la correction actuelle</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>La correction précédente est diffusée. Montrez d’abord l’actuelle.</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>Le projecteur montre encore une autre correction. Montrez l’actuelle, puis prenez la photo.</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>Autre correction</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>La vue de la caméra a bougé. Replacez-la, puis photographiez à nouveau.</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>La diffusion utilise encore une autre correction</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>Une autre correction est diffusée. Montrez d’abord l’actuelle.</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>Une autre correction est encore diffusée.</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>Derrière une autre lumière</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>Le projecteur montre la lumière d’une autre étape : %1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>La diffusion continue derrière et se revoit quand c’est terminé.</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>La lumière d’une autre étape est devant la diffusion.</translation>
     </message>
 </context>
 <context>
@@ -9093,6 +9173,10 @@ projecteur %2</translation>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>Choisissez l’écran du projecteur, ou saisissez la commande qui affiche.</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1, %2, débranché</translation>
     </message>
 </context>
 <context>

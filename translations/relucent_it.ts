@@ -1143,6 +1143,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>scegliere una cartella con file PNG, JPEG, TIFF o EXR</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>scegliere un’immagine PNG, JPEG, TIFF o EXR</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1157,6 +1171,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>nessuna immagine in questa cartella</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1168,6 +1189,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>il dispositivo di acquisizione non fornisce immagini</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>aprirla prima</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>aprirla prima; ci sono: {}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>non è un’immagine leggibile</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>la sequenza non ha immagini</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>non c’è nessuna finestra «{}»</translation>
     </message>
 </context>
 <context>
@@ -3803,6 +3859,14 @@
         <source>Exposures</source>
         <translation>Esposizioni</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>Misura con queste impostazioni</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>Usa la precedente</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4073,10 +4137,6 @@
         <translation>Nessuna immagine dalla fotocamera.</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>esposizione %1. Fare clic dove valutare la messa a fuoco.</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>Luce in questa esposizione: rosso, verde, blu</translation>
     </message>
@@ -4107,10 +4167,6 @@
     <message>
         <source>Pixels</source>
         <translation>Pixel</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>Ricerca della luce del proiettore</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4366,6 +4422,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>Tieni la fotocamera di prima</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>esposizione %1, clic per valutare il fuoco</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>Controlli in corso</translation>
     </message>
 </context>
 <context>
@@ -6055,10 +6119,6 @@ proiettore %2</translation>
         <translation>Rimetti a posto la fotocamera</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>L’inquadratura si è spostata di %1 px. Rimettere a posto la fotocamera, poi fotografare di nuovo.</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>Fotocamera o proiettore stanno altrove. Rimettere a posto la fotocamera, oppure puntare e misurare di nuovo.</translation>
     </message>
@@ -6151,10 +6211,6 @@ proiettore %2</translation>
         <translation>Nulla si è spostato: la previsione stessa è grossolana. Aiutano una misura più fine o contenuti più scuri.</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>Correzione precedente</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>In attesa che torni lo schermo del proiettore.</translation>
     </message>
@@ -6165,10 +6221,6 @@ proiettore %2</translation>
     <message>
         <source>Look at it first</source>
         <translation>Guardarla prima</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>Lo show usa ancora la correzione precedente</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6355,10 +6407,6 @@ proiettore %2</translation>
         <translation>Schermo del proiettore scollegato.</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>È in onda la correzione precedente.</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>Nella lista non c’è altro.</translation>
     </message>
@@ -6459,10 +6507,6 @@ proiettore %2</translation>
         <translation>Non come previsto</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>Il proiettore mostra ancora la correzione precedente. Mostrare quella attuale, poi scattare la foto.</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>L’uscita è chiusa. I dispositivi sono in uso nel passo %1.</translation>
     </message>
@@ -6471,8 +6515,44 @@ proiettore %2</translation>
         <translation>Mostra la correzione attuale</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>È in riproduzione la correzione precedente. Mostrare prima quella attuale.</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>Il proiettore mostra ancora un’altra correzione. Mostrare quella attuale, poi scattare la foto.</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>Altra correzione</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>L’inquadratura si è spostata. Rimettere a posto la fotocamera, poi fotografare di nuovo.</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>Lo show usa ancora un’altra correzione</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>È in riproduzione un’altra correzione. Mostrare prima quella attuale.</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>È ancora in riproduzione un’altra correzione.</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>Dietro altra luce</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>Il proiettore mostra la luce di un altro passo: %1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>Lo show continua dietro e si rivede quando è terminato.</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>La luce di un altro passo è davanti allo show.</translation>
     </message>
 </context>
 <context>
@@ -9093,6 +9173,10 @@ proiettore %2</translation>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>Scegliere lo schermo del proiettore, o scrivere il comando che mostra.</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1, %2, scollegato</translation>
     </message>
 </context>
 <context>

@@ -1137,6 +1137,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>PNG、JPEG、TIFF、EXR ファイルのあるフォルダーを選んでください</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>PNG、JPEG、TIFF、EXR の画像を選んでください</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1151,6 +1165,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>このフォルダーに画像がありません</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1162,6 +1183,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>キャプチャーデバイスから画像が届きません</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>先に開いてください</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>先に開いてください。現在あるもの：{}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>読み取れる画像ではありません</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>連番画像に画像がありません</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>「{}」というウィンドウがありません</translation>
     </message>
 </context>
 <context>
@@ -3781,6 +3837,14 @@
         <source>Exposures</source>
         <translation>露光回数</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>この設定で測定</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>以前の測定を使う</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4051,10 +4115,6 @@
         <translation>ライブビューは停止しています。</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>露出 %1。ピントを評価する場所をクリックしてください。</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>この露出での光：赤、緑、青</translation>
     </message>
@@ -4085,10 +4145,6 @@
     <message>
         <source>Pixels</source>
         <translation>画素</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>プロジェクターの光を検出中</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4343,6 +4399,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>前のカメラを使い続ける</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>露出 %1、クリックでピントを評価</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>確認中</translation>
     </message>
 </context>
 <context>
@@ -6019,10 +6083,6 @@ projector %2</source>
         <translation>カメラを元に戻す</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>カメラの視野が %1 px ずれました。元に戻してから、もう一度撮影してください。</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>カメラかプロジェクターの位置が変わっています。カメラを元に戻すか、向きを合わせて測定し直してください。</translation>
     </message>
@@ -6115,10 +6175,6 @@ projector %2</source>
         <translation>何も動いていません。予測そのものが粗いのです。より細かい測定や、暗めのコンテンツで改善します。</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>以前の補正</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>プロジェクターの画面が戻るのを待っています。</translation>
     </message>
@@ -6129,10 +6185,6 @@ projector %2</source>
     <message>
         <source>Look at it first</source>
         <translation>先に確認</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>ショーはまだ以前の補正で再生しています</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6319,10 +6371,6 @@ projector %2</source>
         <translation>プロジェクターの画面が外れています。</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>以前の補正を再生しています。</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>リストにほかの項目がありません。</translation>
     </message>
@@ -6423,10 +6471,6 @@ projector %2</source>
         <translation>予測と異なる</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>プロジェクターはまだ以前の補正を表示しています。現在の補正を表示してから撮影してください。</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>出力は閉じています。機器は「%1」で使用中です。</translation>
     </message>
@@ -6435,8 +6479,44 @@ projector %2</source>
         <translation>現在の補正を表示</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>以前の補正が再生されています。先に現在の補正を表示してください。</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>プロジェクターはまだ別の補正を表示しています。現在の補正を表示してから撮影してください。</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>別の補正</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>カメラの視野がずれました。元に戻してから、もう一度撮影してください。</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>ショーはまだ別の補正で再生しています</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>別の補正が再生されています。先に現在の補正を表示してください。</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>まだ別の補正が再生されています。</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>別の光の背後</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>プロジェクターは別のステップの光を表示しています：%1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>ショーはその背後で続き、終わると再び見えます。</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>別のステップの光がショーの前に表示されています。</translation>
     </message>
 </context>
 <context>
@@ -9043,6 +9123,10 @@ projector %2</source>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>プロジェクターの画面を選ぶか、表示するコマンドを入力してください。</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1、%2、未接続</translation>
     </message>
 </context>
 <context>

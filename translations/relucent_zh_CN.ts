@@ -1137,6 +1137,20 @@
     </message>
 </context>
 <context>
+    <name>content.choose-picture-folder</name>
+    <message>
+        <source>choose a folder with PNG, JPEG, TIFF or EXR files</source>
+        <translation>请选择含有 PNG、JPEG、TIFF 或 EXR 文件的文件夹</translation>
+    </message>
+</context>
+<context>
+    <name>content.choose-supported-picture</name>
+    <message>
+        <source>choose a PNG, JPEG, TIFF or EXR picture</source>
+        <translation>请选择 PNG、JPEG、TIFF 或 EXR 图片</translation>
+    </message>
+</context>
+<context>
     <name>content.connect-capture-device</name>
     <message>
         <source>plug it in, close other programs that use it, and try again</source>
@@ -1151,6 +1165,13 @@
     </message>
 </context>
 <context>
+    <name>content.no-pictures</name>
+    <message>
+        <source>no pictures in this folder</source>
+        <translation>此文件夹中没有图片</translation>
+    </message>
+</context>
+<context>
     <name>content.no-x-server</name>
     <message>
         <source>the live picture of a screen needs an X server, and none answers</source>
@@ -1162,6 +1183,41 @@
     <message>
         <source>the capture device gives no picture</source>
         <translation>采集设备没有给出图像</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first</name>
+    <message>
+        <source>open it first</source>
+        <translation>请先将其打开</translation>
+    </message>
+</context>
+<context>
+    <name>content.open-first-or-choose</name>
+    <message>
+        <source>open it first; there are: {}</source>
+        <translation>请先将其打开；现有：{}</translation>
+    </message>
+</context>
+<context>
+    <name>content.picture-unreadable</name>
+    <message>
+        <source>not a picture that can be read</source>
+        <translation>不是可读取的图片</translation>
+    </message>
+</context>
+<context>
+    <name>content.sequence-empty</name>
+    <message>
+        <source>the sequence has no pictures</source>
+        <translation>图片序列中没有图片</translation>
+    </message>
+</context>
+<context>
+    <name>content.unknown-window</name>
+    <message>
+        <source>there is no window &apos;{}&apos;</source>
+        <translation>没有窗口“{}”</translation>
     </message>
 </context>
 <context>
@@ -3781,6 +3837,14 @@
         <source>Exposures</source>
         <translation>曝光次数</translation>
     </message>
+    <message>
+        <source>Measure with these settings</source>
+        <translation>按此设置测量</translation>
+    </message>
+    <message>
+        <source>Use the earlier one</source>
+        <translation>使用较早的测量</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -4051,10 +4115,6 @@
         <translation>当前未查看相机画面。</translation>
     </message>
     <message>
-        <source>exposure %1. Click where the focus is to be judged.</source>
-        <translation>曝光 %1。单击要判断对焦的位置。</translation>
-    </message>
-    <message>
         <source>Light in this exposure: red, green, blue</source>
         <translation>此曝光的光量：红、绿、蓝</translation>
     </message>
@@ -4085,10 +4145,6 @@
     <message>
         <source>Pixels</source>
         <translation>像素</translation>
-    </message>
-    <message>
-        <source>Looking for the projector&apos;s light</source>
-        <translation>正在查找投影机的光</translation>
     </message>
     <message>
         <source>The camera sees the projector</source>
@@ -4343,6 +4399,14 @@
     <message>
         <source>Keep the former camera</source>
         <translation>保留原来的相机</translation>
+    </message>
+    <message>
+        <source>exposure %1, click to judge focus</source>
+        <translation>曝光 %1，单击判断对焦</translation>
+    </message>
+    <message>
+        <source>Checks under way</source>
+        <translation>正在检查</translation>
     </message>
 </context>
 <context>
@@ -6019,10 +6083,6 @@ projector %2</source>
         <translation>把相机放回原位</translation>
     </message>
     <message>
-        <source>The camera&apos;s view has moved by %1 px. Put it back, then photograph again.</source>
-        <translation>相机视野移动了 %1 px。请将其放回原位，然后重新拍照。</translation>
-    </message>
-    <message>
         <source>Camera or projector stand elsewhere. Put the camera back, or aim and measure again.</source>
         <translation>相机或投影机不在原处。请把相机放回原位，或重新对准并测量。</translation>
     </message>
@@ -6115,10 +6175,6 @@ projector %2</source>
         <translation>没有东西移动：预测本身较粗糙。更细的测量或较暗的内容会有帮助。</translation>
     </message>
     <message>
-        <source>Earlier correction</source>
-        <translation>以前的补偿</translation>
-    </message>
-    <message>
         <source>Waiting for the projector&apos;s screen to come back.</source>
         <translation>正在等待投影机的屏幕恢复。</translation>
     </message>
@@ -6129,10 +6185,6 @@ projector %2</source>
     <message>
         <source>Look at it first</source>
         <translation>先查看</translation>
-    </message>
-    <message>
-        <source>The show still plays the earlier correction</source>
-        <translation>节目仍在使用以前的补偿</translation>
     </message>
     <message>
         <source>What was measured or chosen since is not on the projector yet.</source>
@@ -6319,10 +6371,6 @@ projector %2</source>
         <translation>投影机的屏幕已断开。</translation>
     </message>
     <message>
-        <source>The earlier correction still plays.</source>
-        <translation>仍在播放较早的补偿。</translation>
-    </message>
-    <message>
         <source>There is nothing else on the list.</source>
         <translation>列表中没有其他项目。</translation>
     </message>
@@ -6423,10 +6471,6 @@ projector %2</source>
         <translation>与预测不符</translation>
     </message>
     <message>
-        <source>The projector still shows the earlier correction. Show the current one, then take the photograph.</source>
-        <translation>投影机仍在显示以前的补偿。请先显示当前的补偿，再拍照。</translation>
-    </message>
-    <message>
         <source>The output is closed. The devices are in use at %1.</source>
         <translation>输出已关闭。设备正由“%1”使用。</translation>
     </message>
@@ -6435,8 +6479,44 @@ projector %2</source>
         <translation>显示当前补偿</translation>
     </message>
     <message>
-        <source>The earlier correction plays. Show the current one first.</source>
-        <translation>正在播放较早的补偿。请先显示当前的补偿。</translation>
+        <source>The projector still shows another correction. Show the current one, then take the photograph.</source>
+        <translation>投影机仍在显示其他补偿。请先显示当前的补偿，再拍照。</translation>
+    </message>
+    <message>
+        <source>Another correction</source>
+        <translation>其他补偿</translation>
+    </message>
+    <message>
+        <source>The camera&apos;s view has moved. Put it back, then photograph again.</source>
+        <translation>相机视野移动了。请将其放回原位，然后重新拍照。</translation>
+    </message>
+    <message>
+        <source>The show still plays another correction</source>
+        <translation>节目仍在使用其他补偿</translation>
+    </message>
+    <message>
+        <source>Another correction plays. Show the current one first.</source>
+        <translation>正在播放其他补偿。请先显示当前的补偿。</translation>
+    </message>
+    <message>
+        <source>Another correction still plays.</source>
+        <translation>仍在播放其他补偿。</translation>
+    </message>
+    <message>
+        <source>Behind other light</source>
+        <translation>在其他画面之后</translation>
+    </message>
+    <message>
+        <source>The projector shows the light of another step: %1</source>
+        <translation>投影机正在显示另一步骤的光：%1</translation>
+    </message>
+    <message>
+        <source>The show goes on behind it, and is seen again when that has ended.</source>
+        <translation>节目在其后继续，结束后会重新显示。</translation>
+    </message>
+    <message>
+        <source>The light of another step is before the show.</source>
+        <translation>另一步骤的光显示在节目之前。</translation>
     </message>
 </context>
 <context>
@@ -9043,6 +9123,10 @@ projector %2</source>
     <message>
         <source>Choose the projector&apos;s screen, or type the command that shows.</source>
         <translation>请选择投影机的屏幕，或输入用于显示的命令。</translation>
+    </message>
+    <message>
+        <source>%1, %2, unplugged</source>
+        <translation>%1，%2，已拔出</translation>
     </message>
 </context>
 <context>

@@ -109,7 +109,7 @@ void Nudge::look() {
     if (!session_.acquisition()) return;
     const transport::Acquisition& acquisition = *session_.acquisition();
     expected_ = image::imageFromStack(acquisition.flood, acquisition.transport.cameras(), 0);
-    lease_ = session_.leaseDevices(*step_);
+    lease_ = session_.leaseDevices(*step_, DeviceWork::light);
   }
   failure_.reset();
   shared_ = std::make_shared<Shared>();

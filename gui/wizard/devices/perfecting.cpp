@@ -92,7 +92,7 @@ void Perfecting::start() {
   found_ = std::make_shared<Found>();
   photographs_ = 0;
   outcome_.reset();
-  lease_ = session_.leaseDevices(step_);
+  lease_ = session_.leaseDevices(step_, DeviceWork::light);
   auto counter = std::make_shared<Counter>(this, [this](int count) {
     photographs_ = count;
     Q_EMIT progressed();

@@ -98,7 +98,7 @@ void showProof(Remark& remark, const OutputPage& page) {
   if (page.playsEarlier())
     return remark.show(
         Remark::Kind::watch, OutputPage::tr("Not to be proved yet"),
-        OutputPage::tr("The projector still shows the earlier correction. Show the current one, then take "
+        OutputPage::tr("The projector still shows another correction. Show the current one, then take "
                        "the photograph."));
   if (page.proof().isOutOfDate())
     return remark.show(Remark::Kind::warning, OutputPage::tr("The photograph is out of date"),

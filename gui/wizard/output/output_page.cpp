@@ -5,20 +5,11 @@
 #include <QGuiApplication>
 #include <QStandardPaths>
 #include <QUrl>
-#include <cmath>
 
 #include "views/number_text.h"
 #include "wizard/devices/on_measurement.h"
 
 namespace relucent::gui {
-namespace {
-
-double movedPixels(const sentinels::Movement& moved) {
-  return std::hypot(moved.x, moved.y);
-}
-
-}  // namespace
-
 OutputPage::OutputPage(Session& session, QObject* parent)
     : DevicePage(stepName, session, parent),
       proof_(session, stepName),
@@ -132,8 +123,9 @@ void OutputPage::enter() {
 
 StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
-  if (playsEarlier()) return {StepState::busy, tr("Earlier correction"), false, true};
+  if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
+  if (isCovered()) return {StepState::busy, tr("Behind other light")};
   const OutputProof::Next next = proof_.next();
   const bool isDoubted = next != OutputProof::Next::install && next != OutputProof::Next::photograph;
   if (isOpen() && isDoubted) return {StepState::busy, tr("Not as predicted"), false, true};
@@ -167,16 +159,21 @@ QString OutputPage::photographicWork() const {
 QString OutputPage::whatIsProjected() const {
   if (!photographicWork().isEmpty())
     return tr("The output is closed. Patterns to be photographed are projected.");
-  if (!session_.areDevicesFree())
+  if (session_.isProjecting())
     return tr("The output is closed. The devices are in use at %1.").arg(session_.devicesUserName());
   return tr("The output is closed. Nothing is projected.");
+}
+
+bool OutputPage::isCovered() const {
+  return isOpen() && session_.screenRig() != nullptr && session_.isProjecting() &&
+         photographicWork().isEmpty();
 }
 
 QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (perfecting_.isRunning()) return perfecting_.stage();
-  if (!isOpen() && !session_.areDevicesFree())
+  if ((!isOpen() || isCovered()) && !session_.areDevicesFree())
     return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (isScreenLost()) return tr("Waiting for the projector's screen to come back.");
@@ -194,8 +191,7 @@ QString OutputPage::hint() const {
                    ? tr("Confirm that the room is clear.")
                    : tr("The surface does not look as predicted. Find out whether something moved.");
       case OutputProof::Next::pushBack:
-        return tr("The camera's view has moved by %1 px. Put it back, then photograph again.")
-            .arg(decimalText(movedPixels(proof_.proof()->figures.moved), 1));
+        return tr("The camera's view has moved. Put it back, then photograph again.");
       case OutputProof::Next::repair:
         return needsConsent() ? tr("Confirm that the room is clear.")
                               : tr("Something has changed since it was measured. Repair the calibration: "
@@ -296,9 +292,13 @@ std::optional<Banner> OutputPage::banner() const {
   if (isScreenLost())
     return Banner{Banner::Kind::amber, tr("The projector's screen is unplugged"),
                   tr("Nothing is lost. Plug it in again: the show comes back by itself.")};
+  if (isCovered())
+    return Banner{Banner::Kind::information,
+                  tr("The projector shows the light of another step: %1").arg(session_.devicesUserName()),
+                  tr("The show goes on behind it, and is seen again when that has ended.")};
   if (playsEarlier()) {
     const bool isReviewed = stepToReview().isEmpty();
-    return Banner{Banner::Kind::amber, tr("The show still plays the earlier correction"),
+    return Banner{Banner::Kind::amber, tr("The show still plays another correction"),
                   isReviewed ? tr("What was measured or chosen since is not on the projector yet.")
                              : tr("What was measured or chosen since is not on the projector yet. Steps that "
                                   "are out of date count with what was chosen there before."),

@@ -58,6 +58,8 @@ class OutputPage : public DevicePage {
   }
   /// The one that was chosen for the shown projector and is not there now; empty: it is, or none was chosen.
   QString missingScreen() const;
+  /// A step's light stands on the projectors' screens before what plays.
+  bool isCovered() const;
   /// What stands on the projectors while the output is closed, a sentence.
   QString whatIsProjected() const;
   /// What it means for what is measured that the projector is another screen now; empty: nothing.

@@ -51,7 +51,7 @@ void OutputPage::setFade(double seconds) {
 
 QString OutputPage::whyNoSets() const {
   if (session_.setsFailure()) return session_.setsFailure()->what + ' ' + session_.setsFailure()->advice;
-  if (playsEarlier()) return tr("The earlier correction plays. Show the current one first.");
+  if (playsEarlier()) return tr("Another correction plays. Show the current one first.");
   return session_.whyLocked(stepName);
 }
 

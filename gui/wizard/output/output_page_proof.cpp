@@ -17,7 +17,7 @@ QString OutputPage::whyNoPhotograph() const {
 QString OutputPage::whyNotProve() const {
   if (const QString why = whyNoPhotograph(); !why.isEmpty()) return why;
   if (isScreenLost()) return tr("The projector's screen is unplugged.");
-  return playsEarlier() ? tr("The earlier correction still plays.") : QString();
+  return playsEarlier() ? tr("Another correction still plays.") : QString();
 }
 
 QString OutputPage::whyNoPatterns() const {

@@ -112,16 +112,17 @@ OutputProof::Next OutputProof::next() const {
   if (pushedBack_) return Next::photograph;
   const pipeline::DriftRecord* drift = newestDrift();
   if (drift != nullptr && drift->verdict == Verdict::startAgain) return Next::aimAgain;
-  if (drift != nullptr && drift->verdict == Verdict::remeasure)
-    return isBeyondRepair() ? Next::measureAgain : Next::repair;
   const Proof* proof = current();
+  // What is pushed back is the first camera.
+  const bool isMoved = proof != nullptr && proof->figures.moved.explains &&
+                       pipeline::viewThatDiffers(proof->figures) == std::size_t{0};
+  if (drift != nullptr && drift->verdict == Verdict::remeasure)
+    return isMoved ? Next::pushBack : isBeyondRepair() ? Next::measureAgain : Next::repair;
   if (proof == nullptr) return Next::photograph;
   if (proof->isAsPredicted()) return Next::install;
   // What was measured holds: something was in the way of that photograph.
   if (drift != nullptr) return Next::photograph;
-  // What is pushed back is the first camera.
-  const bool isFirst = pipeline::viewThatDiffers(proof->figures) == std::size_t{0};
-  return isFirst && proof->figures.moved.explains ? Next::pushBack : Next::checkDrift;
+  return isMoved ? Next::pushBack : Next::checkDrift;
 }
 
 void OutputProof::cameraPushedBack() {

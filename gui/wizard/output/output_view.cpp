@@ -138,10 +138,12 @@ class MirrorView : public ImageView {
   }
   void reflect() {
     const QString missing = page_.isOpen() ? page_.missingScreen() : QString();
-    setEmptyText(missing.isEmpty()
-                     ? page_.whatIsProjected()
-                     : OutputPage::tr("The screen %1 is unplugged. Nothing is projected.").arg(missing));
-    setPicture(missing.isEmpty() ? projection_.mirror() : QImage());
+    const bool isCovered = page_.isCovered();
+    setEmptyText(!missing.isEmpty()
+                     ? OutputPage::tr("The screen %1 is unplugged. Nothing is projected.").arg(missing)
+                 : isCovered ? OutputPage::tr("The light of another step is before the show.")
+                             : page_.whatIsProjected());
+    setPicture(missing.isEmpty() && !isCovered ? projection_.mirror() : QImage());
   }
 
  protected:
@@ -164,10 +166,10 @@ class MirrorView : public ImageView {
   OutputProjection& projection_;
 };
 
-/// Whether the widget has a use of its own for letters.
+/// Whether something is typed there. In the playlist a letter would choose what begins with it, while
+/// somebody waits for the projector to go black.
 bool acceptsText(const QWidget* widget) {
   return qobject_cast<const QLineEdit*>(widget) != nullptr ||
-         qobject_cast<const QAbstractItemView*>(widget) != nullptr ||
          qobject_cast<const QAbstractSpinBox*>(widget) != nullptr;
 }
 
@@ -307,8 +309,8 @@ class OutputStage : public QWidget {
   /// Over the projector's picture: how it goes.
   QString figures() const {
     PlayerStatistics s = page_.projection().statistics();
-    if (!page_.isOpen() || !page_.missingScreen().isEmpty() || s.frames == 0) return {};
-    if (page_.playsEarlier()) return OutputPage::tr("Earlier correction");
+    if (!page_.isOpen() || !page_.missingScreen().isEmpty() || page_.isCovered() || s.frames == 0) return {};
+    if (page_.playsEarlier()) return OutputPage::tr("Another correction");
     if (page_.isBlack()) return OutputPage::tr("Black");
     if (page_.showsChart()) return OutputPage::tr("Test chart");
     QString clipped = percentText(s.clipped);

@@ -424,7 +424,7 @@ QString PreviewPage::borrowedScreens() const {
 /// The devices are held meanwhile: nothing measures while the picture is in its way.
 void PreviewPage::shine() {
   if (isShining() || !whyNotShining().isEmpty()) return;
-  lease_ = session_.leaseDevices(stepName);
+  lease_ = session_.leaseDevices(stepName, DeviceWork::light);
   shinesCorrected_ = true;
   surface_.shine(projectorScreens(session_), sent());
 }

@@ -146,9 +146,11 @@ class TestAcceptanceWalk : public QObject {
   }
 
   /// Law: a lost device is said soon, in amber in banner, rail and strip, on every page, with what is safe;
-  /// and when it is back the work goes on by itself and nothing is amber.
+  /// and when it is back the work goes on by itself and nothing is amber. `other`, which is there, is not
+  /// said to be lost.
   void isLostAndFound(const std::function<void()>& lose, const std::function<void()>& find,
-                      const QString& sentence, const QString& inTheRail, const QString& strip) {
+                      const QString& sentence, const QString& inTheRail, const QString& strip,
+                      const QString& other) {
     QElapsedTimer since;
     since.start();
     lose();
@@ -159,7 +161,8 @@ class TestAcceptanceWalk : public QObject {
       TRY_DO(program_->click(step(page)));
       TRY_SEEN(seen.part("banner-sentence").text == sentence &&
                seen.part("banner-more").text.contains("Everything so far is safe") &&
-               seen.part(step(4)).more == inTheRail && seen.part(strip).role == "amber");
+               seen.part(step(4)).more == inTheRail && seen.part(strip).role == "amber" &&
+               seen.part(other).role == "note");
       QVERIFY(amber("banner") > 0 && amber(step(4)) > 0 && amber(strip) > 0);
       SEEN(seen.dialog().isEmpty());
     }
@@ -254,16 +257,27 @@ class TestAcceptanceWalk : public QObject {
 
   void theCameraIsUnplugged() {
     isLostAndFound([this] { room_->camera().unplug(); }, [this] { room_->camera().plug(); },
-                   "The camera does not answer", "Camera silent", "strip-camera");
+                   "The camera does not answer", "Camera silent", "strip-camera", "strip-projector");
   }
 
   void theScreenIsUnplugged() {
     isLostAndFound([] { switchScreen(false); }, [] { switchScreen(true); },
-                   "The projector's screen is unplugged", "Screen unplugged", "strip-projector");
+                   "The projector's screen is unplugged", "Screen unplugged", "strip-projector",
+                   "strip-camera");
   }
 
-  /// Law: a bump is said with what is safe and what to do; the nudge view shows live which way to push and
-  /// how far; pushed back, the measurement goes on.
+  /// Law: while it is paused nothing is projected, and the window answers.
+  void itIsPaused() {
+    TRY_DO(program_->click(step(4)));
+    TRY_DO(program_->clickText("Pause"));
+    TRY_SEEN(seen.part("hint").text == "Waiting for you. Nothing is being projected." && isDark());
+    TRY_DO(program_->clickText("Resume"));
+    TRY_SEEN(seen.part(step(4)).more.startsWith("Measuring"));
+    takesPhotographs();
+  }
+
+  /// Law: a bump is said with what is safe and what to do, in the dark; the nudge view shows live which way
+  /// to push and how far; pushed back, the measurement goes on.
   void theCameraIsBumped() {
     // Full light and the first look at the view, by which all is compared, are behind it.
     QTRY_VERIFY_WITH_TIMEOUT(room_->patterns().size() > beforeAcquiring_ + beforePatterns, patience);
@@ -273,6 +287,7 @@ class TestAcceptanceWalk : public QObject {
     SEEN(seen.dialog() == moved && seen.says("What happened") && seen.says("What is safe") &&
          seen.says("What to do"));
     SEEN(seen.button("Try again").isDefault && seen.button("Stop and keep").isEnabled);
+    QVERIFY(isDark());
     // Until somebody answers it waits, says so, and asks again whoever has closed the question.
     TRY_SEEN(seen.part(step(4)).more.startsWith("Waits for an answer") && amber(step(4)) > 0);
     TRY_DO(program_->press("Escape"));
@@ -398,6 +413,26 @@ class TestAcceptanceWalk : public QObject {
     // The show is back.
     TRY_SEEN(seen.part(step(8)).more == "Playing");
     QTRY_VERIFY_WITH_TIMEOUT(!isDark(), patience);
+  }
+
+  /// Law: a measurement over the show is said where the show is, and not called the show; what is kept of
+  /// before goes on.
+  void theShowIsMeasuredOver() {
+    TRY_DO(program_->click(step(4)));
+    TRY_DO(program_->clickText("Measure again"));
+    TRY_SEEN(seen.part("primary").text == "Start now");
+    TRY_DO(program_->click("primary"));
+    TRY_SEEN(seen.part(step(4)).more.startsWith("Measuring") &&
+             seen.part(step(8)).more == "Behind other light");
+    TRY_DO(program_->click(step(8)));
+    TRY_SEEN(seen.part("banner-sentence").text == "The projector shows the light of another step: Acquire");
+    QVERIFY(!program_->holdsPicture("output-view"));
+    TRY_DO(program_->click(step(4)));
+    TRY_DO(program_->clickText("Keep the earlier one"));
+    TRY_SEEN(seen.part(step(8)).more == "Playing");
+    TRY_DO(program_->click(step(8)));
+    TRY_SEEN(seen.part("banner-sentence").text.isEmpty() && seen.part("primary").isEnabled);
+    QTRY_VERIFY_WITH_TIMEOUT(program_->holdsPicture("output-view"), patience);
   }
 
   void theShowIsInstalled() {

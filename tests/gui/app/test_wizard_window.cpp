@@ -503,11 +503,13 @@ class TestWizardWindow : public QObject {
     QVERIFY(output.isOpen() && output.chosen() == screen && output.projection().showsChart());
     for (std::size_t i = 0; i < allTestCharts.size(); ++i) QTest::keyClick(screens, Qt::Key_T);
     QVERIFY(!output.projection().showsChart());
-    find<QWidget>("playlist")->setFocus();
-    QTest::keyPress(find<QWidget>("playlist"), Qt::Key_A);
-    QVERIFY(wizard_->page<OutputPage>().isCompensated());
-    QTest::keyClick(find<QWidget>("playlist"), Qt::Key_B);
-    QVERIFY(!wizard_->page<OutputPage>().isBlack());
+    // Nor in the playlist, where a letter would choose what begins with it.
+    auto* list = find<QWidget>("playlist");
+    list->setFocus();
+    QTest::keyClick(list, Qt::Key_B);
+    QVERIFY(output.isBlack());
+    QTest::keyClick(list, Qt::Key_B);
+    QVERIFY(!output.isBlack());
     view->setFocus();
     QTest::keyClick(view, Qt::Key_Space);
     QVERIFY(wizard_->page<OutputPage>().isFrozen());
@@ -851,7 +853,7 @@ class TestWizardWindow : public QObject {
     output.open();
     QTRY_VERIFY_WITH_TIMEOUT(output.isOpen(), patience);
     QCOMPARE(output.primary()->text(), OutputPage::tr("Put the camera back"));
-    QVERIFY2(output.hint().contains("5.0"), qPrintable(output.hint()));
+    QVERIFY2(output.hint().contains("has moved"), qPrintable(output.hint()));
     QTRY_VERIFY_WITH_TIMEOUT(output.primary()->isEnabled(), patience);
     output.primary()->trigger();
     QPointer<NudgeDialog> dialog = wizard_->window().findChild<NudgeDialog*>();

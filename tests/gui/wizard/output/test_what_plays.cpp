@@ -202,7 +202,7 @@ class TestWhatPlays : public QObject {
     QCOMPARE(page_->playsEarlier(), isEarlier);
     QCOMPARE(offersProof(), !isEarlier);
     if (!isEarlier) return;
-    QCOMPARE(page_->banner()->sentence, OutputPage::tr("The show still plays the earlier correction"));
+    QCOMPARE(page_->banner()->sentence, OutputPage::tr("The show still plays another correction"));
     QVERIFY(page_->status().isHeldUp && page_->status().result != OutputPage::tr("Playing"));
     page_->verify();
     QVERIFY(page_->isOpen() && page_->proof().work() == OutputProof::Work::none);

@@ -290,6 +290,17 @@
             <numerusform>انقطع القياس: %n لقطة محفوظة</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>تم القياس؛ لا لقطات أحدث</numerusform>
+            <numerusform>تم القياس؛ لقطة أحدث واحدة محفوظة</numerusform>
+            <numerusform>تم القياس؛ لقطتان أحدث محفوظتان</numerusform>
+            <numerusform>تم القياس؛ %n لقطات أحدث محفوظة</numerusform>
+            <numerusform>تم القياس؛ %n لقطة أحدث محفوظة</numerusform>
+            <numerusform>تم القياس؛ %n لقطة أحدث محفوظة</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4991,14 +5002,14 @@
         <translation>قد يسبب الضوء الوامض نوبات صرع. أخلِ القاعة وغطِّ المدخل.</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر أقل من مرة في الثانية.</numerusform>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرة واحدة في الثانية.</numerusform>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرتين في الثانية.</numerusform>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرات في الثانية.</numerusform>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية.</numerusform>
-            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر أقل من مرة في الثانية، وأحيانًا أكثر.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرة واحدة في الثانية، وأحيانًا أكثر.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو مرتين في الثانية، وأحيانًا أكثر.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرات في الثانية، وأحيانًا أكثر.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية، وأحيانًا أكثر.</numerusform>
+            <numerusform>يعرض جهاز العرض أنماطًا تتغيّر نحو %n مرة في الثانية، وأحيانًا أكثر.</numerusform>
         </translation>
     </message>
 </context>

@@ -282,6 +282,13 @@
             <numerusform>Unterbrochen: %n Fotos sind sicher</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>Gemessen; %n neueres Foto ist sicher</numerusform>
+            <numerusform>Gemessen; %n neuere Fotos sind sicher</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4875,10 +4882,10 @@
         <translation>Lichtblitze können Anfälle auslösen. Räumen Sie den Raum und verdecken Sie den Eingang.</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>Der Projektor zeigt Muster, die etwa einmal je Sekunde wechseln.</numerusform>
-            <numerusform>Der Projektor zeigt Muster, die etwa %n-mal je Sekunde wechseln.</numerusform>
+            <numerusform>Der Projektor zeigt Muster, die etwa einmal je Sekunde wechseln, zeitweise öfter.</numerusform>
+            <numerusform>Der Projektor zeigt Muster, die etwa %n-mal je Sekunde wechseln, zeitweise öfter.</numerusform>
         </translation>
     </message>
 </context>

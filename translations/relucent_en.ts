@@ -20,6 +20,13 @@
             <numerusform>Interrupted: %n photographs are safe</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>Measured; %n newer photograph is safe</numerusform>
+            <numerusform>Measured; %n newer photographs are safe</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>acquisition.stopped-with-forecast</name>
@@ -241,10 +248,10 @@
 <context>
     <name>relucent::gui::FlashConsent</name>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>The projector shows patterns that change about once a second.</numerusform>
-            <numerusform>The projector shows patterns that change about %n times a second.</numerusform>
+            <numerusform>The projector shows patterns that change about once a second, and at times more often.</numerusform>
+            <numerusform>The projector shows patterns that change about %n times a second, and at times more often.</numerusform>
         </translation>
     </message>
 </context>

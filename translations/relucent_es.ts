@@ -282,6 +282,13 @@
             <numerusform>Interrumpida: %n fotografías están a salvo</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>Medido; %n fotografía más nueva a salvo</numerusform>
+            <numerusform>Medido; %n fotografías más nuevas a salvo</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4875,10 +4882,10 @@
         <translation>La luz intermitente puede causar crisis epilépticas. Despeje la sala y tape la entrada.</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>El proyector muestra patrones que cambian aproximadamente una vez por segundo.</numerusform>
-            <numerusform>El proyector muestra patrones que cambian unas %n veces por segundo.</numerusform>
+            <numerusform>El proyector muestra patrones que cambian aproximadamente una vez por segundo, a ratos más a menudo.</numerusform>
+            <numerusform>El proyector muestra patrones que cambian unas %n veces por segundo, a ratos más a menudo.</numerusform>
         </translation>
     </message>
 </context>

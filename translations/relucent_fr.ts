@@ -282,6 +282,13 @@
             <numerusform>Interrompue : %n photos sont en sûreté</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>Mesuré ; %n photo plus récente en sûreté</numerusform>
+            <numerusform>Mesuré ; %n photos plus récentes en sûreté</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4875,10 +4882,10 @@
         <translation>La lumière clignotante peut provoquer des crises d’épilepsie. Évacuez la salle et masquez l’entrée.</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde.</numerusform>
-            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde.</numerusform>
+            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde, par moments plus souvent.</numerusform>
+            <numerusform>Le projecteur affiche des motifs qui changent environ %n fois par seconde, par moments plus souvent.</numerusform>
         </translation>
     </message>
 </context>

@@ -282,6 +282,13 @@
             <numerusform>Interrotta: %n foto sono al sicuro</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>Misurato; %n foto più recente al sicuro</numerusform>
+            <numerusform>Misurato; %n foto più recenti al sicuro</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4875,10 +4882,10 @@
         <translation>La luce lampeggiante può causare crisi epilettiche. Sgombrare la sala e coprire l’ingresso.</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>Il proiettore mostra pattern che cambiano circa una volta al secondo.</numerusform>
-            <numerusform>Il proiettore mostra pattern che cambiano circa %n volte al secondo.</numerusform>
+            <numerusform>Il proiettore mostra pattern che cambiano circa una volta al secondo, a tratti più spesso.</numerusform>
+            <numerusform>Il proiettore mostra pattern che cambiano circa %n volte al secondo, a tratti più spesso.</numerusform>
         </translation>
     </message>
 </context>

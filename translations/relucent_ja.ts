@@ -280,6 +280,12 @@
             <numerusform>中断：写真 %n 枚は保存済み</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>測定済み、新しい写真 %n 枚は保存済み</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4846,9 +4852,9 @@
         <translation>点滅光は発作を引き起こすことがあります。室内から人を退避させ、入口を覆ってください。</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>プロジェクターが毎秒約 %n 回切り替わるパターンを表示します。</numerusform>
+            <numerusform>プロジェクターが毎秒約 %n 回切り替わるパターンを表示します。もっと速いこともあります。</numerusform>
         </translation>
     </message>
 </context>

@@ -280,6 +280,12 @@
             <numerusform>已中断：%n 张照片已安全保存</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Measured; %n newer photograph(s) are safe</source>
+        <translation>
+            <numerusform>已测量；%n 张更新的照片已安全保存</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>ScreenChoice</name>
@@ -4846,9 +4852,9 @@
         <translation>闪光可能诱发癫痫。请清场，并遮挡入口。</translation>
     </message>
     <message numerus="yes">
-        <source>The projector shows patterns that change about %n time(s) a second.</source>
+        <source>The projector shows patterns that change about %n time(s) a second, and at times more often.</source>
         <translation>
-            <numerusform>投影机显示的图案每秒变化约 %n 次。</numerusform>
+            <numerusform>投影机显示的图案每秒变化约 %n 次，有时更快。</numerusform>
         </translation>
     </message>
 </context>

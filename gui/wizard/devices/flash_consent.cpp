@@ -12,8 +12,10 @@ namespace relucent::gui {
 namespace {
 
 QString rateSentence(std::optional<double> changes) {
-  return changes ? FlashConsent::tr("The projector shows patterns that change about %n time(s) a second.",
-                                    nullptr, static_cast<int>(std::ceil(*changes)))
+  return changes ? FlashConsent::tr(
+                       "The projector shows patterns that change about %n time(s) a second, and at times "
+                       "more often.",
+                       nullptr, static_cast<int>(std::ceil(*changes)))
                  : FlashConsent::tr(
                        "The projector shows patterns that change as quickly as the devices can, "
                        "perhaps more than 3 times a second.");
@@ -24,8 +26,9 @@ QString rateSentence(std::optional<double> changes) {
 std::optional<double> measuredChanges(const Session& session) {
   const auto& measured = session.figures<calibration::Stage::linearization>();
   if (!measured || !measured->cost) return std::nullopt;
-  const double patterns = measured->cost->patterns, seconds = measured->cost->seconds;
-  return patterns > 0.0 && seconds > 0.0 ? std::optional(patterns / seconds) : std::nullopt;
+  // There the patterns are photographed with every exposure, those of the light transport mostly with one.
+  const double photographs = measured->cost->exposures, seconds = measured->cost->seconds;
+  return photographs > 0.0 && seconds > 0.0 ? std::optional(photographs / seconds) : std::nullopt;
 }
 
 FlashConsent::FlashConsent(QWidget* parent)

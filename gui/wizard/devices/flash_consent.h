@@ -10,7 +10,7 @@ namespace relucent::gui {
 
 class Note;
 
-/// Patterns a second while the response was measured; none before.
+/// Photographs a second while the response was measured: about as often patterns change; none before.
 std::optional<double> measuredChanges(const Session& session);
 
 /// The warning with its tick, for a page's inspector; hidden where nobody has to agree.

@@ -25,9 +25,12 @@ QString folderOf(const QString& entry) {
 }
 
 QString stateOf(const calibration::CalibrationFolder& folder) {
+  const bool isFirst =
+      calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open;
   if (const int kept = photographsInterrupted(folder); kept > 0)
-    return Translated::tr("Interrupted: %n photograph(s) are safe", nullptr, kept);
-  if (calibration::progressOf(folder, calibration::Stage::acquisition) == calibration::StageProgress::open)
+    return isFirst ? Translated::tr("Interrupted: %n photograph(s) are safe", nullptr, kept)
+                   : Translated::tr("Measured; %n newer photograph(s) are safe", nullptr, kept);
+  if (isFirst)
     return calibration::progressOf(folder, calibration::Stage::linearization) ==
                    calibration::StageProgress::open
                ? Translated::tr("Nothing measured yet")

@@ -243,7 +243,8 @@ class TestReadouts : public QObject {
     QCOMPARE(page.cut().absolute, 0.0f);
   }
 
-  /// Law: what was interrupted is told on the list, and opened again it is where one goes on.
+  /// Law: what was interrupted is told on the list, with what there is besides, and opened again it is where
+  /// one goes on.
   void anInterruptedMeasurementIsToldAndGoneOnWith_data() {
     QTest::addColumn<bool>("again");
     QTest::newRow("the first") << false;
@@ -277,7 +278,8 @@ class TestReadouts : public QObject {
     session_->close();
     const RecentVenue listed = venue.recent().front();
     QVERIFY(listed.isInterrupted);
-    QVERIFY2(listed.state.startsWith("Interrupted") && listed.state.contains(QString::number(safe)),
+    QVERIFY2(listed.state.startsWith(again ? "Measured; " : "Interrupted: ") &&
+                 listed.state.contains(QString::number(safe)),
              qPrintable(listed.state));
     session_->open(path);
     QCOMPARE(wizard.current(), std::size_t{1});

@@ -96,9 +96,12 @@ class TestDeviceLists : public QObject {
     QCOMPARE(page_->mode(), VenuePage::Mode::script);
   }
 
-  /// Law: Tab comes to every camera, right after what looks for them.
+  /// Law: Tab comes to every camera, right after what looks for them, whenever they were found.
   void camerasAreReachedByTab() {
     const std::unique_ptr<QWidget> stage(devicesStage(*page_));
+    new QPushButton("behind", stage.get());
+    page_->finder().look();
+    QTRY_VERIFY(!page_->finder().isLooking());
     QWidget* next = stage->findChild<QPushButton*>("look-for-cameras");
     const auto reached = [&next] {
       do next = next->nextInFocusChain();

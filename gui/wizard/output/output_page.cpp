@@ -173,7 +173,7 @@ QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
   if (proof_.work() != OutputProof::Work::none) return proof_.stage();
   if (perfecting_.isRunning()) return perfecting_.stage();
-  if ((!isOpen() || isCovered()) && !session_.areDevicesFree())
+  if (isCovered() || (!isOpen() && !session_.areDevicesFree()))
     return tr("The devices are in use at %1.").arg(session_.devicesUserName());
   if (playlist_.isEmpty()) return tr("Add a picture or a film to the playlist.");
   if (isScreenLost()) return tr("Waiting for the projector's screen to come back.");

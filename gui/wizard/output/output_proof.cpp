@@ -136,7 +136,7 @@ void OutputProof::cameraPushedBack() {
 
 void OutputProof::start(Work work, Job::Work job) {
   work_ = work;
-  lease_ = session_.leaseDevices(step_);
+  lease_ = session_.leaseDevices(step_, work == Work::report ? DeviceWork::brief : DeviceWork::light);
   job_.start(std::move(job));
   Q_EMIT changed();
 }

@@ -246,11 +246,11 @@ class Session : public QObject {
   /// Something was measured that belongs to these devices.
   bool isMeasured() const { return result(calibration::Stage::linearization).has_value(); }
   void setPatience(const CheckPatience& patience) { patience_ = patience; }
-  /// A stage is being measured again, and has an earlier result to go back to.
-  /// pipeline/measured_again.h
+  /// A stage has a result from before it was measured again: pipeline/measured_again.h.
   bool hasEarlier(calibration::Stage stage) const {
     return stages_[static_cast<std::size_t>(stage)].hasEarlier;
   }
+  /// It has, and is being measured again.
   bool mayReturnToEarlier(calibration::Stage stage) const {
     return stages_[static_cast<std::size_t>(stage)].mayReturn;
   }

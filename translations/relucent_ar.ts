@@ -4534,6 +4534,10 @@
         <source>Checks under way</source>
         <translation>الفحوص جارية</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>إيقاف الفحوص</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4896,6 +4900,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>الزاوية السفلى اليسرى، %1، %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>هناك عرض قيد التشغيل</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>ما يبدأ هنا يُسقَط بدلًا منه. ويُرى العرض من جديد عندما ينتهي ذلك.</translation>
     </message>
 </context>
 <context>
@@ -6709,6 +6724,30 @@ projector %2</source>
         <source>The light of another step is before the show.</source>
         <translation>ضوء خطوة أخرى أمام العرض.</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>مدة صورة</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>⁨%1⁩، جرى تخطّيه</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>عدد ثواني بقاء الصورة المختارة</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> ث</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>مدة بقاء الصورة</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>اختر صورة: الصور وحدها تبقى مدة محددة.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7198,10 +7237,6 @@ projector %2</source>
         <translation>ما تراه هنا متوقّع من جديد. يُحفظ عند الانتقال إلى الخرج.</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>متوقّع من القياس. يستمر الخرج في العرض.</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>صورة ثابتة</translation>
     </message>
@@ -7536,6 +7571,10 @@ projector %2</source>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>يبقى دون تصحيح. السبب مذكور في خطوة القياس.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>متوقّع من القياس. يبقى الإخراج كما هو.</translation>
     </message>
 </context>
 <context>

@@ -4438,6 +4438,10 @@
         <source>Checks under way</source>
         <translation>Prüfungen laufen</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>Prüfungen beenden</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4776,6 +4780,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Ecke unten links, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>Eine Show läuft</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>Was hier begonnen wird, leuchtet an ihrer Stelle. Danach ist die Show wieder zu sehen.</translation>
     </message>
 </context>
 <context>
@@ -6561,6 +6576,30 @@ Projektor %2</translation>
         <source>The light of another step is before the show.</source>
         <translation>Vor der Show steht das Licht eines anderen Schritts.</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>Dauer eines Bildes</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1, übersprungen</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>Sekunden, die das gewählte Bild steht</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>Bild steht für</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>Wählen Sie ein Bild: Nur Bilder stehen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7042,10 +7081,6 @@ Projektor %2</translation>
         <translation>Was Sie hier sehen, ist neu vorhergesagt. Mit dem Schritt zur Ausgabe wird es gespeichert.</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>Aus der Messung vorhergesagt. Die Ausgabe läuft weiter.</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>Standbild</translation>
     </message>
@@ -7380,6 +7415,10 @@ Projektor %2</translation>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>Er bleibt unkorrigiert. Warum, steht bei Erfassen.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>Aus der Messung vorhergesagt. Die Ausgabe bleibt, wie sie ist.</translation>
     </message>
 </context>
 <context>

@@ -4438,6 +4438,10 @@
         <source>Checks under way</source>
         <translation>Comprobaciones en curso</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>Detener las comprobaciones</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4776,6 +4780,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Esquina inferior izquierda, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>Se está reproduciendo un show</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>Lo que se inicie aquí se proyecta en su lugar. El show vuelve a verse cuando termine.</translation>
     </message>
 </context>
 <context>
@@ -6561,6 +6576,30 @@ proyector %2</translation>
         <source>The light of another step is before the show.</source>
         <translation>La luz de otro paso está delante del show.</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>Duración de una imagen</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1, omitido</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>Segundos que permanece la imagen elegida</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>La imagen permanece</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>Elija una imagen: solo las imágenes permanecen.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7042,10 +7081,6 @@ proyector %2</translation>
         <translation>Lo que ve aquí está previsto de nuevo. Al pasar a la salida se guarda.</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>Previsto a partir de la medición. La salida sigue reproduciendo.</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>Imagen fija</translation>
     </message>
@@ -7380,6 +7415,10 @@ proyector %2</translation>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>Queda sin corregir. Adquisición dice por qué.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>Predicho a partir de la medición. La salida queda como está.</translation>
     </message>
 </context>
 <context>

@@ -4438,6 +4438,10 @@
         <source>Checks under way</source>
         <translation>Contrôles en cours</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>Arrêter les contrôles</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4776,6 +4780,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Coin inférieur gauche, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>Une diffusion est en cours</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>Ce qui est lancé ici est projeté à sa place. La diffusion réapparaît une fois que c’est terminé.</translation>
     </message>
 </context>
 <context>
@@ -6561,6 +6576,30 @@ projecteur %2</translation>
         <source>The light of another step is before the show.</source>
         <translation>La lumière d’une autre étape est devant la diffusion.</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>Durée d’une image</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1, ignoré</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>Secondes d’affichage de l’image choisie</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>Image affichée pendant</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>Choisissez une image : seules les images ont une durée.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7042,10 +7081,6 @@ projecteur %2</translation>
         <translation>Ce que vous voyez ici est prévu à nouveau. Passer à la sortie le garde.</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>Prévu d’après la mesure. La sortie continue de diffuser.</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>Image fixe</translation>
     </message>
@@ -7380,6 +7415,10 @@ projecteur %2</translation>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>Elle reste non corrigée. Acquisition dit pourquoi.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>Prévu d’après la mesure. La sortie reste telle quelle.</translation>
     </message>
 </context>
 <context>

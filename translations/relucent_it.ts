@@ -4438,6 +4438,10 @@
         <source>Checks under way</source>
         <translation>Controlli in corso</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>Interrompi i controlli</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4776,6 +4780,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>Angolo in basso a sinistra, %1, %2.</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>Uno show è in corso</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>Ciò che si avvia qui viene proiettato al suo posto. Lo show si rivede quando è finito.</translation>
     </message>
 </context>
 <context>
@@ -6561,6 +6576,30 @@ proiettore %2</translation>
         <source>The light of another step is before the show.</source>
         <translation>La luce di un altro passo è davanti allo show.</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>Durata di un’immagine</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1, saltato</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>Secondi per cui resta l’immagine scelta</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>L’immagine resta per</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>Scegliere un’immagine: solo le immagini hanno una durata.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7042,10 +7081,6 @@ proiettore %2</translation>
         <translation>Ciò che si vede qui è previsto di nuovo. Andando all’uscita viene conservato.</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>Previsto dalla misura. L’uscita continua a riprodurre.</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>Imm. fissa</translation>
     </message>
@@ -7380,6 +7415,10 @@ proiettore %2</translation>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>Resta non corretta. Acquisizione dice perché.</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>Previsto dalla misura. L’uscita resta com’è.</translation>
     </message>
 </context>
 <context>

@@ -4414,6 +4414,10 @@
         <source>Checks under way</source>
         <translation>確認中</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>チェックを中止</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4746,6 +4750,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>左下の角、%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>ショーを再生中です</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>ここで始めた作業の光が代わりに投影されます。終わるとショーに戻ります。</translation>
     </message>
 </context>
 <context>
@@ -6524,6 +6539,30 @@ projector %2</source>
         <source>The light of another step is before the show.</source>
         <translation>別のステップの光がショーの前に表示されています。</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>画像の表示時間</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1、スキップ</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>選んだ画像を表示する秒数</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> 秒</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>画像の表示時間</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>画像を選んでください。時間を決められるのは画像だけです。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7003,10 +7042,6 @@ projector %2</source>
         <translation>ここに表示しているのは新しい予測です。出力へ進むと保存されます。</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>測定からの予測です。出力は再生を続けています。</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>静止画</translation>
     </message>
@@ -7341,6 +7376,10 @@ projector %2</source>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>そこは補正されません。理由は「光輸送測定」にあります。</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>測定からの予測です。出力はそのままです。</translation>
     </message>
 </context>
 <context>

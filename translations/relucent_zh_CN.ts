@@ -4414,6 +4414,10 @@
         <source>Checks under way</source>
         <translation>正在检查</translation>
     </message>
+    <message>
+        <source>Stop the checks</source>
+        <translation>停止检查</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::CameraRows</name>
@@ -4746,6 +4750,17 @@
     <message>
         <source>Bottom left corner, %1, %2.</source>
         <translation>左下角，%1, %2。</translation>
+    </message>
+</context>
+<context>
+    <name>relucent::gui::DevicePage</name>
+    <message>
+        <source>A show is playing</source>
+        <translation>节目正在播放</translation>
+    </message>
+    <message>
+        <source>What is begun here shines in its place. The show is seen again once it has ended.</source>
+        <translation>在此开始的工作会代替节目投影。结束后节目重新显示。</translation>
     </message>
 </context>
 <context>
@@ -6524,6 +6539,30 @@ projector %2</source>
         <source>The light of another step is before the show.</source>
         <translation>另一步骤的光显示在节目之前。</translation>
     </message>
+    <message>
+        <source>Time of a picture</source>
+        <translation>图片的显示时间</translation>
+    </message>
+    <message>
+        <source>%1, skipped</source>
+        <translation>%1，已跳过</translation>
+    </message>
+    <message>
+        <source>Seconds that the chosen picture stands</source>
+        <translation>所选图片显示的秒数</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>Picture stands for</source>
+        <translation>图片显示时间</translation>
+    </message>
+    <message>
+        <source>Choose a picture: only pictures stand.</source>
+        <translation>请选择图片：只有图片可设显示时间。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::OutputPlaylist</name>
@@ -7003,10 +7042,6 @@ projector %2</source>
         <translation>这里显示的是重新预测的结果。前往输出即保存。</translation>
     </message>
     <message>
-        <source>Predicted from the measurement. The output goes on playing.</source>
-        <translation>根据测量预测。输出继续播放。</translation>
-    </message>
-    <message>
         <source>Still picture</source>
         <translation>静态图片</translation>
     </message>
@@ -7341,6 +7376,10 @@ projector %2</source>
     <message>
         <source>It stays uncorrected. Acquire says why.</source>
         <translation>那里保持未校正。原因见“采集”。</translation>
+    </message>
+    <message>
+        <source>Predicted from the measurement. The output stays as it is.</source>
+        <translation>根据测量预测。输出保持不变。</translation>
     </message>
 </context>
 <context>

@@ -214,10 +214,8 @@ ContentPicture Playlist::at(ContentTime time) {
   std::vector<std::shared_ptr<ContentSource>> live;
   for (const auto& source : {current_.source, next_.source, opened_.source})
     if (source && source->live()) live.push_back(source);
-  std::vector<Message> skipped;
-  for (const Skipped& one : skipped_) skipped.push_back(one.why);
   QMutexLocker lock(&statusGuard_);
-  status_ = {current_.index, std::move(skipped)};
+  status_ = {current_.index, skipped_};
   live_.swap(live);  // those of before go after the lock
   return picture;
 }

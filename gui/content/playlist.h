@@ -63,9 +63,14 @@ class Playlist : public ContentSource {
   ContentPicture at(ContentTime time) override;
   std::optional<ContentTime> length() const override { return std::nullopt; }
 
+  /// An item that could not be read when it was its turn.
+  struct Skipped {
+    qsizetype index = -1;
+    Message why;
+  };
   struct Status {
     qsizetype playing = -1;         // which item; -1 before the first
-    std::vector<Message> skipped;   // one sentence for each item that cannot be read now, the newest last
+    std::vector<Skipped> skipped;   // each item that cannot be read now, the newest last
     std::vector<LiveState> live{};  // what may be lost: of the playing item, and of the next one
   };
   /// Another item, from 0, with the usual fade as soon as it is ready. May be called from any thread.
@@ -80,12 +85,6 @@ class Playlist : public ContentSource {
     qsizetype index = -1;
     std::shared_ptr<ContentSource> source;
     ContentTime begin{0};  // of the next one, once it is ready
-  };
-
-  /// An item that could not be read when it was its turn.
-  struct Skipped {
-    qsizetype index = -1;
-    Message why;
   };
 
   ContentPicture pictureAt(ContentTime time);

@@ -205,8 +205,8 @@ qsizetype OutputProjection::playing() const {
   return isOpen() && content_ ? content_->status().playing : -1;
 }
 
-std::vector<Message> OutputProjection::skipped() const {
-  return isOpen() && content_ ? content_->status().skipped : std::vector<Message>();
+std::vector<Playlist::Skipped> OutputProjection::skipped() const {
+  return isOpen() && content_ ? content_->status().skipped : std::vector<Playlist::Skipped>();
 }
 
 std::vector<LiveState> OutputProjection::live() const {

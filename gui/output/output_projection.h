@@ -77,7 +77,7 @@ class OutputProjection : public QObject {
   /// Which item plays; -1: none.
   qsizetype playing() const;
   /// What of the list could not be read, the newest last.
-  std::vector<Message> skipped() const;
+  std::vector<Playlist::Skipped> skipped() const;
   /// What of it may be lost and come back, and how that is.
   std::vector<LiveState> live() const;
 

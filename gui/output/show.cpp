@@ -463,7 +463,9 @@ void Show::writeHealth(ShowState state) {
   state_ = state;
   tellWatch();
   const Playlist::Status content = content_ ? content_->status() : Playlist::Status{};
-  tellSkipped(content.skipped);
+  std::vector<Message> skipped;
+  std::ranges::transform(content.skipped, std::back_inserter(skipped), &Playlist::Skipped::why);
+  tellSkipped(skipped);
   try {
     writeFileAtomically(QDir(settings_.folder).filePath("health.json").toStdString(),
                         QJsonDocument(health()).toJson().toStdString());

@@ -254,7 +254,7 @@ std::optional<Banner> AcquirePage::banner() const {
     return Banner{Banner::Kind::information, tr("The last session ended before it was finished"),
                   tr("%n photograph(s) are safe. Resuming gives the same result as if nothing had happened.",
                      nullptr, kept_)};
-  return std::nullopt;
+  return overTheShow();
 }
 
 Banner AcquirePage::staleBanner() const {

@@ -217,7 +217,9 @@ void CameraPage::updateCommands() {
       isChecked() || session_.progress(calibration::Stage::camera) == calibration::StageProgress::done;
   const bool free = session_.areDevicesFree();
   keep_->show(isKept() ? tr("Continue") : tr("Keep exposures"), seen && (free || isLooking()));
-  pause_->show(tr("Pause"));
+  // The checks begin anew, the view goes on where it was.
+  pause_->setGlyph(isChecking() ? Icon::stop : Icon::pause);
+  pause_->show(isChecking() ? tr("Stop the checks") : tr("Pause"));
   again_->show(tr("Check again"), free && session_.isOpen());
   chooseAnother_->show(tr("Choose another camera"), free);
   keepFormer_->show(tr("Keep the former camera"), free);

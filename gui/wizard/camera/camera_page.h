@@ -44,6 +44,7 @@ class CameraPage : public DevicePage {
   PageCommand* primary() const override;
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
+  std::optional<Banner> banner() const override { return overTheShow(); }
   void enter() override;
   void leave() override { finish(); }
   void finish() override;

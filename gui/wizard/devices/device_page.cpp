@@ -22,4 +22,10 @@ void DevicePage::showCamera(std::size_t camera) {
   tellSettings();
 }
 
+std::optional<Banner> DevicePage::overTheShow() const {
+  if (!session_.underWay().show || session_.isSimulated() || !session_.areDevicesFree()) return std::nullopt;
+  return Banner{Banner::Kind::information, tr("A show is playing"),
+                tr("What is begun here shines in its place. The show is seen again once it has ended.")};
+}
+
 }  // namespace relucent::gui

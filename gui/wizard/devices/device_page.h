@@ -25,6 +25,8 @@ class DevicePage : public PageModel {
   void showCamera(std::size_t camera);
 
  protected:
+  /// Of a page whose work lights the projectors: while a show plays on them, that it would be covered.
+  std::optional<Banner> overTheShow() const;
   /// Another one is shown now; before settingsChanged() tells.
   virtual void projectorChanged() {}
   virtual void cameraChanged() {}

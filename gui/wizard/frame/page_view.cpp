@@ -2,7 +2,10 @@
 #include "wizard/frame/page_view.h"
 
 #include <QGuiApplication>
+#include <QKeyEvent>
+#include <QLineEdit>
 #include <QScrollArea>
+#include <QScrollBar>
 
 #include "theme/controls.h"
 #include "theme/theme.h"
@@ -57,9 +60,48 @@ void pointOut(QWidget* widget) {
   bringIntoSight(widget);
 }
 
+namespace {
+
+class LeavesUndo : public QObject {
+ public:
+  explicit LeavesUndo(QLineEdit* field) : QObject(field), field_(field) {}
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() != QEvent::ShortcutOverride || field_->isModified())
+      return QObject::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (!key->matches(QKeySequence::Undo) && !key->matches(QKeySequence::Redo)) return false;
+    event->ignore();
+    return true;
+  }
+
+ private:
+  QLineEdit* field_;
+};
+
+}  // namespace
+
+void leaveUndoToThePage(QWidget* widget, QLineEdit* field) {
+  widget->installEventFilter(new LeavesUndo(field));
+}
+
+namespace {
+
+/// Each visit of a page begins at its top, where what matters most stands.
+class InspectorScroll : public QScrollArea {
+ protected:
+  void showEvent(QShowEvent* event) override {
+    if (!event->spontaneous()) verticalScrollBar()->setValue(0);
+    QScrollArea::showEvent(event);
+  }
+};
+
+}  // namespace
+
 QWidget* inspectorCard(QVBoxLayout*& contents) {
   auto* card = new Card;
-  auto* scroll = new QScrollArea;
+  auto* scroll = new InspectorScroll;
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setFocusPolicy(Qt::NoFocus);

@@ -48,6 +48,9 @@ void bringIntoSight(QWidget* widget);
 /// seen.
 void pointOut(QWidget* widget);
 
+/// While nothing is being typed in the field of `widget`, or the field itself, undo is the page's.
+void leaveUndoToThePage(QWidget* widget, QLineEdit* field);
+
 /// The inspector's card, which scrolls where the window is low. Its contents go into the layout.
 QWidget* inspectorCard(QVBoxLayout*& contents);
 

@@ -133,7 +133,8 @@ std::optional<double> LinearizePage::progress() const {
 
 std::optional<Banner> LinearizePage::banner() const {
   if (const auto disk = room_.waiting(); disk && isMeasuring()) return fullDisk(*disk, goOn_);
-  if (isMeasuring() || !isStale()) return std::nullopt;
+  if (isMeasuring()) return std::nullopt;
+  if (!isStale()) return overTheShow();
   return Banner{Banner::Kind::amber, tr("These curves belong to earlier settings"),
                 tr("They still work and stay until the new ones are measured.")};
 }

@@ -71,6 +71,8 @@ class OutputPage : public DevicePage {
   void moveItem(qsizetype index, qsizetype by);
   void setRepeat(bool repeat);
   void setFade(double seconds);
+  /// How long a picture of the list stands; of anything else nothing changes.
+  void setPictureSeconds(qsizetype index, double seconds);
 
   /// The calibration's set in use, which plays. What plays goes on as it is until another one is prepared.
   const pipeline::TargetSets& sets() const { return session_.sets(); }

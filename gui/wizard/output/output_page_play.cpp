@@ -49,6 +49,13 @@ void OutputPage::setFade(double seconds) {
   edit(tr("Cross-fade"), after);
 }
 
+void OutputPage::setPictureSeconds(qsizetype index, double seconds) {
+  PlaylistSettings after = playlist_.settings();
+  if (index < 0 || index >= after.items.size() || !OutputPlaylist::isStill(after.items[index])) return;
+  after.items[index].seconds = seconds;
+  edit(tr("Time of a picture"), after);
+}
+
 QString OutputPage::whyNoSets() const {
   if (session_.setsFailure()) return session_.setsFailure()->what + ' ' + session_.setsFailure()->advice;
   if (playsEarlier()) return tr("Another correction plays. Show the current one first.");

@@ -2,12 +2,15 @@
 #include "wizard/output/playlist_view.h"
 
 #include <QCheckBox>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QSlider>
 #include <QUrl>
+#include <algorithm>
 #include <cmath>
 
 #include "content/content_address.h"
@@ -30,6 +33,14 @@ QStringList draggedFiles(const QMimeData& data) {
     if (url.isLocalFile()) files.append(url.toLocalFile());
   return files;
 }
+
+namespace {
+
+QString skippedText(const Message& why) {
+  return OutputPage::tr("Skipped: %1").arg(fullSentence(why));
+}
+
+}  // namespace
 
 PlaylistView::PlaylistView(OutputPage& page, QWidget* parent) : QListWidget(parent), page_(page) {
   setObjectName("playlist");
@@ -62,19 +73,26 @@ void PlaylistView::refresh() {
   while (count() > items.size()) delete takeItem(count() - 1);
   while (count() < items.size()) addItem(new QListWidgetItem);
   qsizetype playing = page_.showsChart() ? -1 : page_.projection().playing();
+  const std::vector<Playlist::Skipped> skipped = page_.projection().skipped();
   for (int i = 0; i < count(); ++i) {
     QString name = OutputPlaylist::nameOf(items[i]);
     QListWidgetItem* entry = item(i);
+    const auto wrong = std::ranges::find(skipped, i, &Playlist::Skipped::index);
+    const bool isSkipped = wrong != skipped.end();
     bool plays = i == playing, still = OutputPlaylist::isStill(items[i]);
     // Painting an icon is not for nothing: only where it changes.
-    int kind = plays ? 2 : still ? 1 : 0;
-    if (entry->text() == name && entry->data(Qt::UserRole) == kind) continue;
+    const Icon icon = isSkipped ? Icon::warning : plays ? Icon::play : still ? Icon::picture : Icon::film;
+    if (entry->text() == name && entry->data(Qt::UserRole) == static_cast<int>(icon)) continue;
     entry->setText(name);
-    entry->setData(Qt::UserRole, kind);
-    entry->setToolTip(plainToolTip(shownPath(items[i].path)));
-    entry->setIcon(plays ? iconOf(Icon::play, colours().accent)
-                         : iconOf(still ? Icon::picture : Icon::film, colours().secondary));
-    entry->setData(Qt::AccessibleTextRole, plays ? OutputPage::tr("%1, playing").arg(name) : name);
+    entry->setData(Qt::UserRole, static_cast<int>(icon));
+    const QString path = shownPath(items[i].path);
+    entry->setToolTip(plainToolTip(isSkipped ? path + '\n' + skippedText(wrong->why) : path));
+    entry->setIcon(iconOf(icon, isSkipped ? colours().amber
+                                : plays   ? colours().accent
+                                          : colours().secondary));
+    entry->setData(Qt::AccessibleTextRole, isSkipped ? OutputPage::tr("%1, skipped").arg(name)
+                                           : plays   ? OutputPage::tr("%1, playing").arg(name)
+                                                     : name);
     entry->setFont(typeOf(type::body, plays ? QFont::DemiBold : QFont::Normal));
   }
   if (count() > 0) setCurrentRow(std::clamp(row, 0, count() - 1));
@@ -119,6 +137,8 @@ void PlaylistView::dropEvent(QDropEvent* event) {
 
 namespace {
 
+constexpr double shortestPicture = 0.1, longestPicture = 86400.0;  // seconds; problems(PlaylistSettings)
+
 /// How the streams that play are doing; empty: well, or there are none.
 QString troubleText(const std::vector<LiveState>& streams) {
   QStringList lines;
@@ -132,6 +152,22 @@ QString troubleText(const std::vector<LiveState>& streams) {
       lines << OutputPage::tr("Lost: %1. %2").arg(isolated(stream.address), fullSentence(stream.problem));
   }
   return lines.join('\n');
+}
+
+/// Of the picture that is chosen in the list.
+QDoubleSpinBox* secondsBox() {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName("picture-seconds");
+  box->setAccessibleName(OutputPage::tr("Seconds that the chosen picture stands"));
+  box->setDecimals(1);
+  box->setRange(shortestPicture, longestPicture);
+  box->setSuffix(OutputPage::tr(" s"));
+  box->setKeyboardTracking(false);  // what is half typed is no time yet
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  auto* field = box->findChild<QLineEdit*>();
+  leaveUndoToThePage(box, field);
+  QObject::connect(box, &QDoubleSpinBox::editingFinished, field, [field] { field->setModified(false); });
+  return box;
 }
 
 void askForStream(OutputPage& page, QWidget* parent) {
@@ -179,6 +215,13 @@ QWidget* playlistPart(OutputPage& page) {
   screen->setToolTip(OutputPage::tr("The live picture of a screen of this computer, or of a window on it."));
   screen->setMenu(screenMenu(page, screen));
   column->addWidget(screen);
+  auto* timeRow = new QHBoxLayout;
+  QLabel* timeLabel = labelOf(OutputPage::tr("Picture stands for"));
+  auto* time = secondsBox();
+  timeLabel->setBuddy(time);
+  timeRow->addWidget(timeLabel, 1);
+  timeRow->addWidget(time);
+  column->addLayout(timeRow);
   auto* fadeRow = new ValueRow(OutputPage::tr("Cross-fade"));
   auto* fade = new QSlider(Qt::Horizontal);
   fade->setObjectName("fade");
@@ -208,25 +251,35 @@ QWidget* playlistPart(OutputPage& page) {
                    [&page, list] { page.removeItem(list->currentRow()); });
   QObject::connect(repeat, &QCheckBox::toggled, &page, &OutputPage::setRepeat);
   QObject::connect(fade, &QSlider::valueChanged, &page, [&page](int tenths) { page.setFade(tenths / 10.0); });
+  QObject::connect(time, &QDoubleSpinBox::valueChanged, &page,
+                   [&page, list](double seconds) { page.setPictureSeconds(list->currentRow(), seconds); });
   auto refresh = [=, &page] {
     const PlaylistSettings& settings = page.playlist().settings();
-    QSignalBlocker quietRepeat(repeat), quietFade(fade);
+    QSignalBlocker quietRepeat(repeat), quietFade(fade), quietTime(time);
     repeat->setChecked(settings.loop);
     fade->setValue(static_cast<int>(std::lround(10.0 * settings.fadeSeconds)));
     fadeRow->setValue(OutputPage::tr("%1 s").arg(numberText(settings.fadeSeconds)));
     bool several = settings.items.size() > 1;
     for (QToolButton* button : {up, down})
       setPossible(button, several ? QString() : OutputPage::tr("There is nothing else on the list."));
-    for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow}) widget->setVisible(several);
+    for (QWidget* widget : std::initializer_list<QWidget*>{fade, fadeRow, timeLabel, time})
+      widget->setVisible(several);
+    const int chosen = list->currentRow();
+    const bool isPicture =
+        chosen >= 0 && chosen < settings.items.size() && OutputPlaylist::isStill(settings.items[chosen]);
+    setPossible(time, isPicture ? QString() : OutputPage::tr("Choose a picture: only pictures stand."));
+    const bool isTyped = time->findChild<QLineEdit*>()->isModified();
+    if (isPicture && !(time->hasFocus() && isTyped)) time->setValue(settings.items[chosen].seconds);
     setPossible(remove, settings.items.isEmpty() ? OutputPage::tr("The playlist is empty.") : QString());
-    const std::vector<Message> wrong = page.projection().skipped();
+    const std::vector<Playlist::Skipped> wrong = page.projection().skipped();
     skipped->setVisible(!wrong.empty());
     const QString streams = troubleText(page.projection().live());
     trouble->setVisible(!streams.isEmpty());
     trouble->setText(streams);
-    if (!wrong.empty()) skipped->setText(OutputPage::tr("Skipped: %1").arg(fullSentence(wrong.back())));
+    if (!wrong.empty()) skipped->setText(skippedText(wrong.back().why));
   };
   refreshOn(page, part, refresh, &OutputPage::settingsChanged, &OutputPage::progressChanged);
+  QObject::connect(list, &QListWidget::currentRowChanged, part, refresh);
   return part;
 }
 

@@ -374,7 +374,7 @@ QString PreviewPage::hint() const {
   if (!problem_.isEmpty()) return problem_;
   if (isComputing()) return tr("Predicting");
   if (!preview_) return {};
-  if (session_.underWay().show) return tr("Predicted from the measurement. The output goes on playing.");
+  if (session_.underWay().show) return tr("Predicted from the measurement. The output stays as it is.");
   return tr("Predicted from the measurement. Nothing is projected yet.");
 }
 

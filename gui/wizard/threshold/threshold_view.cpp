@@ -66,25 +66,6 @@ QString reasonText(const ThresholdPage& model) {
       .arg(numberText(noise->cut), percentText(noise->keeps));
 }
 
-/// A field in which nothing is being typed has nothing of its own to take back.
-class LeavesUndoToThePage : public QObject {
- public:
-  explicit LeavesUndoToThePage(QLineEdit* field) : QObject(field), field_(field) {}
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() != QEvent::ShortcutOverride || field_->isModified())
-      return QObject::eventFilter(watched, event);
-    const auto* key = static_cast<QKeyEvent*>(event);
-    if (!key->matches(QKeySequence::Undo) && !key->matches(QKeySequence::Redo)) return false;
-    event->ignore();
-    return true;
-  }
-
- private:
-  QLineEdit* field_;
-};
-
 QWidget* stageOf(ThresholdPage& model) {
   auto* stage = new QWidget;
   auto* rows = new FoldingRows(stage);
@@ -146,7 +127,7 @@ QWidget* inspectorOf(ThresholdPage& model) {
   QLabel* refused = labelOf({}, "amber");
   refused->setObjectName("cut-refused");
   column->addWidget(refused);
-  typed->installEventFilter(new LeavesUndoToThePage(typed));
+  leaveUndoToThePage(typed, typed);
   column->addWidget(usePicked);
   auto* suggest = new ActionButton(QString());
   suggest->setObjectName("use-suggested");

@@ -117,7 +117,7 @@ QWidget* projectorList(VenuePage& model) {
       const QString connector = QString::fromStdString(screens[i].display.connector);
       const QString size = sizeText(screens[i].projector.width, screens[i].projector.height);
       const bool isThere = model.isPluggedIn(screens[i]);
-      const QString screen = isThere ? QString("%1, %2").arg(connector, size)
+      const QString screen = isThere ? VenuePage::tr("%1, %2").arg(connector, size)
                                      : VenuePage::tr("%1, %2, unplugged").arg(connector, size);
       const bool isSelected = screens.size() > 1 && i == model.projector();
       row.facts->setWhole(isSelected ? VenuePage::tr("%1: choose its screen").arg(screen) : screen);

@@ -419,6 +419,7 @@ class TestAcceptanceWalk : public QObject {
   /// before goes on.
   void theShowIsMeasuredOver() {
     TRY_DO(program_->click(step(4)));
+    TRY_SEEN(seen.part("banner-sentence").text == "A show is playing");
     TRY_DO(program_->clickText("Measure again"));
     TRY_SEEN(seen.part("primary").text == "Start now");
     TRY_DO(program_->click("primary"));

@@ -352,7 +352,7 @@ class TestLiveStream : public QObject {
     QCOMPARE(list.status().skipped.size(), 0u);
     codeAt(11s);
     QCOMPARE(list.status().skipped.size(), 1u);
-    const std::string sentence = english(list.status().skipped.front());
+    const std::string sentence = english(list.status().skipped.front().why);
     QVERIFY(mentions(sentence, dead.url().toStdString()) && mentions(sentence, "refused"));
     QVERIFY(sentence.find("secret") == std::string::npos);
     ContentTime time = 11s;

@@ -138,7 +138,7 @@ class TestPlaylist : public QObject {
     settledAt(playlist, 500ms);  // the missing one is found out
     QCOMPARE(grey(settledAt(playlist, 1s)), 30);
     QCOMPARE(playlist.status().skipped.size(), std::size_t{1});
-    QVERIFY(english(playlist.status().skipped.front()).find("gone.png") != std::string::npos);
+    QVERIFY(english(playlist.status().skipped.front().why).find("gone.png") != std::string::npos);
     // It is there in the next round.
     QImage late(8, 6, QImage::Format_RGB32);
     late.fill(qRgb(77, 77, 77));

@@ -167,7 +167,7 @@ class TestVideo : public QObject {
     Playlist playlist(settings, canvasOf(made));
     QTRY_COMPARE(playlist.at(0s).image.size(), canvasOf(made).size);
     QCOMPARE(playlist.status().playing, qsizetype{1});
-    QVERIFY(english(playlist.status().skipped.front()).find("broken.mp4") != std::string::npos);
+    QVERIFY(english(playlist.status().skipped.front().why).find("broken.mp4") != std::string::npos);
     QThreadPool::globalInstance()->waitForDone();
   }
 };

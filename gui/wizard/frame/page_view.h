@@ -6,6 +6,8 @@
 
 #include "wizard/frame/page_model.h"
 
+class QLineEdit;
+
 namespace relucent::gui {
 
 /// What a page looks like: the stage, and beside it the inspector with what is decided and what came out.

@@ -138,7 +138,9 @@ class TestShotJournal : public QObject {
     QFETCH(int, bytesPerSample);
     Size size{640, 48};
     Shot shot{{"linearization", 3}, fingerprint, {{frameOf(size, bits, 1)}}, {0.5}};
-    ShotJournal(folder_).keep(shot);
+    ShotJournal journal(folder_);
+    journal.keep(shot);
+    QCOMPARE(journal.bytesOfLast(), fs::file_size(onlyFileIn(folder_)));
     std::optional<Shot> found = ShotJournal(folder_).find(shot.id, fingerprint);
     QVERIFY(found);
     QVERIFY(identical(*found, shot));
@@ -220,6 +222,51 @@ class TestShotJournal : public QObject {
     QVERIFY(!journal.find({"acquisition", 1}, "0123456789abcdefffffffffffffffff"));
   }
 
+  /// Law: what a file holds counts, not its name.
+  void anotherShotUnderTheNameIsNotFound() {
+    ShotJournal journal(folder_);
+    journal.keep(shotOf(1));
+    const fs::path first = onlyFileIn(folder_);
+    fs::copy_file(first, folder_ / "acquisition-000002-01234567.shot");
+    fs::copy_file(first, folder_ / "linearization-000001-01234567.shot");
+    QVERIFY(!journal.find({"acquisition", 2}, fingerprint));
+    QVERIFY(!journal.find({"linearization", 1}, fingerprint));
+    QVERIFY(journal.find({"acquisition", 1}, fingerprint));
+  }
+
+  void onlyPlainNamesBecomeFiles_data() {
+    QTest::addColumn<std::string>("stage");
+    QTest::addColumn<std::string>("print");
+    QTest::addColumn<bool>("isPlain");
+    const std::string plain = fingerprint;
+    QTest::newRow("plain") << std::string("acquisition") << plain << true;
+    QTest::newRow("with - and _") << std::string("acquisition-1_a") << plain << true;
+    QTest::newRow("empty") << std::string() << plain << false;
+    QTest::newRow("out of the folder") << std::string("../acquisition") << plain << false;
+    QTest::newRow("point at the end") << std::string("acquisition.") << plain << false;
+    QTest::newRow("point at the beginning") << std::string(".acquisition") << plain << false;
+    QTest::newRow("space") << std::string("acquisition 1") << plain << false;
+    QTest::newRow("no fingerprint") << std::string("acquisition") << std::string() << false;
+    QTest::newRow("fingerprint out of the folder") << std::string("acquisition") << "/../" + plain << false;
+  }
+  void onlyPlainNamesBecomeFiles() {
+    QFETCH(std::string, stage);
+    QFETCH(std::string, print);
+    QFETCH(bool, isPlain);
+    ShotJournal journal(folder_);
+    Shot shot = shotOf(1, {3, 2});
+    shot.id.stage = stage;
+    shot.fingerprint = print;
+    if (isPlain) {
+      journal.keep(shot);
+      QVERIFY(journal.find(shot.id, print));
+    } else {
+      QVERIFY_THROWS_EXCEPTION(std::logic_error, journal.keep(shot));
+      QVERIFY_THROWS_EXCEPTION(std::logic_error, journal.find(shot.id, print));
+    }
+    QCOMPARE(filesIn(folder_).size(), isPlain ? 1u : 0u);
+  }
+
   void shotsOfOtherSettingsStay() {
     ShotJournal journal(folder_);
     Shot first = shotOf(1);
@@ -294,9 +341,11 @@ class TestShotJournal : public QObject {
   void openingClearsLeftoversAndNothingElse() {
     createFolder(folder_);
     std::ofstream(folder_ / ".acquisition-000001-01234567.part99.shot") << "half";
-    std::ofstream(folder_ / "notes.txt") << "mine";
+    const std::set<fs::path> others{folder_ / "notes.txt", folder_ / ".hidden.shot", folder_ / ".a.part1.txt",
+                                    folder_ / "a.part1.shot"};
+    for (const fs::path& other : others) std::ofstream(other) << "mine";
     ShotJournal journal(folder_);
-    QCOMPARE(onlyFileIn(folder_).filename(), fs::path("notes.txt"));
+    QVERIFY(filesIn(folder_) == others);
   }
 
   void aFullDiskIsAnErrorAndDamagesNothing() {

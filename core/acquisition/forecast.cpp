@@ -18,6 +18,7 @@ constexpr PatternRange nextColours{0.2, 0.7, 1.5};
 // A level of which more blocks than this have a colour of their own says nothing about the next.
 constexpr double limitedByBlocks = 0.5;
 constexpr int enoughShots = 40;
+constexpr double enoughPatterns = 20.0;
 // Of dense patterns, at the first level, the following ones and the finest; what venues took at 0.012.
 constexpr struct {
   PatternRange first, middle, finest;
@@ -25,9 +26,9 @@ constexpr struct {
 // How they grow with the threshold, and the fewest of a level.
 constexpr double densePower = -0.5;
 constexpr double fewestDense = 8.0;
-// A check is made after 20 to 40 of them.
-constexpr double denseCheckInterval = 30.0;
-// Of four dense patterns one at most has another exposure; references and checks have all of them.
+// Shots of black and the reference picture: before and after levels, and between so many patterns.
+constexpr double denseChecks = 10.0, densePatternsACheck = 25.0;
+// Of four dense patterns one at most has another exposure.
 constexpr double denseExposures = 1.2;
 
 constexpr double leavesPerPixel = 120.0;
@@ -89,6 +90,45 @@ std::vector<PatternRange> densePatternsOf(const Rasters& projectors, double thre
   return patterns;
 }
 
+/// Shots of the checks among so many dense patterns, and patterns among so many shots that are either.
+///   checks = 10 + patterns / 25
+double denseChecksAmong(double patterns) {
+  return denseChecks + patterns / densePatternsACheck;
+}
+double patternsAmong(double shots) {
+  return std::max(0.0, (shots - denseChecks) / (1.0 + 1.0 / densePatternsACheck));
+}
+
+/// What is still to be photographed by one camera, and how long each of it is exposed on average.
+struct Photographs {
+  double count = 0.0, meanExposure = 0.0;
+};
+
+/// Of dense patterns: references and checks have all exposures, the patterns between them few. Of those what
+/// was seen so far counts, as far as these shots were taken, not read.
+///   count = exposures * references and checks + exposures a pattern * patterns
+Photographs densePhotographsLeft(const ForecastDevices& devices, double references, double all, double left,
+                                 const AcquisitionState& state) {
+  const auto whole = static_cast<double>(devices.exposures), shots = static_cast<double>(state.shots);
+  // The checks come evenly.
+  const double checks = denseChecksAmong(patternsAmong(all - references));
+  const double through = std::clamp((shots - references) / (all - references), 0.0, 1.0);
+  const double seen = std::min(shots, references) + checks * through;
+  const double bracketed = std::clamp(references + checks - seen, 0.0, left);
+  double each = std::min(denseExposures, whole), exposure = devices.meanExposure;
+  const double patterns = state.times.shots - seen;
+  if (state.times.shots >= state.shots && patterns >= enoughPatterns) {
+    const auto cameras = static_cast<double>(devices.cameras.devices());
+    const double taken = static_cast<double>(state.times.exposures) / cameras - whole * seen;
+    const double asked = state.times.asked / cameras - whole * devices.meanExposure * seen;
+    each = std::clamp(taken / patterns, 1.0, whole);
+    if (taken > 0.0 && asked > 0.0) exposure = asked / taken;
+  }
+  const double ofReferences = whole * bracketed, ofPatterns = each * (left - bracketed);
+  const double count = ofReferences + ofPatterns;
+  return {count, count > 0.0 ? (ofReferences * devices.meanExposure + ofPatterns * exposure) / count : 0.0};
+}
+
 }  // namespace
 
 std::vector<PatternRange> levelPatterns(const Rasters& projectors, std::size_t lights,
@@ -141,6 +181,12 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   const Rasters& projectors = devices.projectors;
   auto projectorCount = static_cast<double>(projectors.devices());
   std::vector<PatternRange> levels = levelPatterns(projectors, settings, state.levels);
+  // The finest level of dense patterns grows for as long as it is worth it.
+  if (settings.scheme == AcquisitionScheme::multiplexed && state.levels.size() == levels.size()) {
+    const PatternRange finest = levelPatterns(projectors, settings, {}).back();
+    levels.back().likely = std::max(levels.back().likely, finest.likely);
+    levels.back().most = std::max(levels.back().most, finest.most);
+  }
 
   // Everything that is not the tree: references, the first look, the test patterns.
   double orientation = projectorCount > 1.0 ? projectorCount : 0.0;  // the only one's shows in the check
@@ -153,9 +199,9 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
     // One check before every level but the first, one before the test patterns and one after them.
     double all = references + testing + pair;
     if (settings.scheme == AcquisitionScheme::multiplexed) {
-      double patterns = 0.0;
+      double patterns = settings.verificationPatterns;
       for (const PatternRange& level : levels) patterns += level.*member;
-      return all + patterns + pair * std::floor(patterns / denseCheckInterval);
+      return references + patterns + denseChecksAmong(patterns);
     }
     for (const PatternRange& level : levels)
       if (level.*member > 0.0)
@@ -174,17 +220,18 @@ WorkLeft forecast(const ForecastDevices& devices, const AcquisitionSettings& set
   bool all = settings.scheme == AcquisitionScheme::sen || settings.singleExposure;
   double usual =
       settings.singleExposure ? 1.0 : std::min<double>(2.0, static_cast<double>(devices.exposures));
-  if (settings.scheme == AcquisitionScheme::multiplexed && !settings.singleExposure) usual = denseExposures;
   double perShot = all ? (settings.singleExposure ? 1.0 : static_cast<double>(devices.exposures)) : usual;
-  double seconds = devices.meanExposure;
-  if (enough) {
-    perShot = static_cast<double>(state.times.exposures) / state.times.shots /
-              static_cast<double>(cameras.devices());
-    seconds = state.times.asked / state.times.exposures;
-  }
-  auto photographs = perShot * static_cast<double>(cameras.devices()) * work.shots;
-  work.exposures = static_cast<int>(std::round(perShot * work.shots));
-  work.seconds = work.shots * times.shotSeconds() + photographs * times.exposureSeconds(seconds);
+  Photographs ofCamera{perShot * work.shots, devices.meanExposure};
+  if (settings.scheme == AcquisitionScheme::multiplexed && !settings.singleExposure)
+    ofCamera = densePhotographsLeft(devices, references, total(&PatternRange::likely), work.shots, state);
+  else if (enough)
+    ofCamera = {static_cast<double>(state.times.exposures) / state.times.shots /
+                    static_cast<double>(cameras.devices()) * work.shots,
+                state.times.asked / state.times.exposures};
+  const double photographs = ofCamera.count * static_cast<double>(cameras.devices());
+  work.exposures = static_cast<int>(std::round(ofCamera.count));
+  work.seconds =
+      work.shots * times.shotSeconds() + photographs * times.exposureSeconds(ofCamera.meanExposure);
   // Little of it lies between the first patterns, and nothing between the benchmark's.
   if (settings.scheme == AcquisitionScheme::multiplexed && work.shots > 0) {
     const double computing = denseComputing * static_cast<double>(cameras.count()) * work.shots /

@@ -22,10 +22,15 @@ class Listener : public ProgressSink {
     const std::string name = english(stage);
     if (name.starts_with("level") && (levels.empty() || levels.back() != name)) levels.push_back(name);
   }
-  void expected(const WorkLeft& work) override { told.push_back(work); }
+  void expected(const WorkLeft& work) override {
+    told.push_back(work);
+    if (taken != nullptr) before.push_back(*taken);
+  }
 
   std::vector<std::string> levels;
   std::vector<WorkLeft> told;
+  const int* taken = nullptr;  // how many photographs there are
+  std::vector<int> before;     // each expectation
 };
 
 Venue venueOf(Size projector, Size camera, double interreflection, std::uint64_t seed) {
@@ -233,6 +238,56 @@ class TestForecast : public QObject {
         forecast({Rasters(Size{24, 18}), Rasters(Size{32, 24}), 2, 0.1}, venue.settings, {}, state);
     QCOMPARE(all.shots, acquisition.patterns);
     QCOMPARE(all.leastShots, all.mostShots);
+  }
+
+  /// Law: of dense patterns as many photographs are foretold as are then taken, although references and
+  /// checks have every exposure and patterns one, rarely two: up to the fifth that may need another one.
+  void photographsOfDensePatternsAreForetold_data() {
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("exposures");
+    QTest::addColumn<quint64>("seed");
+    for (int width : {32, 64})
+      for (int exposures : {1, 2, 4})
+        for (quint64 seed : {1, 2})
+          QTest::addRow("%d wide, %d exposures, %d", width, exposures, int(seed))
+              << width << exposures << seed;
+  }
+  void photographsOfDensePatternsAreForetold() {
+    QFETCH(int, width);
+    QFETCH(int, exposures);
+    QFETCH(quint64, seed);
+    Venue venue = venueOf({width, 3 * width / 4}, {width / 4 * 3, width / 2}, 0.2, seed);
+    venue.settings = settingsOf(AcquisitionMode::multiplexed);
+    venue.settings.flagRelative = 10.0;
+    venue.exposures.clear();
+    for (int i = 0; i < exposures; ++i) venue.exposures.push_back(0.05 * std::pow(4.0, exposures - 1 - i));
+    Listener listener;
+    StopRequest stop;
+    class CountingLog : public NoShotLog {
+     public:
+      void keep(const Shot& shot) override { exposures += static_cast<int>(shot.frames.size()); }
+      int exposures = 0;
+    } log;
+    listener.taken = &log.exposures;
+    Acquisition acquisition = Run(venue)(log, Progress(listener, stop));
+    QCOMPARE(log.exposures, acquisition.exposures);
+    const int left = acquisition.exposures - listener.before.back();
+    const WorkLeft &first = listener.told.front(), &last = listener.told.back();
+    const QByteArray figures = QString("at first %1 of %2 shots, were %3 of %4; at last %5, were %6")
+                                   .arg(first.exposures)
+                                   .arg(first.shots)
+                                   .arg(acquisition.exposures)
+                                   .arg(acquisition.patterns)
+                                   .arg(last.exposures)
+                                   .arg(left)
+                                   .toLocal8Bit();
+    qInfo("%s", figures.constData());
+    const auto isNear = [](double foretold, double was) { return std::abs(foretold - was) <= 0.25 * was; };
+    QVERIFY2(isNear(first.exposures, acquisition.exposures), figures.constData());
+    QVERIFY2(
+        isNear(double(first.exposures) / first.shots, double(acquisition.exposures) / acquisition.patterns),
+        figures.constData());
+    QVERIFY2(last.exposures >= 0.75 * left, figures.constData());  // checks gather at the end
   }
 
   /// What is measured replaces the benchmark.

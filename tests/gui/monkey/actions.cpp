@@ -39,7 +39,7 @@ double weightOf(const QJsonObject& usable) {
 QString typed(const QString& name, const QString& folder, std::mt19937& random) {
   if (name.contains("folder")) return folder + oneOf(QStringList{"", "/Other", "/New"}, random);
   return oneOf(QStringList{"", "0", "1", "9", "-5", "12", "3.75", "99999999", "Walk", "A name with spaces",
-                           "%1 %n", "18:00", "127.0.0.1", "rtsp://127.0.0.1/x"},
+                           "50 % or so", "18:00", "127.0.0.1", "rtsp://127.0.0.1/x"},
                random);
 }
 

@@ -169,6 +169,7 @@ void Walk::noteLoop(const QJsonObject& loop, std::set<QString>& known) {
   for (std::size_t i = 0; i < result_.waits.counts.size() && i < static_cast<std::size_t>(waits.size()); ++i)
     result_.waits.counts[i] += waits[static_cast<qsizetype>(i)].toInt();
   result_.waits.longest = std::max(result_.waits.longest, loop["longest"].toDouble());
+  if (!findsWaits_) return;
   for (const QJsonValue& block : loop["blocks"].toArray()) {
     QStringList frames;
     for (const QJsonValue& frame : block["where"].toArray()) frames << frame.toString();
@@ -218,7 +219,8 @@ void Walk::found(const QString& what, std::set<QString>& known) {
   qWarning("%s", qPrintable(result_.findings.last()));
 }
 
-WalkResult Walk::run(int actions, std::set<QString>& known, double mostSeconds) {
+WalkResult Walk::run(int actions, std::set<QString>& known, double mostSeconds, bool findsWaits) {
+  findsWaits_ = findsWaits;
   QElapsedTimer since;
   since.start();
   const int before = room_.photographs();

@@ -37,8 +37,9 @@ class Walk {
   Walk(unsigned seed, FailingRoom& room, QDir home, QDir venues, QDir stock);
   ~Walk();
 
-  /// `known`: what was found before, which is not told again.
-  WalkResult run(int actions, std::set<QString>& known, double mostSeconds);
+  /// `known`: what was found before, which is not told again. `findsWaits`: a loop that leaves others waiting
+  /// for more than a second is something that was found; otherwise only one that hangs is.
+  WalkResult run(int actions, std::set<QString>& known, double mostSeconds, bool findsWaits);
 
  private:
   void start();
@@ -60,7 +61,7 @@ class Walk {
   FailingRoom& room_;
   QDir home_, venues_;
   QString opened_;  // the venue that the program begins with; empty: none
-  bool leads_ = false;
+  bool leads_ = false, findsWaits_ = true;
   std::unique_ptr<test::DrivenProgram> program_;
   Invariants invariants_;
   QStringList actions_;

@@ -5,7 +5,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <QCoreApplication>
+#include <QThread>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -65,17 +65,12 @@ EventLoopWatch::EventLoopWatch() {
   ::backtrace(frames, 1);  // loads what it needs, which a signal's handler must not
   std::signal(SIGUSR2, noteFrames);
   for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, tellCrash);
-  connect(qApp, &QCoreApplication::aboutToQuit, this, &EventLoopWatch::stop);
   thread_ = std::thread([this] { watch(); });
 }
 
 EventLoopWatch::~EventLoopWatch() {
-  stop();
-}
-
-void EventLoopWatch::stop() {
   ends_ = true;
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
 double EventLoopWatch::waitedMilliseconds(Clock::time_point now) const {
@@ -116,7 +111,7 @@ void EventLoopWatch::received() {
   const double waited = waitedMilliseconds(Clock::now());
   isOnItsWay_ = false;
   // The first one waits until the program has been made and its loop begins.
-  if (std::exchange(isFirst_, false)) return;
+  if (std::exchange(isFirst_, QThread::currentThread()->loopLevel() == 0)) return;
   longest_ = std::max(longest_, waited);
   const auto part = std::ranges::lower_bound(parts, waited) - parts.begin();
   ++waits_[static_cast<std::size_t>(part)];

@@ -17,7 +17,7 @@ namespace relucent::test {
 /// soon as the one before was received; from the time between, what the computer gave to other programs
 /// meanwhile is taken off (/proc/self/task/.../schedstat). A wait that is too long is kept with the functions
 /// in which the loop was in its middle. A loop that does not answer in `hung` is told on standard error, with
-/// these, and the program aborted. So is one that crashes.
+/// these, and the program aborted; one that never ends after its loop, too. A crash is told as well.
 class EventLoopWatch : public QObject {
  public:
   using Clock = std::chrono::steady_clock;
@@ -34,7 +34,6 @@ class EventLoopWatch : public QObject {
 
  private:
   void watch();
-  void stop();
   void received();
   double waitedMilliseconds(Clock::time_point now) const;
 

@@ -9428,6 +9428,10 @@ projector %2</source>
         <source>%1, %2, unplugged</source>
         <translation>%1، %2، مفصول</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>بقدر ما للشاشة المختارة.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

@@ -9224,6 +9224,10 @@ Projektor %2</translation>
         <source>%1, %2, unplugged</source>
         <translation>%1, %2, ausgesteckt</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>So viele, wie der gewählte Bildschirm hat.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

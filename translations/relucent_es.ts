@@ -9224,6 +9224,10 @@ proyector %2</translation>
         <source>%1, %2, unplugged</source>
         <translation>%1, %2, desconectada</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>Tantos como tiene la pantalla elegida.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

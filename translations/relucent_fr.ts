@@ -9224,6 +9224,10 @@ projecteur %2</translation>
         <source>%1, %2, unplugged</source>
         <translation>%1, %2, débranché</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>Autant que l’écran choisi en a.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

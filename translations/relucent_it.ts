@@ -9224,6 +9224,10 @@ proiettore %2</translation>
         <source>%1, %2, unplugged</source>
         <translation>%1, %2, scollegato</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>Tanti quanti ne ha lo schermo scelto.</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

@@ -9173,6 +9173,10 @@ projector %2</source>
         <source>%1, %2, unplugged</source>
         <translation>%1、%2、未接続</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>選んだ画面の画素数と同じです。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

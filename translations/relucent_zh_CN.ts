@@ -9173,6 +9173,10 @@ projector %2</source>
         <source>%1, %2, unplugged</source>
         <translation>%1，%2，已拔出</translation>
     </message>
+    <message>
+        <source>As many as the chosen screen has.</source>
+        <translation>与所选屏幕的像素数相同。</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::VenueTidy</name>

@@ -95,6 +95,8 @@ class WindowProjector::Stage : public QObject {
         shared_(std::move(shared)),
         waiting_(std::move(waiting)),
         waking_(waking) {}
+  /// Nobody waits any more, wherever the screen is.
+  ~Stage() override { reportWaiting(false); }
 
   void present(quint64 number, const QImage& drive) {
     if (!window_) build();

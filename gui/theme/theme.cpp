@@ -49,6 +49,8 @@ Theme& Theme::instance() {
 
 void Theme::apply(Look look) {
   look_ = look;
+  // Under a style sheet, style, palette and font would each have all widgets styled again.
+  qApp->setStyleSheet({});
   QApplication::setStyle(new BaseStyle);
   QApplication::setPalette(paletteOf(colours()));
   QApplication::setFont(typeOf(type::body));

@@ -90,6 +90,14 @@ DrivenProgram::~DrivenProgram() {
   kill();
 }
 
+void DrivenProgram::watch(const QString& errors) {
+  QProcessEnvironment with = process_.processEnvironment();
+  with.insert("QT_QPA_GENERIC_PLUGINS", "hand:watch");
+  process_.setProcessEnvironment(with);
+  process_.setProcessChannelMode(QProcess::SeparateChannels);
+  process_.setStandardErrorFile(errors, QIODevice::Append);
+}
+
 void DrivenProgram::start(const QString& program, const QStringList& arguments) {
   process_.start(program, arguments);
   process_.waitForStarted();

@@ -48,6 +48,9 @@ class DrivenProgram {
   DrivenProgram(const QString& plugins, const QProcessEnvironment& environment);
   ~DrivenProgram();
 
+  /// Before it starts: how long its event loop leaves others waiting is noted
+  /// (support/hand/event_loop_watch.h), and what it says on standard error goes to a file.
+  void watch(const QString& errors);
   void start(const QString& program, const QStringList& arguments = {});
   void kill();
   /// As a desktop asks that ends.
@@ -68,9 +71,10 @@ class DrivenProgram {
   int pixels(const QString& name, const QColor& colour);
   /// A view with a picture in it: not all of one colour.
   bool holdsPicture(const QString& name);
+  /// Whatever else the hand knows: {"do": ...}. {"failed": why} where it does not.
+  QJsonObject ask(const QJsonObject& wish);
 
  private:
-  QJsonObject ask(const QJsonObject& wish);
   QString done(const QJsonObject& wish) { return ask(wish)["failed"].toString(); }
 
   QProcess process_;

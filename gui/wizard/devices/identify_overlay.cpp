@@ -99,6 +99,7 @@ IdentifyOverlay::IdentifyOverlay(QObject* parent) : QObject(parent) {
   connect(&leaving_, &QTimer::timeout, this, &IdentifyOverlay::hide);
   // A window whose screen goes would move to the operator's.
   connect(qGuiApp, &QGuiApplication::screenRemoved, this, &IdentifyOverlay::hide);
+  if (parent != nullptr) parent->installEventFilter(this);
 }
 
 IdentifyOverlay::~IdentifyOverlay() = default;
@@ -116,7 +117,14 @@ void IdentifyOverlay::show() {
 
 void IdentifyOverlay::hide() {
   leaving_.stop();
+  // Not only away: the program ends when the last window is closed.
+  for (const auto& window : windows_) window->close();
   windows_.clear();
+}
+
+bool IdentifyOverlay::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == parent() && event->type() == QEvent::Hide) hide();
+  return QObject::eventFilter(watched, event);
 }
 
 }  // namespace relucent::gui

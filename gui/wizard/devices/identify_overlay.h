@@ -16,7 +16,8 @@ int screenNumber(const QScreen& screen);
 QString screenTitle(const QScreen& screen);
 
 /// On every screen but the operator's: its number and name, and lines of one pixel at its edge and within. If
-/// they are not sharp, the projector scales its picture. It leaves after eight seconds, or when it is hidden.
+/// they are not sharp, the projector scales its picture. It leaves after eight seconds, when it is
+/// hidden, or with its parent, the widget that offers it: closed, the program does not wait for it.
 class IdentifyOverlay : public QObject {
   Q_OBJECT
 
@@ -27,6 +28,9 @@ class IdentifyOverlay : public QObject {
   bool isShown() const { return !windows_.empty(); }
   void show();
   void hide();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   std::vector<std::unique_ptr<QWindow>> windows_;

@@ -135,7 +135,9 @@ void ActionBar::refresh() {
   std::optional<double> fraction = page.progress();
   progress_->setValue(static_cast<int>(1000.0 * fraction.value_or(0.0)));
   // The bar keeps its place, so that nothing moves when a measurement begins.
-  progress_->setStyleSheet(fraction ? QString() : QString("QProgressBar { background: transparent; }"));
+  const QString sheet = fraction ? QString() : QString("QProgressBar { background: transparent; }");
+  // The same once more would style it again, several times a second while somebody measures.
+  if (progress_->styleSheet() != sheet) progress_->setStyleSheet(sheet);
   refreshSecondary(page.secondary());
   arrange();
 }

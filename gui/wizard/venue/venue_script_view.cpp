@@ -2,6 +2,7 @@
 #include <QLineEdit>
 #include <QSpinBox>
 
+#include "theme/action_button.h"
 #include "theme/controls.h"
 #include "theme/theme.h"
 #include "wizard/frame/page_view.h"
@@ -25,6 +26,10 @@ QLineEdit* commandLine(VenuePage& model, QVBoxLayout* column, const QString& nam
   });
   column->addWidget(line);
   return line;
+}
+
+QString whySizeIsFixed() {
+  return VenuePage::tr("As many as the chosen screen has.");
 }
 
 }  // namespace
@@ -70,12 +75,19 @@ QWidget* scriptInspector(VenuePage& model) {
     });
     QObject::connect(&model, &VenuePage::settingsChanged, box, [&model, box, side] {
       QSignalBlocker quiet(box);
-      box->setEnabled(!model.isScriptOnScreen());
+      setPossible(box, !model.isScriptOnScreen(), whySizeIsFixed());
       box->setValue(model.script().projector.*side);
     });
     row->addWidget(box);
   }
   column->addLayout(row);
+  QLabel* fixed = labelOf({}, "note");
+  column->addWidget(fixed);
+  QObject::connect(&model, &VenuePage::settingsChanged, fixed, [&model, fixed] {
+    fixed->setText(model.isScriptOnScreen() ? whySizeIsFixed() : QString());
+    fixed->setVisible(model.isScriptOnScreen());
+  });
+  fixed->hide();
   column->addWidget(lineOf());
   column->addWidget(keepingPart(model));
   column->addStretch(1);

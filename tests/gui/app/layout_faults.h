@@ -13,15 +13,10 @@
 #include <QTableWidget>
 #include <QToolButton>
 
-#include "theme/readout.h"
-#include "views/cut_histogram.h"
-#include "views/line_chart.h"
-#include "wizard/frame/step_rail.h"
-#include "wizard/venue/tile.h"
-
 namespace relucent::gui {
 
-/// Where a layout gives a widget less room than its text needs.
+/// Where a layout gives a widget less room than its text needs. Our own widgets are known by their names, so
+/// that it also looks into a program that it is not linked with.
 class LayoutFaults {
  public:
   /// Of all that is visible in a window which has been laid out: the widget, what is wrong, its text.
@@ -56,7 +51,7 @@ class LayoutFaults {
     if (const auto* label = qobject_cast<const QLabel*>(&widget)) {
       text = label->text();
       // What is elided is read whole where the pointer rests.
-      if (!text.isEmpty() && qobject_cast<const ElidedLabel*>(label) == nullptr) lookAt(*label);
+      if (!text.isEmpty() && !label->inherits("relucent::gui::ElidedLabel")) lookAt(*label);
     } else if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) {
       text = button->text();
       if (!text.isEmpty()) lookAt(*button);
@@ -71,10 +66,11 @@ class LayoutFaults {
       lookAt(*table);
     } else if (const auto* list = qobject_cast<const QListWidget*>(&widget)) {
       lookAt(*list);
-    } else if (const auto* readout = qobject_cast<const Readout*>(&widget)) {
-      text = readout->accessibleName();
-      need(*readout, text, readout->sizeHint());
-    } else if (qobject_cast<const LineChart*>(&widget) || qobject_cast<const CutHistogram*>(&widget)) {
+    } else if (widget.inherits("relucent::gui::Readout")) {
+      text = widget.accessibleName();
+      need(widget, text, widget.sizeHint());
+    } else if (widget.inherits("relucent::gui::LineChart") ||
+               widget.inherits("relucent::gui::CutHistogram")) {
       text = widget.accessibleName();
       need(widget, text, widget.minimumSizeHint());
     }
@@ -90,7 +86,7 @@ class LayoutFaults {
   }
   void lookAt(const QAbstractButton& button) {
     bool wraps = button.hasHeightForWidth();
-    bool elides = qobject_cast<const StepButton*>(&button) != nullptr;
+    bool elides = button.inherits("relucent::gui::StepButton");
     need(button, button.text(), wraps || elides ? button.minimumSizeHint() : button.sizeHint());
     if (wraps) need(button, button.text(), 0, button.heightForWidth(button.width()));
   }

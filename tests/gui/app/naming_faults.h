@@ -14,8 +14,6 @@
 #include <QTableWidget>
 #include <QWidget>
 
-#include "theme/controls.h"
-
 namespace relucent::gui {
 
 /// What a screen reader has no words for: a widget that takes the focus and has no name or is said to be
@@ -52,7 +50,7 @@ class NamingFaults {
                            qobject_cast<const QAbstractSlider*>(&widget) != nullptr ||
                            qobject_cast<const QAbstractSpinBox*>(&widget) != nullptr ||
                            qobject_cast<const QLineEdit*>(&widget) != nullptr ||
-                           qobject_cast<const Segmented*>(&widget) != nullptr;
+                           widget.inherits("relucent::gui::Segmented");
     return isControl && widget.testAttribute(Qt::WA_ForceDisabled) &&
            qobject_cast<const QScrollBar*>(&widget) == nullptr;
   }

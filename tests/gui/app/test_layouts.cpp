@@ -330,6 +330,9 @@ class TestLayouts : public QObject {
     for (const ScreenChoice& choice : venue.screensToChoose())
       if (choice.refusal.isEmpty() && venue.projectors().empty()) venue.chooseScreen(choice);
     QVERIFY(venue.projectors().size() == 1 && venue.needsConsent());
+    // By script, too, it is a screen: its size is its own, which is said.
+    for (const ScreenChoice& choice : venue.screensToChoose())
+      if (choice.refusal.isEmpty()) venue.chooseScriptScreen(choice);
     inEveryLanguage([this](const QString& language) {
       QStringList faults;
       for (auto [mode, name] :

@@ -152,6 +152,18 @@ class TestWindowProjector : public QObject {
     QVERIFY(stoodBefore && !stoodAfter && rightAgain && !waits);
   }
 
+  /// Law: a projector that goes is waited for by nobody, though its screen is still away.
+  void itWaitsNoMoreWhenItGoes() {
+    std::atomic<bool> waits = false;
+    {
+      WindowProjector projector = made([&waits](bool missing) { waits = missing; });
+      QCOMPARE(onWorker([&] { projector.show(noiseOf(1)); }), std::string());
+      unplug();
+      QTRY_VERIFY(waits);
+    }
+    QVERIFY(!waits);
+  }
+
   void displaysThatSleepAreWokenAndGivenTheirTime_data() { addWaysToSleep(); }
   void displaysThatSleepAreWokenAndGivenTheirTime() {
     QFETCH(QStringList, sleep);

@@ -22,7 +22,33 @@ Q_DECLARE_METATYPE(std::optional<Icon>)
 class TestControls : public QObject {
   Q_OBJECT
 
+  /// Sees whether a style sheet is in force when style, palette or type first change.
+  class Witness : public QWidget {
+   public:
+    std::optional<bool> isStyled;
+
+   protected:
+    void changeEvent(QEvent* event) override {
+      const bool isLook = event->type() == QEvent::StyleChange || event->type() == QEvent::PaletteChange ||
+                          event->type() == QEvent::FontChange;
+      if (isLook && !isStyled) isStyled = !qApp->styleSheet().isEmpty();
+    }
+  };
+
  private slots:
+  /// Law: another look is worked out once for each widget. Under a sheet, palette and type would be too,
+  /// which took the whole wizard four times as long: over two seconds.
+  void aLookIsWorkedOutOnce() {
+    Theme::instance().apply(Look::light);
+    Witness witness;
+    witness.show();
+    witness.isStyled.reset();
+    Theme::instance().apply(Look::dark);
+    QCOMPARE(witness.isStyled, std::optional(false));
+    QVERIFY(!qApp->styleSheet().isEmpty());
+    qApp->setStyleSheet({});
+  }
+
   /// Law: a figure is never cut, however little room its caption has.
   void aReadoutShowsItsFigure() {
     Readout readout("milliseconds");

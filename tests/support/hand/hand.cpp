@@ -6,12 +6,14 @@
 #include <QAbstractButton>
 #include <QApplication>
 #include <QCheckBox>
+#include <QJsonArray>
 #include <QJsonDocument>
-#include <QScrollArea>
+#include <QTimer>
 #include <QWindow>
 #include <QtTest>
 
 #include "support/hand/seen_widgets.h"
+#include "support/hand/window_faults.h"
 
 namespace relucent::test {
 namespace {
@@ -46,12 +48,6 @@ QWidget* find(const QJsonObject& wish, bool used) {
   return hidden;
 }
 
-/// As somebody turns the wheel.
-void scrollTo(QWidget& widget) {
-  for (QWidget* above = widget.parentWidget(); above != nullptr; above = above->parentWidget())
-    if (auto* area = qobject_cast<QScrollArea*>(above)) area->ensureWidgetVisible(&widget, 20, 20);
-}
-
 /// By the window system's way, which other windows may block.  Empty, or why it cannot be done.
 QString press(QWidget& widget, QPoint where) {
   scrollTo(widget);
@@ -82,9 +78,25 @@ QJsonObject pressKeys(const QString& keys) {
   return {};
 }
 
+/// The main window, by its frame. What it does may begin a loop of its own.
+QJsonObject changeWindow(const QJsonObject& wish) {
+  for (QWidget* window : windowsFromTheFront()) {
+    if (!window->inherits("QMainWindow")) continue;
+    QTimer::singleShot(0, window, [window, wish] {
+      if (wish["do"].toString() == "close")
+        window->close();
+      else
+        window->resize(wish["width"].toInt(), wish["height"].toInt());
+    });
+    return {};
+  }
+  return refusal("there is no window");
+}
+
 }  // namespace
 
-Hand::Hand() : input_(input, QSocketNotifier::Read) {
+Hand::Hand(bool watches)
+    : input_(input, QSocketNotifier::Read), watch_(watches ? std::make_unique<EventLoopWatch>() : nullptr) {
   connect(&input_, &QSocketNotifier::activated, this, &Hand::read);
 }
 
@@ -110,6 +122,17 @@ void Hand::read() {
 QJsonObject Hand::answer(const QJsonObject& wish) {
   const QString what = wish["do"].toString();
   if (what == "look") return allInSight();
+  if (what == "survey")
+    return {{"usable", usable_.survey()},
+            {"faults", QJsonArray::fromStringList(windowFaults())},
+            {"progress", progressInSight()},
+            {"loop", watch_ ? watch_->report() : QJsonObject()}};
+  if (what == "use") return {{"failed", usable_.use(wish)}};
+  if (what == "resize" || what == "close") return changeWindow(wish);
+  if (what == "shortcut") {
+    QTimer::singleShot(0, this, [keys = wish["keys"].toString()] { pressKeys(keys); });
+    return {};
+  }
   if (what == "keys") return pressKeys(wish["keys"].toString());
   QWidget* widget = find(wish, what == "click" || what == "type");
   if (widget == nullptr)
@@ -126,8 +149,8 @@ QJsonObject Hand::answer(const QJsonObject& wish) {
   return refusal("nobody knows how to " + what);
 }
 
-QObject* HandPlugin::create(const QString&, const QString&) {
-  return new Hand;
+QObject* HandPlugin::create(const QString&, const QString& specification) {
+  return new Hand(specification == "watch");
 }
 
 }  // namespace relucent::test

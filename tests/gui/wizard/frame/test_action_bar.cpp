@@ -4,6 +4,7 @@
 
 #include <QGuiApplication>
 #include <QLabel>
+#include <QProgressBar>
 #include <QStyleHints>
 #include <QtTest>
 
@@ -58,6 +59,15 @@ class ScriptedPage : public PageModel {
   PageCommand *hold_, *dark_, *end_;
 };
 
+class StyleCount : public QObject {
+ public:
+  int changes = 0;
+  bool eventFilter(QObject*, QEvent* event) override {
+    changes += event->type() == QEvent::StyleChange;
+    return false;
+  }
+};
+
 }  // namespace
 
 class TestActionBar : public QObject {
@@ -97,6 +107,14 @@ class TestActionBar : public QObject {
   void cleanup() {
     bar_.reset();
     wizard_.reset();
+  }
+
+  /// Law: what stays as it is, is not styled again: a measurement tells of itself several times a second.
+  void whatStaysIsNotStyledAgain() {
+    StyleCount count;
+    bar_->findChild<QProgressBar*>()->installEventFilter(&count);
+    for (int times = 0; times < 5; ++times) Q_EMIT wizard_->progressChanged();
+    QCOMPARE(count.changes, 0);
   }
 
   /// Law: of a double click at one place, or of more clicks in quick succession, one action comes.

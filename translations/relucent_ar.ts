@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1 لا تستجيب</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>كل ما سبق آمن. أعد توصيلها، ثم استأنف.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>كل ما سبق آمن. ثبّت الكابل من طرفيه ولا تحرّك الحامل، ثم استأنف.</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3965,6 +3973,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>استخدام السابق</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>في الانتظار</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>في الانتظار، بقي أقل من دقيقة</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>في الانتظار، بقي نحو ⁨%1⁩</translation>
     </message>
 </context>
 <context>

@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1 antwortet nicht</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>Alles Bisherige ist sicher. Schließen Sie ihn wieder an und setzen Sie dann fort.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>Alles Bisherige ist sicher. Drücken Sie das Kabel an beiden Enden fest, bewegen Sie das Stativ nicht und setzen Sie dann fort.</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3873,6 +3881,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>Frühere verwenden</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>Wartet</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>Wartet, noch unter einer Minute</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>Wartet, noch etwa %1</translation>
     </message>
 </context>
 <context>

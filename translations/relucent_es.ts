@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1 no responde</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>Todo lo hecho está a salvo. Vuelva a conectarla y después reanude.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>Todo lo hecho está a salvo. Apriete el cable en ambos extremos, no mueva el trípode y después reanude.</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3873,6 +3881,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>Usar la anterior</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>En espera</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>En espera, queda menos de un minuto</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>En espera, quedan aprox. %1</translation>
     </message>
 </context>
 <context>

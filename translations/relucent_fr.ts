@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1 ne répond pas</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>Tout ce qui est fait est en sécurité. Rebranchez-le, puis reprenez.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>Tout ce qui est fait est en sécurité. Enfoncez le câble aux deux bouts sans déplacer le trépied, puis reprenez.</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3874,6 +3882,18 @@
         <source>Use the earlier one</source>
         <translation>Utiliser la précédente</translation>
     </message>
+    <message>
+        <source>Waiting</source>
+        <translation>En attente</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>En attente, moins d’une minute</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>En attente, encore %1 environ</translation>
+    </message>
 </context>
 <context>
     <name>relucent::gui::AcquisitionTrace</name>
@@ -6590,7 +6610,7 @@ projecteur %2</translation>
     </message>
     <message>
         <source> s</source>
-        <translation> s</translation>
+        <translation>&#x202f;s</translation>
     </message>
     <message>
         <source>Picture stands for</source>

@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1 non risponde</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>Tutto ciò che è fatto è al sicuro. Ricollegarlo, poi riprendere.</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>Tutto ciò che è fatto è al sicuro. Premere il cavo a entrambi i capi senza spostare il treppiede, poi riprendere.</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3873,6 +3881,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>Usa la precedente</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>In attesa</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>In attesa, meno di un minuto</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>In attesa, ancora circa %1</translation>
     </message>
 </context>
 <context>

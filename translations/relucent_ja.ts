@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1が応答しません</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>これまでのものはすべて無事です。接続し直してから再開してください。</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>これまでのものはすべて無事です。ケーブルを両端で押し込み、三脚は動かさずに、再開してください。</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3850,6 +3858,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>以前の測定を使う</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>待機中</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>待機中、残り 1 分未満</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>待機中、残り約 %1</translation>
     </message>
 </context>
 <context>

@@ -164,6 +164,14 @@
         <extracomment>%1 is a camera: its name, or &quot;Camera 2&quot;</extracomment>
         <translation>%1没有响应</translation>
     </message>
+    <message>
+        <source>Everything so far is safe. Plug it in again, then resume.</source>
+        <translation>目前的一切都已保存。重新接上，然后继续。</translation>
+    </message>
+    <message>
+        <source>Everything so far is safe. Push in its cable at both ends, and do not move the tripod, then resume.</source>
+        <translation>目前的一切都已保存。请插紧线缆两端，不要移动三脚架，然后继续。</translation>
+    </message>
 </context>
 <context>
     <name>Method</name>
@@ -3850,6 +3858,18 @@
     <message>
         <source>Use the earlier one</source>
         <translation>使用较早的测量</translation>
+    </message>
+    <message>
+        <source>Waiting</source>
+        <translation>等待中</translation>
+    </message>
+    <message>
+        <source>Waiting, under a minute left</source>
+        <translation>等待中，剩余不到一分钟</translation>
+    </message>
+    <message>
+        <source>Waiting, about %1 left</source>
+        <translation>等待中，剩余约 %1</translation>
     </message>
 </context>
 <context>

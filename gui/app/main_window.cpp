@@ -375,6 +375,9 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->ignore();
     return closeOnceDevicesAreFree();
   }
+  // A picture on the whole screen, or the guide, would keep the program without its window.
+  for (QWidget* other : QApplication::topLevelWidgets())
+    if (other != this && other->isVisible()) other->close();
   QMainWindow::closeEvent(event);
 }
 

@@ -227,7 +227,10 @@ void OutputProjection::mirrorProjector(std::size_t projector) {
   Q_EMIT mirrored();
 }
 
-void OutputProjection::watch(QSize within) {
+void OutputProjection::watch(const QObject* view, QSize within) {
+  // One that is hidden when another one is seen already says nothing of that.
+  if (within.isEmpty() && view != view_) return;
+  view_ = view;
   within_ = within;
   reflected_ = 0;
   if (isOpen() && !within_.isEmpty())

@@ -85,8 +85,9 @@ class OutputProjection : public QObject {
   QImage onProjector(std::size_t projector = 0) const;
   /// Which projector's picture the operator sees; the first one's to begin with.
   void mirrorProjector(std::size_t projector);
-  /// The operator looks at that picture in so many pixels; empty: nobody looks.
-  void watch(QSize within);
+  /// The operator looks at that picture in so many pixels of `view`; empty: no longer there. One view counts,
+  /// the last that asked.
+  void watch(const QObject* view, QSize within);
   /// That picture, no larger than wanted, renewed a few times a second and without a share in the show's
   /// work: it is scaled on another thread. Null while the projection is closed.
   const QImage& mirror() const { return mirror_; }
@@ -124,7 +125,8 @@ class OutputProjection : public QObject {
   std::deque<double> frameTimes_;
   std::size_t mirrored_ = 0;  // projector
   QSize within_;
-  qint64 reflected_ = 0;  // which picture, and how, is in the mirror
+  const QObject* view_ = nullptr;  // that asked for it; may be gone
+  qint64 reflected_ = 0;           // which picture, and how, is in the mirror
   QImage mirror_;
   Latest<QImage> scaling_;
 };

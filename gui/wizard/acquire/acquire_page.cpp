@@ -60,6 +60,8 @@ AcquirePage::AcquirePage(Session& session, QObject* parent)
   connect(&session_, &Session::devicesChanged, this, [this] {
     // Whoever has asked to stop does not wait for a camera that has gone.
     if (isStopping()) session_.giveUpCamera();
+    // Somebody has come in: no light flashes until the room is clear again.
+    if (isMeasuring() && !isPaused() && !isStopping() && !session_.mayMeasure()) pause();
     tellSettings();
   });
   connect(&job_, &Job::progressed, this, &AcquirePage::tellProgress);
@@ -144,6 +146,7 @@ StepStatus AcquirePage::status() const {
 QString AcquirePage::hint() const {
   if (isMeasuring() && session_.isScreenMissing()) return tr("Waiting for the projector's screen.");
   if (isMeasuring() && session_.isCameraSilent()) return tr("Waiting for the camera.");
+  if (isPaused() && !session_.mayMeasure()) return tr("To go on measuring, confirm that the room is clear.");
   if (isPaused()) return tr("Waiting for you. Nothing is being projected.");
   if (isDiskFull()) return tr("Waiting for room on the disk. Nothing is being projected.");
   if (isStopping()) return tr("Ending with what is measured.");
@@ -199,7 +202,7 @@ void AcquirePage::updateCommands() {
   next_->show(tr("Show threshold"), !isMeasuring());
   pause_->show(tr("Pause"), !isStopping() && !isAsking());
   pause_->setToolTip(isAsking() ? tr("Waiting for your answer. Every photograph is saved.") : QString());
-  resume_->show(tr("Resume"));
+  resume_->show(tr("Resume"), session_.mayMeasure());
   // Beside the other that can be kept.
   keep_->show(isMeasuringAgain() ? tr("Stop and keep this one") : tr("Stop and keep"), !isStopping());
   return_->show(isDone() && !isMeasuring() ? tr("Use the earlier one") : tr("Keep the earlier one"),

@@ -130,8 +130,10 @@ QWidget* stageOf(AcquirePage& model) {
 QString timeText(const AcquirePage& model) {
   if (model.isStopping()) return AcquirePage::tr("Ending");
   const std::optional<double> seconds = model.secondsLeft();
+  const bool isPaused = model.isPaused() || model.isDiskFull();
   if (!seconds)
-    return model.isHeldUp()       ? AcquirePage::tr("Paused")
+    return isPaused               ? AcquirePage::tr("Paused")
+           : model.isHeldUp()     ? AcquirePage::tr("Waiting")
            : model.isReading()    ? AcquirePage::tr("Reading")
            : model.isWorkingOut() ? AcquirePage::tr("Working out the result")
                                   : AcquirePage::tr("Measuring");
@@ -140,9 +142,12 @@ QString timeText(const AcquirePage& model) {
   if (model.isReading())
     return isShort ? AcquirePage::tr("Reading, under a minute left")
                    : AcquirePage::tr("Reading, about %1 left").arg(left);
-  if (model.isHeldUp())
+  if (isPaused)
     return isShort ? AcquirePage::tr("Paused, under a minute left")
                    : AcquirePage::tr("Paused, about %1 left").arg(left);
+  if (model.isHeldUp())
+    return isShort ? AcquirePage::tr("Waiting, under a minute left")
+                   : AcquirePage::tr("Waiting, about %1 left").arg(left);
   return isShort ? AcquirePage::tr("Under a minute left") : AcquirePage::tr("About %1 left").arg(left);
 }
 

@@ -69,6 +69,7 @@ CameraPage::CameraPage(Session& session, QObject* parent)
     if (former_) chooseCamera(former_->address, former_->size);
   });
   connect(&session_, &Session::opened, this, [this] {
+    waitsForConsent_ = false;
     finish();
     forget();
     former_.reset();
@@ -82,7 +83,10 @@ CameraPage::CameraPage(Session& session, QObject* parent)
   connect(&finder_, &CameraFinder::failed, this,
           [this](const Failure& failure) { Q_EMIT failed({failure, tr("Nothing was changed.")}); });
   connect(&session_, &Session::stepsChanged, this, &CameraPage::tellAll);
-  connect(&session_, &Session::devicesChanged, this, &CameraPage::tellStatus);
+  connect(&session_, &Session::devicesChanged, this, [this] {
+    if (waitsForConsent_ && session_.mayMeasure() && session_.areDevicesFree()) start();
+    tellStatus();
+  });
   connect(&job_, &Job::progressed, this, &CameraPage::tellProgress);
   connect(&job_, &Job::ended, this, &CameraPage::ended);
   updateCommands();
@@ -207,6 +211,7 @@ QString CameraPage::hint() const {
                             : tr("Camera %1: %2 is too bright in every exposure.")
                                   .arg(camera + 1)
                                   .arg(percentText(*bright));
+  if (waitsForConsent_) return session_.whyNoPatterns();
   if (isKept()) return tr("Checked before. Check again if camera or projector were moved.");
   if (!isChecked()) return tr("Look through the camera first.");
   return tr("Next: test patterns for the projector's response");
@@ -220,7 +225,7 @@ void CameraPage::updateCommands() {
   // The checks begin anew, the view goes on where it was.
   pause_->setGlyph(isChecking() ? Icon::stop : Icon::pause);
   pause_->show(isChecking() ? tr("Stop the checks") : tr("Pause"));
-  again_->show(tr("Check again"), free && session_.isOpen());
+  again_->showUnless(!free ? session_.whyInUse() : session_.whyNoPatterns(), tr("Check again"));
   chooseAnother_->show(tr("Choose another camera"), free);
   keepFormer_->show(tr("Keep the former camera"), free);
 }
@@ -340,6 +345,11 @@ void CameraPage::enter() {
   if (wanted && session_.isOpen() && !job_.isRunning() && session_.areDevicesFree()) start();
 }
 
+void CameraPage::leave() {
+  waitsForConsent_ = false;
+  finish();
+}
+
 void CameraPage::finish() {
   if (!job_.isRunning()) return;
   job_.cancel();
@@ -396,6 +406,9 @@ void CameraPage::keepPixels(const reduction::PixelUse& use) {
 
 void CameraPage::start() {
   if (needsCamera() || !session_.areDevicesFree()) return;
+  // The checks go from black to white and back.
+  waitsForConsent_ = !session_.mayMeasure();
+  if (waitsForConsent_) return tellStatus();
   goOn_ = false;
   isChecking_ = true;
   forgetChecks();

@@ -45,8 +45,9 @@ class CameraPage : public DevicePage {
   std::vector<PageCommand*> secondary() const override;
   std::optional<double> progress() const override;
   std::optional<Banner> banner() const override { return overTheShow(); }
+  bool hasRemedy() const override { return !needsCamera() && !session_.mayMeasure(); }
   void enter() override;
-  void leave() override { finish(); }
+  void leave() override;
   void finish() override;
 
   /// A screen of the desktop is the projector, and no camera is chosen for it yet.
@@ -168,6 +169,7 @@ class CameraPage : public DevicePage {
   linearization::RigCoverage rigCoverage_;
   /// Before another was to be chosen: a command that was typed is found by no looking.
   std::optional<pipeline::ScreenRigSettings::Camera> former_;
+  bool waitsForConsent_ = false;  // the checks begin once the room is clear
   PageCommand *keep_, *pause_, *again_, *chooseAnother_, *keepFormer_;
   bool isChecking_ = false;
   struct FirstLook {

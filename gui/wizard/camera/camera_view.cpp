@@ -22,6 +22,7 @@
 #include "wizard/camera/checks_view.h"
 #include "wizard/camera/pixel_use_view.h"
 #include "wizard/devices/device_selector.h"
+#include "wizard/devices/flash_consent.h"
 #include "wizard/session/device_label.h"
 
 namespace relucent::gui {
@@ -320,6 +321,7 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
+    column->addWidget(consentWidget(model));
     // First what is looked at while somebody turns the lens or aims, and what stands against going on.
     auto* focus = new ValueRow(CameraPage::tr("Focus"));
     auto* meter = new FocusMeter;

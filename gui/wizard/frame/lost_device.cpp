@@ -28,15 +28,24 @@ QString whatIsSilent(const Session& session) {
 }  // namespace
 
 std::optional<Banner> lostDeviceBanner(const Session& session, PageCommand* instead) {
+  // Paused as well, nothing goes on by itself.
+  const bool isPaused = session.isOpen() && session.live().isPaused();
   if (session.isScreenMissing())
-    return Banner{Banner::Kind::amber, whatIsUnplugged(session),
-                  QCoreApplication::translate(
-                      "LostDevice", "Everything so far is safe. Plug it in again: it goes on by itself.")};
+    return Banner{
+        Banner::Kind::amber, whatIsUnplugged(session),
+        isPaused ? QCoreApplication::translate("LostDevice",
+                                               "Everything so far is safe. Plug it in again, then resume.")
+                 : QCoreApplication::translate(
+                       "LostDevice", "Everything so far is safe. Plug it in again: it goes on by itself.")};
   if (!session.isCameraSilent()) return std::nullopt;
-  const QString advice = QCoreApplication::translate(
-      "LostDevice",
-      "Everything so far is safe. Push in its cable at both ends, and do not move the tripod: it goes on by "
-      "itself.");
+  const QString advice =
+      isPaused
+          ? QCoreApplication::translate("LostDevice",
+                                        "Everything so far is safe. Push in its cable at both ends, and do "
+                                        "not move the tripod, then resume.")
+          : QCoreApplication::translate("LostDevice",
+                                        "Everything so far is safe. Push in its cable at both ends, and do "
+                                        "not move the tripod: it goes on by itself.");
   const QString& why = session.cameraFailure();
   return Banner{Banner::Kind::amber, whatIsSilent(session), why.isEmpty() ? advice : why + ' ' + advice,
                 instead};

@@ -45,7 +45,11 @@ LinearizePage::LinearizePage(Session& session, QObject* parent)
     look();
     tellAll();
   });
-  connect(&session_, &Session::devicesChanged, this, &LinearizePage::tellSettings);
+  connect(&session_, &Session::devicesChanged, this, [this] {
+    // Somebody has come in: no light flashes until the room is clear again.
+    if (isMeasuring() && !session_.mayMeasure()) finish();
+    tellSettings();
+  });
   connect(&job_, &Job::progressed, this, &LinearizePage::tellProgress);
   connect(&job_, &Job::ended, this, &LinearizePage::ended);
   connect(&room_, &RoomQuestion::changed, this, &LinearizePage::tellStatus);

@@ -171,7 +171,10 @@ bool OutputPage::isCovered() const {
 
 QString OutputPage::hint() const {
   if (projection_.isOpening()) return projection_.stage();
-  if (proof_.work() != OutputProof::Work::none) return proof_.stage();
+  if (proof_.work() != OutputProof::Work::none) {
+    const QString stage = proof_.stage();
+    return stage.isEmpty() ? photographicWork() : stage;
+  }
   if (perfecting_.isRunning()) return perfecting_.stage();
   if (isCovered() || (!isOpen() && !session_.areDevicesFree()))
     return tr("The devices are in use at %1.").arg(session_.devicesUserName());

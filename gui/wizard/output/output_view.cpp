@@ -150,15 +150,15 @@ class MirrorView : public ImageView {
   // Nothing is scaled for a view that nobody sees.
   void showEvent(QShowEvent* event) override {
     ImageView::showEvent(event);
-    projection_.watch(size() * devicePixelRatioF());
+    projection_.watch(this, size() * devicePixelRatioF());
   }
   void resizeEvent(QResizeEvent* event) override {
     ImageView::resizeEvent(event);
-    if (isVisible()) projection_.watch(size() * devicePixelRatioF());
+    if (isVisible()) projection_.watch(this, size() * devicePixelRatioF());
   }
   void hideEvent(QHideEvent* event) override {
     ImageView::hideEvent(event);
-    projection_.watch({});
+    projection_.watch(this, {});
   }
 
  private:

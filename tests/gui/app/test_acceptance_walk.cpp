@@ -274,6 +274,14 @@ class TestAcceptanceWalk : public QObject {
     TRY_DO(program_->clickText("Resume"));
     TRY_SEEN(seen.part(step(4)).more.startsWith("Measuring"));
     takesPhotographs();
+    // Somebody comes in: the light ends at once, and comes back only when the room is clear again.
+    TRY_DO(program_->click("room-is-clear"));
+    TRY_SEEN(seen.part("hint").text == "To go on measuring, confirm that the room is clear." &&
+             !seen.button("Resume").isEnabled && isDark());
+    TRY_DO(program_->click("room-is-clear"));
+    TRY_DO(program_->clickText("Resume"));
+    TRY_SEEN(seen.part(step(4)).more.startsWith("Measuring"));
+    takesPhotographs();
   }
 
   /// Law: a bump is said with what is safe and what to do, in the dark; the nudge view shows live which way

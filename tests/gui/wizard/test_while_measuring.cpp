@@ -361,6 +361,24 @@ class TestWhileMeasuring : public QObject {
     }
   }
 
+  /// Law: also the camera's checks light the room only when it is clear; said to be, they begin by
+  /// themselves.
+  void checksWaitUntilTheRoomIsClear() {
+    own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));
+    CameraPage camera(*session_);
+    camera.enter();
+    QVERIFY(!camera.isLooking() && camera.hasRemedy());
+    QCOMPARE(camera.hint(), session_->whyNoPatterns());
+    QVERIFY(!camera.hint().isEmpty() && !camera.secondary().front()->isEnabled());
+    session_->setRoomClear(true);
+    QVERIFY(camera.isLooking() && !camera.hasRemedy());
+    camera.leave();
+    QTRY_VERIFY_WITH_TIMEOUT(!camera.isLooking(), 2'000);
+    // Stopped is stopped: the consent that is still there begins nothing.
+    session_->setRoomClear(true);
+    QVERIFY(!camera.isLooking());
+  }
+
   /// Law: a photograph that does not come is said before anything fails.
   void aSilentCameraIsSaid() {
     own_->begin(scriptedVenue("true {image}", "sleep 8 # {exposure} {output}"));

@@ -143,14 +143,28 @@ class TestTwoOutputs : public QObject {
 
   void theMirrorIsOfTheShownProjector() {
     OutputProjection& projection = page_->projection();
-    projection.watch(projectorSize);
+    projection.watch(this, projectorSize);
     for (std::size_t projector : {std::size_t{0}, std::size_t{1}}) {
       page_->showProjector(projector);
       QVERIFY(projection.mirror().isNull() || projector == 1);
       QTRY_COMPARE_WITH_TIMEOUT(withoutAlpha(projection.mirror()),
                                 withoutAlpha(projection.onProjector(projector)), patience);
     }
-    projection.watch({});
+    projection.watch(this, {});
+  }
+
+  /// Law: who looks on is who asked last; one that goes when the next is there already, as in another
+  /// language, takes nothing from it.
+  void aViewThatGoesLeavesTheMirrorToTheNext() {
+    QObject former, next;
+    OutputProjection& projection = page_->projection();
+    page_->close();
+    projection.watch(&former, projectorSize);
+    projection.watch(&next, projectorSize);
+    projection.watch(&former, {});
+    page_->open();
+    QTRY_VERIFY_WITH_TIMEOUT(!projection.mirror().isNull(), patience);
+    projection.watch(&next, {});
   }
 
   void theInstalledShowKnowsBothScreens() {

@@ -270,6 +270,18 @@ void CalibrationFolder::takeAsCurrent(Stage stage, const std::string& inputs) {
   changeLatest(stage, [&](Json& entry) { entry["inputs"] = inputs; });
 }
 
+void CalibrationFolder::makeLatest(Stage stage, const std::string& inputs) {
+  Json manifest = *manifest_;
+  const auto found = manifest["results"].find(std::string(nameOf(stage)));
+  if (found == manifest["results"].end()) return;
+  Json::array_t& entries = found->get_ref<Json::array_t&>();
+  const auto isOther = [&](const Json& entry) { return isSetAside(entry) || entry.at("inputs") != inputs; };
+  const auto newest = std::find_if_not(entries.rbegin(), entries.rend(), isOther);
+  if (newest == entries.rend() || newest == entries.rbegin()) return;
+  std::rotate(newest.base() - 1, newest.base(), entries.end());
+  replaceManifest(std::move(manifest));
+}
+
 void CalibrationFolder::setLatestAside(Stage stage) {
   changeLatest(stage, [](Json& entry) { entry[setAsideKey] = true; });
 }
@@ -372,6 +384,13 @@ std::optional<StageResult> CalibrationFolder::latest(Stage stage) const {
 
 bool CalibrationFolder::isCurrent(Stage stage, const std::string& inputs) const {
   return find(stage, inputs).has_value();
+}
+
+std::vector<std::string> CalibrationFolder::inputsOf(Stage stage) const {
+  std::vector<std::string> inputs;
+  for (const Json* entry : entriesOf(stage)) inputs.push_back(entry->at("inputs"));
+  std::ranges::reverse(inputs);
+  return inputs;
 }
 
 fs::path fileOf(const StageResult& result, const std::string& name) {

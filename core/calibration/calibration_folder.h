@@ -80,6 +80,10 @@ class CalibrationFolder {
   /// the disk until `tidy` removes it. None: nothing happens.
   void setLatestAside(Stage stage);
 
+  /// The newest result for these inputs counts as the newest of its stage from now on: it is what is used
+  /// where there is none for what is asked. None: nothing happens.
+  void makeLatest(Stage stage, const std::string& inputs);
+
   /// The newest result of a stage counts as one for these inputs from now on, whatever it was made of. None:
   /// nothing happens. For copies of a manifest alone: the calibration itself never forgets.
   void takeAsCurrent(Stage stage, const std::string& inputs);
@@ -89,6 +93,8 @@ class CalibrationFolder {
   /// The newest result of a stage for any inputs: perhaps stale.
   std::optional<StageResult> latest(Stage stage) const;
   bool isCurrent(Stage stage, const std::string& inputs) const;
+  /// What the results of a stage were made of, the newest first.
+  std::vector<std::string> inputsOf(Stage stage) const;
 
  private:
   CalibrationFolder(std::filesystem::path path, platform::FolderLock lock, Access access, Json manifest);

@@ -19,4 +19,10 @@ std::optional<StageResult> resultOf(const CalibrationFolder& folder, Stage stage
   return folder.latest(stage);
 }
 
+void keepInUse(CalibrationFolder& folder) {
+  for (Stage stage : allValues<Stage>())
+    if (const auto current = currentResultOf(folder, stage); current)
+      folder.makeLatest(stage, current->inputs);
+}
+
 }  // namespace relucent::calibration

@@ -21,4 +21,8 @@ std::optional<StageResult> currentResultOf(const CalibrationFolder& folder, Stag
 /// The same, else the newest of all; none if the stage was never done.
 std::optional<StageResult> resultOf(const CalibrationFolder& folder, Stage stage);
 
+/// What is current counts as the newest, whatever was made since with other settings: before those of now are
+/// left, so that it stays in use until there is something new. Throws: Error{disk}.
+void keepInUse(CalibrationFolder& folder);
+
 }  // namespace relucent::calibration

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "relucent/base/file.h"
 #include "relucent/calibration/json.h"
 #include "relucent/calibration/stage_fingerprint.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/stored_settings.h"
 
 namespace relucent::pipeline {
@@ -89,18 +91,22 @@ Json withSeed(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) 
   return settings;
 }
 
-bool hasResultOf(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) {
+std::string inputsWith(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) {
   const calibration::StageDescription& description = calibration::descriptionOf(stage);
   const std::string inputs = calibration::fingerprintOf(folder, description.predecessor.value());
-  return folder.isCurrent(stage,
-                          calibration::fingerprintAfter(inputs, description, withSeed(folder, stage, seed)));
+  return calibration::fingerprintAfter(inputs, description, withSeed(folder, stage, seed));
 }
 
-/// The settings that an earlier result was measured with, if they differ from those of now by their seed.
+/// The settings that the result was measured with which was in use last, of those whose settings differ from
+/// those of now by their seed.
 std::optional<Json> earlierSettings(const CalibrationFolder& folder, Stage stage) {
+  std::map<std::string, std::uint64_t> seeds;
   std::uint64_t seed = seedOf(folder, stage);
   for (int again = 0; again < mostAgain && seed-- > 0; ++again)
-    if (hasResultOf(folder, stage, seed)) return withSeed(folder, stage, seed);
+    seeds.emplace(inputsWith(folder, stage, seed), seed);
+  for (const std::string& inputs : folder.inputsOf(stage))
+    if (const auto found = seeds.find(inputs); found != seeds.end())
+      return withSeed(folder, stage, found->second);
   return std::nullopt;
 }
 
@@ -118,7 +124,8 @@ void measureAgain(CalibrationFolder& folder, Stage stage) {
   setShotsAside(folder, stage);
   // Not the seed of one that was gone back from.
   std::uint64_t seed = seedOf(folder, stage) + 1;
-  while (hasResultOf(folder, stage, seed)) ++seed;
+  while (folder.isCurrent(stage, inputsWith(folder, stage, seed))) ++seed;
+  calibration::keepInUse(folder);
   folder.setSettings(withSeed(folder, stage, seed));
 }
 
@@ -141,6 +148,7 @@ void returnToEarlier(CalibrationFolder& folder, Stage stage) {
       break;
     }
   folder.setSettings(*std::move(settings));
+  calibration::keepInUse(folder);
 }
 
 }  // namespace relucent::pipeline

@@ -119,10 +119,10 @@ std::uint64_t connectionsOf(const transport::TransportMatrix& transport) {
   return std::reduce(connections.begin(), connections.end());
 }
 
-/// What a stage cost when it was done last.
+/// What the stage cost that is in use.
 template <calibration::Stage stage>
 calibration::StageCost costOf(const calibration::CalibrationFolder& folder) {
-  const std::optional<calibration::StageResult> stored = folder.latest(stage);
+  const std::optional<calibration::StageResult> stored = calibration::resultOf(folder, stage);
   return stored ? resultFrom<stage>(*stored).cost.value_or(calibration::StageCost())
                 : calibration::StageCost();
 }

@@ -3,6 +3,7 @@
 
 #include "relucent/base/error.h"
 #include "relucent/calibration/json.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/pipeline/command_devices.h"
 #include "relucent/pipeline/screen_devices.h"
 #include "relucent/pipeline/settings_json.h"
@@ -67,6 +68,7 @@ void changeSettings(calibration::CalibrationFolder& folder, const CalibrateSetti
   // Sections of other versions stay.
   calibration::Json changed = folder.settings();
   changed.update(stagesToJson(settings));
+  if (changed != folder.settings()) calibration::keepInUse(folder);
   folder.setSettings(std::move(changed));
 }
 

@@ -6,6 +6,7 @@
 #include "relucent/base/error.h"
 #include "relucent/base/utc.h"
 #include "relucent/calibration/results.h"
+#include "relucent/calibration/stage_progress.h"
 #include "relucent/compensation/expected_error.h"
 #include "relucent/image/exr.h"
 #include "relucent/image/picture_files.h"
@@ -214,7 +215,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.projectors = transport.projectors().devices();
   data.cameras = transport.cameras().devices();
   data.result = pipeline::summaryOf(folder, measured);
-  if (const auto linearized = folder.latest(calibration::Stage::linearization))
+  if (const auto linearized = calibration::resultOf(folder, calibration::Stage::linearization))
     if (const auto cost = calibration::resultFrom<calibration::Stage::linearization>(*linearized).cost)
       data.linearizationPatterns = cost->patterns;
   data.responses = measured.linearization.projectors;
@@ -230,7 +231,7 @@ pipeline::WrittenFiles makeReport(const fs::path& path, const ReportSettings& se
   data.ridgeCurve = measured.ridgeCurve;
   data.settings = settingsInWords(pipeline::settingsOf(folder));
   data.libraries = settings.libraries.empty() ? pipeline::coreLibraries() : settings.libraries;
-  if (auto acquired = folder.latest(calibration::Stage::acquisition)) {
+  if (auto acquired = calibration::resultOf(folder, calibration::Stage::acquisition)) {
     data.measured = acquired->stored;
     data.stoppedAt = calibration::resultFrom<calibration::Stage::acquisition>(*acquired).stoppedAt;
     data.verification = verificationIn(folder, *acquired, transport.cameras().devices());

@@ -361,6 +361,43 @@ class TestSteps : public QObject {
     QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::stale);
   }
 
+  /// Law: what is in use stays in use until there is something new: also what was gone back to after it had
+  /// been measured again, and then a third measurement begins and has no result yet.
+  void whatWasGoneBackToStaysInUse_data() {
+    QTest::addColumn<bool>("again");
+    QTest::newRow("measured again") << true;
+    QTest::newRow("other settings") << false;
+  }
+  void whatWasGoneBackToStaysInUse() {
+    QFETCH(bool, again);
+    Progress quiet;
+    CalibrationFolder folder = beginCalibration(path(again ? "back" : "changed"), tiny());
+    OpenedRig devices = openRig(settingsOf(folder).rig, path("cache"), quiet);
+    measureLinearization(folder, devices.rig, quiet);
+    const std::string first = resultOf(folder, Stage::linearization)->inputs;
+    measureAgain(folder, Stage::linearization);
+    measureLinearization(folder, devices.rig, quiet);
+    const std::string second = resultOf(folder, Stage::linearization)->inputs;
+    QVERIFY(first != second);
+    returnToEarlier(folder, Stage::linearization);
+    QCOMPARE(resultOf(folder, Stage::linearization)->inputs, first);
+    if (again) {
+      measureAgain(folder, Stage::linearization);
+    } else {
+      CalibrateSettings settings = settingsOf(folder);
+      settings.linearization.levels += 2;
+      changeSettings(folder, settings);
+    }
+    QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::stale);
+    QCOMPARE(resultOf(folder, Stage::linearization)->inputs, first);
+    QCOMPARE(folder.inputsOf(Stage::linearization), (std::vector<std::string>{first, second}));
+    if (again) {
+      returnToEarlier(folder, Stage::linearization);
+      QCOMPARE(resultOf(folder, Stage::linearization)->inputs, first);
+      QVERIFY(progressOf(folder, Stage::linearization) == StageProgress::done);
+    }
+  }
+
   void wrongSettingsBeginNothing() {
     CalibrateSettings settings = tiny();
     settings.content.reachablePercentile = -1.0;

@@ -4142,7 +4142,7 @@
         <translation>الضوء يرتعش، أو شيء يتحرّك</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>لا يُعرف ما دام المشهد مختلفًا.</translation>
     </message>
 </context>
@@ -6729,8 +6729,8 @@ projector %2</source>
         <translation>ما زال تصحيح آخر معروضًا.</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>خلف ضوء آخر</translation>
+        <source>Covered by %1</source>
+        <translation>تغطّيه خطوة ⁨%1⁩</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

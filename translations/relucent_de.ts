@@ -4050,8 +4050,8 @@
         <translation>Das Licht flackert, oder etwas bewegt sich</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
-        <translation>Nicht zu sagen, solange der Blick ein anderer ist.</translation>
+        <source>Not known while the view has changed.</source>
+        <translation>Nicht zu beurteilen, solange sich der Blick geändert hat.</translation>
     </message>
 </context>
 <context>
@@ -6581,8 +6581,8 @@ Projektor %2</translation>
         <translation>Es läuft noch eine andere Korrektur.</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>Hinter anderem Licht</translation>
+        <source>Covered by %1</source>
+        <translation>Verdeckt von %1</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>
@@ -7983,7 +7983,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>none in use</source>
-        <translation>keiner in Gebrauch</translation>
+        <translation>nicht in Gebrauch</translation>
     </message>
 </context>
 <context>
@@ -8327,7 +8327,7 @@ Projektor %2</translation>
     </message>
     <message>
         <source>It is in use.</source>
-        <translation>Er wird verwendet.</translation>
+        <translation>Wird bereits verwendet.</translation>
     </message>
     <message>
         <source>No light of the picked pixel was kept.</source>

@@ -4050,7 +4050,7 @@
         <translation>La luz parpadea o algo se mueve</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>No se sabe mientras la vista sea otra.</translation>
     </message>
 </context>
@@ -6581,8 +6581,8 @@ proyector %2</translation>
         <translation>Aún se muestra otra corrección.</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>Detrás de otra luz</translation>
+        <source>Covered by %1</source>
+        <translation>Tapado por %1</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

@@ -4050,7 +4050,7 @@
         <translation>La lumière vacille, ou quelque chose bouge</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>Inconnu tant que la vue est une autre.</translation>
     </message>
 </context>
@@ -6581,8 +6581,8 @@ projecteur %2</translation>
         <translation>Une autre correction est encore diffusée.</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>Derrière une autre lumière</translation>
+        <source>Covered by %1</source>
+        <translation>Masqué par %1</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

@@ -4050,7 +4050,7 @@
         <translation>La luce sfarfalla, o qualcosa si muove</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>Non si sa finché la vista è un’altra.</translation>
     </message>
 </context>
@@ -6581,8 +6581,8 @@ proiettore %2</translation>
         <translation>È ancora in riproduzione un’altra correzione.</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>Dietro altra luce</translation>
+        <source>Covered by %1</source>
+        <translation>Coperto da %1</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

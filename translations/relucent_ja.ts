@@ -4027,7 +4027,7 @@
         <translation>光がちらついているか、何かが動いています</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>視野が違う間は分かりません。</translation>
     </message>
 </context>
@@ -6544,8 +6544,8 @@ projector %2</source>
         <translation>まだ別の補正が再生されています。</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>別の光の背後</translation>
+        <source>Covered by %1</source>
+        <translation>%1 に隠れています</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

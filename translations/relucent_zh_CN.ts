@@ -4027,7 +4027,7 @@
         <translation>光线闪烁，或有东西在移动</translation>
     </message>
     <message>
-        <source>Not told while the view is another.</source>
+        <source>Not known while the view has changed.</source>
         <translation>视野不同时无法判断。</translation>
     </message>
 </context>
@@ -6544,8 +6544,8 @@ projector %2</source>
         <translation>仍在播放其他补偿。</translation>
     </message>
     <message>
-        <source>Behind other light</source>
-        <translation>在其他画面之后</translation>
+        <source>Covered by %1</source>
+        <translation>被%1遮住</translation>
     </message>
     <message>
         <source>The projector shows the light of another step: %1</source>

@@ -218,7 +218,7 @@ std::array<WatchState, 4> AcquisitionTrace::states() const {
        view ? WatchState{true, lamp, lamp ? tr("Projector steady") : tr("The projector's light changed"),
                          tr("Its light drifted by %1 and is corrected.")
                              .arg(fineShare(std::abs(now.lamp - 1.0)))}
-            : WatchState{false, true, tr("Projector"), tr("Not told while the view is another.")},
+            : WatchState{false, true, tr("Projector"), tr("Not known while the view has changed.")},
        {true, even, even ? tr("No flicker") : tr("The light flickers, or something moves"),
         // One exposure alone has nothing to differ from.
         now.flicker > 0.0 ? tr("Photographs of one pattern agree within %1.").arg(fineShare(now.flicker))

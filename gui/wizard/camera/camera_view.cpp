@@ -321,7 +321,6 @@ class CameraInspector {
   static QWidget* make(CameraPage& model) {
     QVBoxLayout* column = nullptr;
     QWidget* card = inspectorCard(column);
-    column->addWidget(consentWidget(model));
     // First what is looked at while somebody turns the lens or aims, and what stands against going on.
     auto* focus = new ValueRow(CameraPage::tr("Focus"));
     auto* meter = new FocusMeter;
@@ -332,6 +331,7 @@ class CameraInspector {
     column->addWidget(best);
     column->addWidget(lineOf());
     column->addWidget(checksPart(model));
+    column->addWidget(consentWidget(model));  // they are what it is for
     column->addWidget(lineOf());
     QLabel* exposuresTitle = labelOf(CameraPage::tr("Exposures"), "section");
     column->addWidget(exposuresTitle);

@@ -125,7 +125,7 @@ StepStatus OutputPage::status() const {
   if (isScreenLost()) return {StepState::busy, tr("Screen unplugged"), false, true};
   if (playsEarlier()) return {StepState::busy, tr("Another correction"), false, true};
   if (const QString work = photographicWork(); !work.isEmpty()) return {StepState::busy, work};
-  if (isCovered()) return {StepState::busy, tr("Behind other light")};
+  if (isCovered()) return {StepState::busy, tr("Covered by %1").arg(session_.devicesUserName())};
   const OutputProof::Next next = proof_.next();
   const bool isDoubted = next != OutputProof::Next::install && next != OutputProof::Next::photograph;
   if (isOpen() && isDoubted) return {StepState::busy, tr("Not as predicted"), false, true};

@@ -423,6 +423,15 @@ class TestAcceptanceWalk : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!isDark(), patience);
   }
 
+  /// Law: while patterns flash instead of the show, rail, bar and picture say so; then it is back.
+  void driftIsCheckedFor() {
+    TRY_DO(program_->clickText("Check for drift"));
+    TRY_SEEN(seen.part(step(8)).more == "Checking for drift" &&
+             !seen.part("hint").text.contains("Nothing is projected") && seen.button("Stop").isEnabled);
+    TRY_SEEN(seen.part(step(8)).more == "Playing" && seen.part("primary").text == "Install show");
+    QTRY_VERIFY_WITH_TIMEOUT(!isDark(), patience);
+  }
+
   /// Law: a measurement over the show is said where the show is, and not called the show; what is kept of
   /// before goes on.
   void theShowIsMeasuredOver() {
@@ -432,7 +441,7 @@ class TestAcceptanceWalk : public QObject {
     TRY_SEEN(seen.part("primary").text == "Start now");
     TRY_DO(program_->click("primary"));
     TRY_SEEN(seen.part(step(4)).more.startsWith("Measuring") &&
-             seen.part(step(8)).more == "Behind other light");
+             seen.part(step(8)).more == "Covered by Acquire");
     TRY_DO(program_->click(step(8)));
     TRY_SEEN(seen.part("banner-sentence").text == "The projector shows the light of another step: Acquire");
     QVERIFY(!program_->holdsPicture("output-view"));

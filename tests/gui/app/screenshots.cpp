@@ -214,6 +214,9 @@ void takePrograms(WizardWindow& wizard, Photographs& photographs, const QTempora
   rig.cameraCommand = "photograph --seconds {exposure} --to {output}";
   settings.rig = rig;
   wizard.session().begin(own.filePath("Cloister").toStdString(), settings);
+  wizard.wizard().go(1);
+  photographs.take("02-consent");
+  wizard.session().setRoomClear(true);
   // There is no such program.
   until([&] { return wizard.window().findChild<QDialog*>("failure") != nullptr; });
   photographs.takeDialog("12-program-failed", "failure");

@@ -50,9 +50,10 @@ struct ForecastDevices {
 };
 ForecastDevices forecastDevices(const rig::Rig& rig, const std::vector<double>& exposures);
 
-/// What an acquisition has still to do. Exact are the references, the checks between a known number of
-/// patterns, and the verification; the tree's patterns are as levelPatterns() says; what is measured again
-/// after an alarm or for flagged pixels comes on top. Before it begins: with a state of nothing.
+/// What an acquisition has still to do. Exact are the references and the verification, and the checks between
+/// a known number of the tree's patterns; of dense patterns checks are about 10 + patterns / 25. Patterns are
+/// as levelPatterns() says; what is measured again after an alarm or for flagged pixels comes on top. Before
+/// it begins: with a state of nothing.
 ///   seconds = shots * (show + keep + compute) + exposures * (overhead + slope * exposure time),
 /// all five measured from this acquisition's shots once there are enough, before that from `benchmark`: the
 /// shots of the linearization, which are real photographs by the same devices. Of dense patterns, computing

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -91,20 +92,25 @@ Json withSeed(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) 
   return settings;
 }
 
-std::string inputsWith(const CalibrationFolder& folder, Stage stage, std::uint64_t seed) {
+/// What a result of the stage is made of with a seed.
+std::function<std::string(std::uint64_t)> inputsBySeed(const CalibrationFolder& folder, Stage stage) {
   const calibration::StageDescription& description = calibration::descriptionOf(stage);
-  const std::string inputs = calibration::fingerprintOf(folder, description.predecessor.value());
-  return calibration::fingerprintAfter(inputs, description, withSeed(folder, stage, seed));
+  const std::string before = calibration::fingerprintOf(folder, description.predecessor.value());
+  return [&folder, &description, stage, before](std::uint64_t seed) {
+    return calibration::fingerprintAfter(before, description, withSeed(folder, stage, seed));
+  };
 }
 
 /// The settings that the result was measured with which was in use last, of those whose settings differ from
 /// those of now by their seed.
 std::optional<Json> earlierSettings(const CalibrationFolder& folder, Stage stage) {
+  const std::vector<std::string> results = folder.inputsOf(stage);
+  if (results.empty()) return std::nullopt;
+  const auto inputsWith = inputsBySeed(folder, stage);
   std::map<std::string, std::uint64_t> seeds;
   std::uint64_t seed = seedOf(folder, stage);
-  for (int again = 0; again < mostAgain && seed-- > 0; ++again)
-    seeds.emplace(inputsWith(folder, stage, seed), seed);
-  for (const std::string& inputs : folder.inputsOf(stage))
+  for (int again = 0; again < mostAgain && seed-- > 0; ++again) seeds.emplace(inputsWith(seed), seed);
+  for (const std::string& inputs : results)
     if (const auto found = seeds.find(inputs); found != seeds.end())
       return withSeed(folder, stage, found->second);
   return std::nullopt;
@@ -124,7 +130,8 @@ void measureAgain(CalibrationFolder& folder, Stage stage) {
   setShotsAside(folder, stage);
   // Not the seed of one that was gone back from.
   std::uint64_t seed = seedOf(folder, stage) + 1;
-  while (folder.isCurrent(stage, inputsWith(folder, stage, seed))) ++seed;
+  const auto inputsWith = inputsBySeed(folder, stage);
+  while (folder.isCurrent(stage, inputsWith(seed))) ++seed;
   calibration::keepInUse(folder);
   folder.setSettings(withSeed(folder, stage, seed));
 }

@@ -18,6 +18,8 @@
 
 namespace relucent::gui {
 
+inline constexpr double longestPicture = 86400.0;  // that a picture stands, seconds
+
 /// One item of a playlist.
 struct PlaylistItem {
   QString path;           // a picture, a film, a folder of numbered pictures, or a chart, see ContentAddress

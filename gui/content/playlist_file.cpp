@@ -41,7 +41,7 @@ std::vector<Message> problems(const PlaylistSettings& settings) {
     if (item.path.isEmpty())
       found.push_back(
           RELUCENT_ENGLISH_MESSAGE("content.item-without-file", "an item of the playlist names no file"));
-    if (!(item.seconds > 0.0 && item.seconds <= 86400.0))
+    if (!(item.seconds > 0.0 && item.seconds <= longestPicture))
       found.push_back(
           RELUCENT_ENGLISH_MESSAGE("content.picture-stands-too-long",
                                    "{}: a picture is shown for more than 0 seconds and at most a day")

@@ -16,6 +16,33 @@ namespace {
 
 constexpr const char* beginsHereName = "beginsHere";
 
+class LeavesUndo : public QObject {
+ public:
+  explicit LeavesUndo(QLineEdit* field) : QObject(field), field_(field) {}
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() != QEvent::ShortcutOverride || field_->isModified())
+      return QObject::eventFilter(watched, event);
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (!key->matches(QKeySequence::Undo) && !key->matches(QKeySequence::Redo)) return false;
+    event->ignore();
+    return true;
+  }
+
+ private:
+  QLineEdit* field_;
+};
+
+/// Each visit of a page begins at its top, where what matters most stands.
+class InspectorScroll : public QScrollArea {
+ protected:
+  void showEvent(QShowEvent* event) override {
+    if (!event->spontaneous()) verticalScrollBar()->setValue(0);
+    QScrollArea::showEvent(event);
+  }
+};
+
 }  // namespace
 
 NotYetSeen::NotYetSeen(QObject* widget) : widget_(qobject_cast<QWidget*>(widget)) {
@@ -60,44 +87,9 @@ void pointOut(QWidget* widget) {
   bringIntoSight(widget);
 }
 
-namespace {
-
-class LeavesUndo : public QObject {
- public:
-  explicit LeavesUndo(QLineEdit* field) : QObject(field), field_(field) {}
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() != QEvent::ShortcutOverride || field_->isModified())
-      return QObject::eventFilter(watched, event);
-    const auto* key = static_cast<QKeyEvent*>(event);
-    if (!key->matches(QKeySequence::Undo) && !key->matches(QKeySequence::Redo)) return false;
-    event->ignore();
-    return true;
-  }
-
- private:
-  QLineEdit* field_;
-};
-
-}  // namespace
-
 void leaveUndoToThePage(QWidget* widget, QLineEdit* field) {
   widget->installEventFilter(new LeavesUndo(field));
 }
-
-namespace {
-
-/// Each visit of a page begins at its top, where what matters most stands.
-class InspectorScroll : public QScrollArea {
- protected:
-  void showEvent(QShowEvent* event) override {
-    if (!event->spontaneous()) verticalScrollBar()->setValue(0);
-    QScrollArea::showEvent(event);
-  }
-};
-
-}  // namespace
 
 QWidget* inspectorCard(QVBoxLayout*& contents) {
   auto* card = new Card;

@@ -137,7 +137,7 @@ void PlaylistView::dropEvent(QDropEvent* event) {
 
 namespace {
 
-constexpr double shortestPicture = 0.1, longestPicture = 86400.0;  // seconds; problems(PlaylistSettings)
+constexpr double shortestPicture = 0.1;  // seconds, as shown with one digit
 
 /// How the streams that play are doing; empty: well, or there are none.
 QString troubleText(const std::vector<LiveState>& streams) {
